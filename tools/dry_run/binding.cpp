@@ -7,11 +7,13 @@
 #include <nanobind/stl/tuple.h>
 #include <nanobind/stl/vector.h>
 
+#include <algorithm>
 #include <map>
 #include <memory>
 #include <tuple>
 
 #include "stage.h"
+#include "wood.h"
 
 namespace nb = nanobind;
 
@@ -90,6 +92,31 @@ class DryRun {
   dry_run::Stage stage_;
 };
 
+using Numbers = nb::ndarray<const double, nb::ndim<2>, nb::c_contig, nb::device::cpu>;
+using Map = nb::ndarray<nb::numpy, float>;
+
+/// Leads a bit along places: x, y, z, its radius and its slope in each row; without a radius it is
+/// put there. Returns the heights that it leaves, and how deep it met wood on the way to each
+/// place.
+std::pair<Map, std::vector<double>> takeWood(std::pair<double, double> corner,
+                                             std::pair<size_t, size_t> shape, double cell,
+                                             double graze, Numbers places) {
+  dry_run::Wood wood(corner.first, corner.second, shape.second, shape.first, cell);
+  std::vector<double> met(places.shape(0), 0.0);
+  const double* row = places.data();
+  for (size_t i = 1; i < met.size(); ++i) {
+    const double* const next = row + places.shape(1);
+    if (next[3] > 0)
+      met[i] = wood.take({row[0], row[1], row[2]}, {next[0], next[1], next[2]}, {next[3], next[4]},
+                         graze);
+    row = next;
+  }
+  float* const data = new float[wood.heights().size()];
+  std::copy(wood.heights().begin(), wood.heights().end(), data);
+  nb::capsule owner(data, [](void* p) noexcept { delete[] static_cast<float*>(p); });
+  return {Map(data, {shape.first, shape.second}, owner), met};
+}
+
 using Words = std::map<std::string, double>;
 
 /// A line as the firmware cuts it: each piece's letter, code and words. None where it halts.
@@ -131,6 +158,9 @@ NB_MODULE(_dry_run, module) {
       .def_prop_ro("seconds", &DryRun::seconds, "Since power-on.")
       .def_prop_ro("answered", &DryRun::answered, "How many lines were answered.")
       .def_prop_ro("is_halted", &DryRun::isHalted, "Whether an alarm stopped it.");
+  module.def("take_wood", &takeWood, arg("corner"), arg("shape"), arg("cell"), arg("graze"),
+             arg("places"),
+             "Heights (rows, columns) of the wood behind a bit, and how deep it met wood [mm].");
   module.def("pieces", &pieces, arg("line"),
              "A line as the firmware cuts it: letter, code, words; nothing where it halts.");
 }

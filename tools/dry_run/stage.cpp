@@ -86,11 +86,11 @@ void Stage::take(const std::string& line) {
   unanswered_.pop_front();
 }
 
-/// The feed [mm/min] that the program asks for a move that goes at `feed` at most; infinite for a
-/// rapid move, also that of a drilling cycle or of G28.
-float Stage::asked(float feed) const {
+/// The feed [mm/min] that the program asks for a move of this length that goes at `feed` at most;
+/// infinite for a rapid move, also that of a drilling cycle or of G28.
+float Stage::asked(float feed, float way) const {
   const gcode::Modal& modal = machine_.modal();
-  if (modal.inverse_time) return modal.motion == 0 ? INFINITY : feed;
+  if (modal.inverse_time) return modal.motion == 0 ? INFINITY : way * modal.inverse_feed;
   return modal.motion == 0 || feed > 1.001f * modal.feed ? INFINITY : modal.feed;
 }
 
@@ -100,8 +100,10 @@ void Stage::noteQueued() {
   for (uint8_t i = waiting_; i < queue.count(); ++i) {
     const motion::Move& move = queue.at(i);
     const float feed = move.feed * per_minute;
-    moves_.push_back({answered_, move.path, z_, move.z_to, asked(feed), feed, move.top * per_minute,
-                      move.space == motion::Space::kChains, 0});
+    const float across = move.path.drawn == motion::Drawn::kYes ? move.path.length : 0;
+    const float way = std::hypot(across, move.z_to - z_);
+    moves_.push_back({answered_, move.path, z_, move.z_to, asked(feed, way), feed,
+                      move.top * per_minute, move.space == motion::Space::kChains, 0});
     z_ = move.z_to;
   }
   waiting_ = queue.count();

@@ -72,7 +72,7 @@ class Stage : private machine::Wire,
   void take(const std::string& line);
   void noteQueued();
   void noteEnded();
-  float asked(float feed) const;
+  float asked(float feed, float way) const;
   void pass(int milliseconds);
   int untilTick() const { return tick_every_ms_ - int(now_ms_ % tick_every_ms_); }
 

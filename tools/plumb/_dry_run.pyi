@@ -23,3 +23,10 @@ class DryRun:
     def is_halted(self) -> bool: ...
 
 def pieces(line: str) -> list[tuple[str, float, dict[str, float]]]: ...
+def take_wood(
+    corner: tuple[float, float],
+    shape: tuple[int, int],
+    cell: float,
+    graze: float,
+    places: NDArray[np.float64],
+) -> tuple[NDArray[np.float32], list[float]]: ...

@@ -20,6 +20,7 @@ from plumb.cli.diary import DiaryAnswer
 from plumb.cli.effects import Library
 from plumb.cli.forward import Places
 from plumb.cli.grid import PlannedGrid
+from plumb.cli.guide import GuideAnswer
 from plumb.cli.home import HomeAnswer
 from plumb.cli.inverse import ChainLengths
 from plumb.cli.next import NextAnswer
@@ -28,9 +29,11 @@ from plumb.cli.reach import ReachAnswer
 from plumb.cli.read import MachineNumbers
 from plumb.cli.recheck import RecheckAnswer
 from plumb.cli.report import ReportAnswer
+from plumb.cli.resume import ResumeAnswer
 from plumb.cli.settings import SettingLines
 from plumb.cli.slip import SlipAnswer
 from plumb.cli.telemetry import WatchedTelemetry
+from plumb.cli.vm import VmAnswer
 from plumb.fit.compare import Comparison
 from plumb.model.predict import MotorGap
 from plumb.text.answers import schema_of
@@ -60,6 +63,7 @@ ANSWERS: dict[str, Any] = {
     "forward": Places,
     "gap": MotorGap,
     "grid": PlannedGrid,
+    "guide": GuideAnswer,
     "home": HomeAnswer,
     "inverse": ChainLengths,
     "next": NextAnswer,
@@ -69,9 +73,11 @@ ANSWERS: dict[str, Any] = {
     "read": MachineNumbers,
     "recheck": RecheckAnswer,
     "report": ReportAnswer,
+    "resume": ResumeAnswer,
     "settings": SettingLines,
     "slip": SlipAnswer,
     "telemetry": WatchedTelemetry,
+    "vm": VmAnswer,
 }
 
 

@@ -130,8 +130,10 @@ def length(text: str) -> float:
 
 
 def count(text: str) -> int:
-    """Return a whole number above zero."""
-    number = int(text) if text.isdecimal() else 0
+    """Return a whole number from 1 on."""
+    number = int(text) if text.isdecimal() else -1
+    if number == 0:
+        raise argparse.ArgumentTypeError("'0' is too low: it counts from 1")
     if number < 1:
         raise argparse.ArgumentTypeError(f"'{text}' is not a whole number, like 100")
     return number

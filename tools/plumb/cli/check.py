@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import argparse
-from collections import Counter
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -18,20 +18,22 @@ from plumb.cli.arguments import (
     add_picture,
     add_units,
     file,
+    length,
 )
 from plumb.cli.inputs import inputs_of, picture_form
 from plumb.cli.output import refuse_twins, write_outputs
 from plumb.cli.screen import bar, headline, next_step, print_json, sentences, table
 from plumb.fit.inputs import settings_in
+from plumb.job.bits import INCH, Tools
 from plumb.job.check import Checked, Error, Part, check_job
-from plumb.job.dry_run import outline_of
-from plumb.job.findings import HALTS, IGNORED, SINKS, WAITS, Finding, Hanging, Slower
+from plumb.job.dry_run import outline_of, program_in
+from plumb.job.findings import HALTS, IGNORED, SINKS, WAITS, Finding, Hanging, Slower, Times
+from plumb.job.wood import Piece
 from plumb.model.predict import USABLE
-from plumb.pictures.reach import Drawn, draw_job
+from plumb.pictures.job import Drawn, draw_job
 from plumb.settings.machine import MachineSettings
 from plumb.text.answers import Internal, part
-from plumb.text.files import read_text
-from plumb.text.values import bare, signed, unit, worded
+from plumb.text.values import bare, brief, signed, unit, worded
 
 NAMED = 30  # parts that get their number in the picture
 
@@ -49,10 +51,14 @@ class CheckAnswer:
     cutting_seconds = part("checked.times.cutting", float)
     rapid_seconds = part("checked.times.rapid", float)
     asked_seconds = part("checked.times.asked", float, "The cutting at the feeds of the program.")
+    capped_seconds = part(
+        "checked.times.capped", float, "The cutting at the feeds of the program, none above $15."
+    )
     findings = part("checked.findings", tuple[Finding, ...])
     slower = part("checked.slower", tuple[Slower, ...])
     hanging = part("checked.hanging", Hanging | None, "Null where nothing is cut.")
     parts = part("checked.parts", tuple[Part, ...])
+    piece = part("checked.piece", Piece | None, "Null where nothing is cut.")
 
     @computed_field
     @property
@@ -67,11 +73,18 @@ def run(arguments: argparse.Namespace) -> int:
     form = picture_form(arguments.picture) if arguments.picture else ""
     settings = settings_in(arguments.settings)
     arguments.controller = None
+    lines = program_in(arguments.job)
     checked = check_job(
         settings,
-        read_text(arguments.job).splitlines(),
+        lines,
         inputs=inputs_of(arguments) if arguments.marks else None,
         numbers=dict(arguments.set),
+        tools=Tools.of(
+            lines,
+            diameter=arguments.bit,
+            length=arguments.bit_length,
+            thickness=arguments.thickness,
+        ),
         start=(*arguments.start, 0.0),
         progress=bar("running the program dry"),
     )
@@ -94,7 +107,7 @@ def _drawn(checked: Checked, settings: MachineSettings, name: str) -> Drawn:
     moves, samples = checked.done.moves, checked.samples
     over_sheet = moves.only(moves.over_sheet)
     ways = np.split(samples.places, np.flatnonzero(np.diff(samples.move)) + 1)
-    spoiled = {finding.line for finding in checked.findings if finding.is_wrong}
+    spoiled = {line for finding in checked.findings if finding.is_wrong for line in finding.lines}
     bad = np.isin(over_sheet["line"], list(spoiled))
     if checked.hanging is not None:
         # Above the sheet the sled may pass where it could not cut.
@@ -115,6 +128,7 @@ def _drawn(checked: Checked, settings: MachineSettings, name: str) -> Drawn:
             for kind in ("cut", "rapid", "bad")
         },
         labels=labels,
+        piece=checked.piece,
     )
 
 
@@ -139,7 +153,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="measured marks of this machine: they tell which errors to expect of each part",
     )
     add_cut_with(parser)
-    add_picture(parser, "draw the job on its sheet")
+    for option, of, usual in (
+        ("--bit", "diameter of the bit", "what JOB says, else 6.35"),
+        ("--bit-length", "how long the bit cuts", "what JOB says"),
+        ("--thickness", "how thick the sheet is", "what JOB says, else 19.05"),
+    ):
+        parser.add_argument(option, metavar="MM", type=length, help=f"{of} [{usual}]")
+    add_picture(parser, "draw the job on its sheet, shaded by depth")
     parser.add_argument(
         "--outline",
         metavar="FILE",
@@ -159,7 +179,7 @@ CUT = 10.0  # [N] the side force of a light cut
 
 def as_text(checked: Checked, arguments: argparse.Namespace) -> str:
     """Return the check for people: what is wrong, the job, its parts, what to do next."""
-    paragraphs = [headline(_verdict(checked, Path(arguments.job).name))]
+    paragraphs = [headline(_verdict(checked, Path(arguments.job).name), is_good=checked.is_good)]
     wrong = _wrong(checked)
     if wrong:
         paragraphs.append(sentences(wrong))
@@ -178,7 +198,7 @@ def as_text(checked: Checked, arguments: argparse.Namespace) -> str:
 def _verdict(checked: Checked, name: str) -> str:
     if checked.is_good:
         return f"Nothing is wrong with {name}."
-    lines = {finding.line for finding in checked.findings if finding.is_wrong}
+    lines = {line for finding in checked.findings if finding.is_wrong for line in finding.lines}
     if not lines:
         return f"{name} cuts where this machine is not usable."
     return f"{_count(len(lines), 'line')} of {name} {'is' if len(lines) == 1 else 'are'} wrong."
@@ -188,7 +208,7 @@ def _wrong(checked: Checked) -> list[str]:
     """Return each wrong line, and where no sled should cut."""
     wrong = [finding for finding in checked.findings if finding.is_wrong]
     halts = {HALTS: "the machine halts: "}
-    said = [f"line {each.line}: {halts.get(each.kind, '')}{each.says}" for each in wrong[:SHOWN]]
+    said = [f"{_where(each)}: {halts.get(each.kind, '')}{each.says}" for each in wrong[:SHOWN]]
     if len(wrong) > SHOWN:
         said.append(f"and {len(wrong) - SHOWN} more; --json has all")
     if checked.done.halted_at is not None:
@@ -201,18 +221,46 @@ def _wrong(checked: Checked) -> list[str]:
     return said
 
 
+def _where(finding: Finding) -> str:
+    if finding.count == 1:
+        return f"line {finding.line}"
+    return f"{finding.count} lines from line {finding.line} on"
+
+
 def _job(checked: Checked) -> str:
     times = checked.times
     rows = [
         ["time", time_text(times.whole), "without the operator's pauses"],
-        ["cutting", time_text(times.cutting), f"{time_text(times.asked)} at the feeds asked for"],
+        ["cutting", time_text(times.cutting), _without_limits(times)],
     ]
-    hanging = checked.hanging
+    piece, hanging = checked.piece, checked.hanging
+    if piece is not None:
+        rows.append(["deepest", worded(piece.deepest), f"at line {piece.line}"])
+        rows.append(["removed", _volume(piece.removed), f"with {_bits(piece)}"])
     if hanging is not None:
         slack, tight = hanging.tension
         rows.append(["chains", f"{slack:.0f} to {tight:.0f} N", "slackest and tightest"])
         rows.append(["give", f"{worded(hanging.give)}/N", _give(hanging)])
     return table(["the job", "", ""], rows, words=[1, 2])
+
+
+def _without_limits(times: Times) -> str:
+    """Return how long the cutting would take without acceleration, arcs, z and chains."""
+    asked, capped = time_text(times.asked), time_text(times.capped)
+    at_feeds = f"{asked} at the feeds asked for"
+    return at_feeds if asked == capped else f"{at_feeds}, {capped} with none above $15"
+
+
+def _volume(volume: float) -> str:
+    """Return a volume [mm3] in the unit that fits the lengths on the screen."""
+    if unit() == "mm":
+        return f"{volume / 1000:.1f} cm3"
+    return f"{volume / INCH**3:.2f} cubic inches"
+
+
+def _bits(piece: Piece) -> str:
+    several = " and ".join(sorted({brief(bit.diameter) for bit in piece.bits}))
+    return f"a bit of {several}" + ("" if piece.is_said else ", the usual; --bit says otherwise")
 
 
 def _give(hanging: Hanging) -> str:
@@ -252,15 +300,18 @@ def _notes(checked: Checked) -> list[str]:
         f"{each.line} asks for {each.asked:.0f} mm/min and gets {each.feed:.0f}"
         for each in checked.slower
     ]
-    waits = [finding.line for finding in checked.findings if finding.kind == WAITS]
-    if waits:
-        notes.append(f"the machine waits for you at line {_lines(waits)}")
+    notes += [
+        f"the machine waits for you at line {_lines(each.lines)}"
+        for each in checked.findings
+        if each.kind == WAITS
+    ]
     notes += [f"line {each.line}: {each.says}" for each in checked.findings if each.kind == SINKS]
-    ignored = Counter(each.says for each in checked.findings if each.kind == IGNORED)
-    for code, count in ignored.items():
-        notes.append(
-            f"{code} means nothing to this machine and is passed over: {_count(count, 'line')}"
-        )
+    notes += [
+        f"{each.says} means nothing to this machine and is passed over: "
+        f"{_count(each.count, 'line')}"
+        for each in checked.findings
+        if each.kind == IGNORED
+    ]
     if not checked.has_errors and checked.parts:
         notes.append("to know how well the parts will fit, give --marks with this machine's marks")
     if checked.hanging is not None:
@@ -268,7 +319,7 @@ def _notes(checked: Checked) -> list[str]:
     return notes
 
 
-def _lines(numbers: list[int]) -> str:
+def _lines(numbers: Sequence[int]) -> str:
     first = ", ".join(map(str, numbers[:SHOWN]))
     return first if len(numbers) <= SHOWN else f"{first} and {len(numbers) - SHOWN} more"
 

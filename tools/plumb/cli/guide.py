@@ -4,18 +4,31 @@ from __future__ import annotations
 
 import argparse
 import sys
+from collections.abc import Mapping
+from contextlib import nullcontext, redirect_stdout
+from dataclasses import dataclass
 from pathlib import Path
 from textwrap import wrap
 
-from plumb.cli.arguments import add_port
-from plumb.cli.screen import next_step
+from plumb.cli.arguments import add_json, add_port
+from plumb.cli.screen import next_step, print_json
 from plumb.guide.steps import SETTINGS, Visit, walk
-from plumb.guide.talk import Talk, progress_in
+from plumb.guide.talk import Progress, Talk, progress_in
 from plumb.line.port import SerialPort, port_for
 from plumb.line.sender import Sender
 from plumb.text.errors import InputError
 
 WIDTH = 79  # characters of a line
+
+
+@dataclass(frozen=True)
+class GuideAnswer:
+    """How far a machine's first day is; what the guide says goes to the standard error."""
+
+    done: tuple[str, ...]  # steps
+    open: tuple[str, ...]
+    settings: str
+    sigmas: Mapping[str, float]  # [mm] how far each number that the owner gave may be wrong
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -24,6 +37,16 @@ def run(arguments: argparse.Namespace) -> int:
     if not folder.is_dir():
         raise InputError(folder, "there is no such folder", remedy="make it, or name another")
     progress = progress_in(folder)
+    with redirect_stdout(sys.stderr) if arguments.json else nullcontext():
+        code = _walk(arguments, folder, progress)
+    if arguments.json:
+        open_ = tuple(step for step in STEPS if step not in progress.done)
+        settings = str(folder / SETTINGS)
+        print_json(GuideAnswer(tuple(progress.done), open_, settings, progress.sigmas))
+    return code
+
+
+def _walk(arguments: argparse.Namespace, folder: Path, progress: Progress) -> int:
     _say("Nothing moves before you say yes to it. Keep a hand on the power switch all the same.")
     port = SerialPort(port_for(arguments.port))
     try:
@@ -100,3 +123,4 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--units", choices=("mm", "inch"), default="mm", help="of your tape [%(default)s]"
     )
+    add_json(parser)

@@ -10,7 +10,7 @@ from typing import Annotated
 
 import numpy as np
 
-from plumb.cli.arguments import add_controller, add_json, add_settings, add_units, file
+from plumb.cli.arguments import add_controller, add_json, add_settings, add_units, file, place
 from plumb.cli.screen import print_json, table
 from plumb.fit.inputs import settings_in
 from plumb.model.predict import (
@@ -46,7 +46,9 @@ class ChainLengths:
 def run(arguments: argparse.Namespace) -> int:
     """Print chain lengths; 1 if some place is out of reach."""
     settings = settings_in(arguments.settings)
-    points = read_pairs(arguments.points, names=("x", "y"))
+    if bool(arguments.points) == bool(arguments.places):
+        raise InputError("say which places: X,Y one after the other, or --points FILE")
+    points = np.array(arguments.places) if arguments.places else _in_file(arguments.points)
     whose = arguments.controller or settings.controller
     moved = np.zeros(len(points), dtype=bool)
     if whose == "plumb":
@@ -69,6 +71,10 @@ def run(arguments: argparse.Namespace) -> int:
     return int(bool((outcome != FOUND).any()))
 
 
+def _in_file(path: str) -> Array:
+    return read_pairs(path, names=("x", "y"))
+
+
 def published_lengths(
     settings: MachineSettings, points: Array, *, controller: str
 ) -> tuple[Array, Codes]:
@@ -85,7 +91,7 @@ def published_lengths(
 # The arguments of `plumb inverse`.
 
 EXAMPLES = (
-    "plumb inverse machine.toml --points places.csv",
+    "plumb inverse machine.toml 0,0 600,-300",
     "plumb inverse machine.toml --points places.csv --controller stock",
 )
 EXIT = "Exit: 0 done; 1 some place is out of reach; 2 an input cannot be used."
@@ -95,10 +101,16 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the arguments of `plumb inverse`."""
     add_settings(parser)
     parser.add_argument(
+        "places",
+        metavar="X,Y",
+        type=place,
+        nargs="*",
+        help="a place, mm from the middle of the sheet, y up",
+    )
+    parser.add_argument(
         "--points",
         metavar="FILE",
         type=file,
-        required=True,
         help="CSV: x,y per line, mm from the middle of the sheet, y up; a header is allowed",
     )
     parser.add_argument("--float32", action="store_true", help="compute as the board does")

@@ -13,6 +13,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from difflib import get_close_matches
 from importlib import import_module
 from importlib import import_module as loaded
+from itertools import takewhile
 from textwrap import wrap
 from typing import Any, NoReturn
 
@@ -102,6 +103,9 @@ def build_parser(arguments: Sequence[str] = ("--completion",)) -> Parser:
     parser.add_argument("--version", action=Version, help="show the version and exit")
     completion = "print what lets a shell complete commands; see docs/README.md"
     parser.add_argument("--completion", action=Completion, help=completion)
+    parser.add_argument(
+        "--man", action=Manual, help="print the manual page: plumb --man | man -l -"
+    )
     commands = parser.add_subparsers(metavar="COMMAND", required=True, dest="command")
     for name, said in COMMANDS.items():
         subparser = commands.add_parser(
@@ -111,7 +115,7 @@ def build_parser(arguments: Sequence[str] = ("--completion",)) -> Parser:
             allow_abbrev=False,
             formatter_class=argparse.RawDescriptionHelpFormatter,
         )
-        if name in arguments or "--completion" in arguments:
+        if name in arguments or WHOLE & {*arguments}:
             command = loaded(f"plumb.cli.{name}")
             subparser.epilog = "\n".join(
                 [
@@ -125,6 +129,7 @@ def build_parser(arguments: Sequence[str] = ("--completion",)) -> Parser:
     return parser
 
 
+WHOLE = {"--completion", "--man"}  # options that need the parsers of all commands
 # How the help calls arguments that are names of files.
 FILES = ("SETTINGS", "JOB", "MARKS", "PLAN", "FILE", "INI", "LOG")
 
@@ -171,17 +176,31 @@ class Parser(argparse.ArgumentParser):
     def parse_known_args(  # type: ignore[override]  # two overloads that nobody here uses
         self, args: Sequence[str] | None = None, namespace: argparse.Namespace | None = None
     ) -> tuple[argparse.Namespace, list[str]]:
-        """Parse, and refuse here what is not known: the parser of a command knows its options."""
+        """Parse, and refuse here what is not known: the parser of a command knows its options.
+
+        An unknown option comes first: what stands behind it would be taken for an argument.
+        """
+        words = sys.argv[1:] if args is None else args
+        for word in takewhile(self._is_own, words):
+            name = word.partition("=")[0]
+            if name.startswith("--") and name not in self._option_string_actions:
+                self._refuse("option", name)
         parsed, extra = super().parse_known_args(args, namespace)
         if extra:
             unknown = next((word for word in extra if word.startswith("-")), extra[0])
-            name = unknown.partition("=")[0]
-            known = [word for word in self._option_string_actions if word.startswith("--")]
-            what = "option" if name.startswith("-") else "argument"
-            raise InputError(
-                f"there is no {what} {name} here{meant(name, known)}; see {self.prog} --help"
-            )
+            self._refuse("option" if unknown.startswith("-") else "argument", unknown)
         return parsed, extra
+
+    def _is_own(self, word: str) -> bool:
+        """Whether this parser reads the word, and what may follow: no command and no `--` yet."""
+        return word != "--" and (word.startswith("-") or not self.groups)
+
+    def _refuse(self, what: str, word: str) -> NoReturn:
+        known = [each for each in self._option_string_actions if each.startswith("--")]
+        name = word.partition("=")[0]
+        raise InputError(
+            f"there is no {what} {name} here{meant(name, known)}; see {self.prog} --help"
+        )
 
     def _check_value(self, action: argparse.Action, value: Any) -> None:
         """Refuse a word that is no choice, with the nearest choice."""
@@ -219,7 +238,7 @@ class Completion(argparse.Action):
     """Prints what makes a shell complete commands, options and files."""
 
     def __init__(self, option_strings: Sequence[str], dest: str, help: str) -> None:
-        shells = ("bash", "zsh", "tcsh")
+        shells = ("bash", "zsh", "tcsh", "fish")
         super().__init__(option_strings, dest=argparse.SUPPRESS, choices=shells, help=help)
 
     def __call__(
@@ -233,6 +252,18 @@ class Completion(argparse.Action):
         shtab = import_module("shtab")
         _complete_files(parser, shtab.FILE)
         print(shtab.complete(parser, values))
+        parser.exit()
+
+
+class Manual(argparse.Action):
+    """Prints the manual page."""
+
+    def __init__(self, option_strings: Sequence[str], dest: str, help: str) -> None:
+        super().__init__(option_strings, dest=argparse.SUPPRESS, nargs=0, help=help)
+
+    def __call__(self, parser: argparse.ArgumentParser, *_: object) -> None:
+        """Print it and stop."""
+        print(loaded("plumb.cli.man").manual(parser))
         parser.exit()
 
 

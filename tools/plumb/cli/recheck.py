@@ -153,7 +153,7 @@ def _text(answer: RecheckAnswer, asked: list[str]) -> str:
         ]
         for mark in answer.marks
     ]
-    parts = [headline(answer.sentence)]
+    parts = [headline(answer.sentence, is_good=answer.holds)]
     parts.append(table(["mark", f"at [{unit()}]", "error", "expected up to"], rows))
     if answer.changes and not answer.holds:
         changes = [

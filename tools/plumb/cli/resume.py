@@ -3,19 +3,31 @@
 from __future__ import annotations
 
 import argparse
+from dataclasses import dataclass
 from pathlib import Path
+from typing import Annotated
 
-from plumb.cli.arguments import add_force, add_machine, count, place
+from plumb.cli.arguments import add_force, add_json, add_machine, count, place
 from plumb.cli.output import STDOUT, write_outputs
-from plumb.cli.screen import next_step, sentences
+from plumb.cli.screen import next_step, print_json, sentences
 from plumb.fit.inputs import settings_in
-from plumb.job.dry_run import comment_of
+from plumb.job.dry_run import comment_of, program_in
 from plumb.job.resume import Machine, Resumed, resume_at_line, resume_at_place
+from plumb.text.answers import key
 from plumb.text.errors import InputError
-from plumb.text.files import read_text
 from plumb.text.values import bare, worded
 
 SHOWN = 8  # passes that are named
+
+
+@dataclass(frozen=True)
+class ResumeAnswer:
+    """Where a job goes on."""
+
+    line: int  # of the job, which is done first
+    begins: Annotated[tuple[float, float, float], key("begins_mm")]  # of the machine
+    passes: tuple[int, ...]  # lines that cut where the job goes on in the middle of a cut
+    written: tuple[str, ...]
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -23,7 +35,7 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.line is None and arguments.at is None:
         raise InputError("say where to go on: --line N, --at X,Y, or both")
     machine = Machine(settings_in(arguments.settings), (*arguments.start, 0.0), dict(arguments.set))
-    lines = read_text(arguments.job).splitlines()
+    lines = program_in(arguments.job)
     if arguments.at is None:
         resumed = resume_at_line(machine, lines, arguments.line)
     else:
@@ -33,6 +45,10 @@ def run(arguments: argparse.Namespace) -> int:
     content = "\n".join([title, *resumed.lines, ""]).encode()
     inputs = [arguments.job, arguments.settings]
     write_outputs({arguments.output: content}, inputs=inputs)
+    if arguments.json:
+        passes = resumed.entry.passes if resumed.entry else ()
+        print_json(ResumeAnswer(resumed.first, resumed.begins, passes, (arguments.output,)))
+        return 0
     print(sentences(_report(resumed, name), mark=""))
     if arguments.output != STDOUT:
         check = ["check", arguments.output, arguments.settings]
@@ -86,3 +102,4 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="the program [the standard output]",
     )
     add_force(parser)
+    add_json(parser)

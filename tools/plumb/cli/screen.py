@@ -81,12 +81,15 @@ def sentences(lines: Sequence[str], *, mark: str = "- ") -> str:
     ).replace("\0", " ")
 
 
-def headline(sentence: str) -> str:
-    """Return the sentence that matters most, which comes first."""
+def headline(sentence: str, *, is_good: bool | None = None) -> str:
+    """Return the sentence that matters most, where the screen has colours in that of its verdict;
+    None: it is no verdict.
+    """
+    style = "bold" if is_good is None else f"bold {'green' if is_good else 'red'}"
     screen = console()
     with screen.capture() as captured:
         for line in sentences([sentence], mark="").splitlines():
-            screen.print(Text(line, style="bold"), crop=False)
+            screen.print(Text(line, style=style), crop=False)
     return captured.get().rstrip("\n")
 
 
@@ -133,7 +136,7 @@ def bar(what: str) -> Callable[[float], None]:
 
 def print_json(answer: object) -> None:
     """Print an answer as a single JSON object."""
-    print(json.dumps(json_of(answer), indent=2, allow_nan=False))
+    print(json.dumps(json_of(answer), indent=2, allow_nan=False), flush=True)
 
 
 def about(millimetres: float) -> str:

@@ -15,7 +15,7 @@ from plumb.cli.screen import Bar, free_name, next_step, sentences
 from plumb.diary.file import PROGRAM, keep, program_entry, write_and_keep
 from plumb.firmware.settings import refuse_other_numbers, refuse_other_origin
 from plumb.grid.cut_with import form_of
-from plumb.job.dry_run import refuse_other_files, refuse_what_is_no_program
+from plumb.job.dry_run import program_in, refuse_other_files
 from plumb.line.memory import Written, kept_before, lines_for, read_numbers
 from plumb.line.port import LostError, SerialPort, port_for
 from plumb.line.progress import SAID_PAUSED, waits_in
@@ -76,12 +76,8 @@ def _program(what: str) -> list[str]:
     resets the board. InputError for what cannot be sent.
     """
     looks_like_file = what.endswith((".nc", ".gcode", ".ngc")) or "/" in what
-    if not looks_like_file and not Path(what).exists():
-        lines = [what]
-    else:
-        text = read_text(what)
-        refuse_what_is_no_program(what, text)
-        lines = text.splitlines()
+    is_file = looks_like_file or Path(what).exists()
+    lines = program_in(what) if is_file else [what]
     list(cleaned(lines))
     return lines
 

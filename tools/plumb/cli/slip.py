@@ -120,7 +120,8 @@ def _written(arguments: argparse.Namespace, lines: Sequence[str]) -> list[str]:
 
 
 def _text(answer: SlipAnswer, arguments: argparse.Namespace) -> str:
-    parts = [headline(answer.sentence), _touch_table(answer), _odds(answer)]
+    is_good = None if answer.verdict == CANNOT_TELL else answer.verdict in (NOTHING, SHEET)
+    parts = [headline(answer.sentence, is_good=is_good), _touch_table(answer), _odds(answer)]
     if lines := answer.lines:
         there = answer.touches[-1]
         said = (

@@ -5,13 +5,14 @@ from __future__ import annotations
 import argparse
 import time
 from collections.abc import Callable
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 from rich.live import Live
 
-from plumb.cli.arguments import length
-from plumb.cli.screen import console
+from plumb.cli.arguments import add_json, length
+from plumb.cli.screen import console, print_json
 from plumb.line.sender import Sender
 from plumb.settings.machine import MachineSettings
 from plumb.text.errors import InputError
@@ -33,10 +34,20 @@ EEPROM_BYTES = 4096
 SAVE_EVERY, LOOK_EVERY = 1.0, 0.1  # [s] of this computer's time
 
 
+@dataclass(frozen=True)
+class VmAnswer:
+    """What a client needs; printed as soon as the machine is there."""
+
+    port: str | None  # None: with --preload no machine starts
+    preload: str | None  # None: without --preload
+    hidden: str | None  # None: without --reveal
+
+
 def run(arguments: argparse.Namespace) -> int:
     """Start it, serve until Ctrl-C, and return the exit code."""
     if arguments.preload:
-        print(preload())
+        library = preload()
+        print_json(VmAnswer(None, library, None)) if arguments.json else print(library)
         return 0
     tape_form = _form(arguments)
     hidden = hide(arguments.hide, millimetres=arguments.size, seed=arguments.seed)
@@ -44,22 +55,40 @@ def run(arguments: argparse.Namespace) -> int:
     tape = Tape(garage, np.random.default_rng([arguments.seed, 5]), noise=arguments.noise)
     if tape_form:
         tape.get_ready(tape_form)
-    serve(garage, arguments, lambda vm: _fill(tape, vm, tape_form, arguments.readings))
-    if arguments.reveal:
-        print(f"Hidden was: {described(hidden)}.")
+    said = described(hidden) if arguments.reveal else None
+
+    def announce(port: str) -> None:
+        if arguments.json:
+            print_json(VmAnswer(port, None, said))
+        else:
+            _announce(port)
+
+    def look(machine: VirtualMachine) -> None:
+        _fill(tape, machine, tape_form, arguments.readings)
+
+    serve(garage, arguments, look, announce)
+    if said and not arguments.json:
+        print(f"Hidden was: {said}.")
     return 0
 
 
+def _announce(port: str) -> None:
+    print(f"The machine is at {port}. Ctrl-C ends it.", flush=True)
+
+
 def serve(
-    garage: Garage, arguments: argparse.Namespace, look: Callable[[VirtualMachine], None]
+    garage: Garage,
+    arguments: argparse.Namespace,
+    look: Callable[[VirtualMachine], None],
+    announce: Callable[[str], None] = _announce,
 ) -> int:
     """Serve the machine of a garage until Ctrl-C, and return the exit code; `look` is called all
-    the time."""
+    the time, `announce` once with the machine's port."""
     machine = garage.machine(elf=arguments.mega)
     _wake(machine, garage.settings, arguments)
     terminal = _terminal(machine, arguments.link)
     try:
-        print(f"The machine is at {terminal.link or terminal.path}. Ctrl-C ends it.", flush=True)
+        announce(str(terminal.link or terminal.path))
         _serve(terminal, arguments, lambda: look(machine))
     except KeyboardInterrupt:
         pass
@@ -211,6 +240,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         default=0.4,
         help="noise of the tape's readings [%(default)g]",
     )
+    add_json(parser)
 
 
 def _add_brain(parser: argparse.ArgumentParser) -> None:

@@ -19,7 +19,7 @@ from plumb.settings.files import changed_client_file, parse_client_file
 from plumb.settings.ini import SOURCES, Key, groundcontrol_changes, number_for_firmware
 from plumb.settings.machine import MachineSettings
 from plumb.text.errors import InputError, naming, to_do
-from plumb.text.files import IniEntry, IniText
+from plumb.text.ini import IniEntry, IniText
 from plumb.text.values import number_in
 
 # What clients work out before they send it.

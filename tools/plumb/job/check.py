@@ -13,6 +13,7 @@ from plumb.diagnosis.priors import size_priors
 from plumb.diagnosis.readings import clean_readings
 from plumb.fit.inputs import Inputs
 from plumb.fit.problem import Problem
+from plumb.job.bits import Tools
 from plumb.job.dry_run import Done, Moves, Run, Samples
 from plumb.job.findings import (
     Finding,
@@ -25,6 +26,7 @@ from plumb.job.findings import (
     slower_moves,
     times_of,
 )
+from plumb.job.wood import Piece, spoiled, take
 from plumb.model.predict import FOUND, NAMES, Array, lengths, places_with_slopes
 from plumb.settings.machine import MachineSettings
 from plumb.text.answers import Internal
@@ -43,6 +45,7 @@ class Checked:
     slower: tuple[Slower, ...]
     times: Times
     parts: tuple[Part, ...]
+    piece: Piece | None  # None where nothing is cut
     has_errors: bool  # whether marks say which errors to expect of each part
 
     @property
@@ -59,17 +62,22 @@ def check_job(
     inputs: Inputs | None = None,
     limits: Mapping[str, float] | None = None,
     numbers: Mapping[int, float] | None = None,
+    tools: Tools | None = None,
     start: tuple[float, float, float] = (0.0, 0.0, 0.0),
     progress: Callable[[float], None] | None = None,
 ) -> Checked:
-    """Run a program dry; `inputs` are marks that tell which errors to expect."""
+    """Run a program dry; `inputs` are marks that tell which errors to expect, `tools` what cuts if
+    it is not what the program says.
+    """
     run = Run(settings, start=start, numbers=numbers)
     run.send(lines, progress=progress)
     done = run.finish()
     over_sheet = done.moves.only(done.moves.over_sheet)
     samples = over_sheet.sampled(STEP)
     parts = parts_of(over_sheet, samples)
-    findings = findings_of(done)
+    tools = tools or Tools.of(lines)
+    taken = take(over_sheet, tools)
+    findings = [*findings_of(done), *spoiled(over_sheet, taken, tools, lines)]
     findings += ends_too_high(settings, done)
     if inputs:
         parts = with_errors(Believed.of(inputs), settings, parts)
@@ -81,6 +89,7 @@ def check_job(
         slower=slower_moves(over_sheet),
         times=times_of(done),
         parts=parts,
+        piece=taken.piece,
         has_errors=inputs is not None,
     )
 

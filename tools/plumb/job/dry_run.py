@@ -17,6 +17,7 @@ from plumb.line.sender import PlainError, plain
 from plumb.model.predict import FOUND, Array, lengths
 from plumb.settings.machine import MachineSettings
 from plumb.text.errors import InputError
+from plumb.text.files import read_text
 
 __all__ = ["COLUMNS", "Done", "Refused", "Run", "pieces"]
 
@@ -192,8 +193,10 @@ class Moves:
         """Length over all axes (n,) [mm]."""
         return np.hypot(self["length"], self["z_to"] - self["z_from"])
 
-    def sampled(self, step: float) -> Samples:
-        """Return places along the moves, both ends included, at most `step` [mm] apart."""
+    def sampled(self, step: float | Array) -> Samples:
+        """Return places along the moves, both ends included, at most `step` [mm] apart, for all
+        or for each.
+        """
         turns = np.abs(self["sweep"]) / TURN
         counts = np.ceil(np.maximum(self.way / step, turns)).astype(int) + 1
         counts = np.maximum(counts, 2)
@@ -237,9 +240,18 @@ OTHERS = (
     (r"\A\s*\{", "holds JSON", PROGRAM),
     (r"^\s*\[\[(mark|distance)\]\]|^\s*numpositions\s*[=:]", "holds marks", PROGRAM),
     (r"\A\s*[^\s,;()]+(,[^\s,;()]+)+\s*$", "holds a table", PROGRAM),
+    (r"\A\s*<(\?xml|svg|!doctype)", "holds a drawing or a page", "let a CAM program make G-code"),
+    (r"\A\s*0\s+SECTION\s", "holds a drawing (DXF)", "let a CAM program make G-code"),
 )
 # What the firmware says of a line that is no G-code at all.
 NO_CODE = re.compile(r"(this begins no word|a number is missing behind|there is no such code).*")
+
+
+def program_in(path: str | PathLike[str]) -> list[str]:
+    """Return the lines of a program; InputError for what holds none."""
+    text = read_text(path)
+    refuse_what_is_no_program(path, text)
+    return text.splitlines()
 
 
 def refuse_other_files(source: str | PathLike[str], text: str) -> None:
@@ -255,6 +267,8 @@ def refuse_what_is_no_program(source: str | PathLike[str], text: str) -> None:
     Later lines are left to the machine, and to `plumb check`.
     """
     refuse_other_files(source, text)
+    if re.search(r"^\s*\[frame\]", text, re.MULTILINE):
+        raise InputError(source, "holds settings of a machine", remedy=PROGRAM)
     number, first = _first(text.splitlines())
     machine = DryRun()
     machine.send([first])

@@ -1,35 +1,46 @@
-"""What the machine said to a program's lines, and moves that spoil a part, line by line."""
+"""What the machine said to a program's lines, how long they take, and how hard the chains pull."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Annotated
 
 import numpy as np
 from pydantic import computed_field
 
-from plumb.job.dry_run import IN_WOOD, Done, Flags, Moves, Samples
+from plumb.job.dry_run import Done, Flags, Moves, Samples
 from plumb.model.plain import greatest, least
 from plumb.model.predict import CANNOT_HANG, REACH_WORDS, USABLE, Array, Codes, reach
 from plumb.model.reach import with_soft_chains
 from plumb.settings.machine import MachineSettings
 from plumb.text.answers import Internal, key
 
-HALTS, LEAVES, GOUGES, WAITS, IGNORED = "halts", "leaves the sheet", "gouges", "waits", "ignored"
+HALTS, LEAVES, WAITS, IGNORED = "halts", "leaves the sheet", "waits", "ignored"
+GOUGES, STILL, DEEP = "gouges", "spindle off", "too deep"
 SINKS = "may sink"
-WRONG = (HALTS, LEAVES, GOUGES)
-ACROSS = 0.05  # [mm] over the sheet: more than z alone moves
-SAME_HOLE = 0.1  # [mm] over the sheet between a plunge and a cut that made room for it
+WRONG = (HALTS, LEAVES, GOUGES, STILL, DEEP)
 
 
 @dataclass(frozen=True)
 class Finding:
-    """Something about a line."""
+    """Something about one or more lines."""
 
-    line: int
     kind: str
     says: str  # in the machine's words, or ours
+    lines: Internal[tuple[int, ...]]
+
+    @computed_field
+    @property
+    def line(self) -> int:
+        """The first of its lines."""
+        return self.lines[0]
+
+    @computed_field
+    @property
+    def count(self) -> int:
+        """How many lines it holds for."""
+        return len(self.lines)
 
     @computed_field(alias="wrong")
     @property
@@ -41,63 +52,24 @@ class Finding:
 def findings_of(done: Done) -> tuple[Finding, ...]:
     """Return everything to say about lines, in their order."""
     refused = "plumb send refuses it: it"
-    findings = [Finding(each.line, HALTS, f"{refused} {each.why}") for each in done.refused]
-    findings += [finding for line, text in done.said for finding in _said(line, text)]
-    findings += _gouges(done.moves)
-    findings += _plunges(done.moves)
-    return tuple(sorted(findings, key=lambda finding: finding.line))
+    sayings = [(each.line, HALTS, f"{refused} {each.why}") for each in done.refused]
+    sayings += [each for line, text in done.said if (each := _said(line, text))]
+    lines: dict[tuple[str, str], list[int]] = {}
+    for line, kind, says in sorted(set(sayings)):
+        lines.setdefault((kind, says), []).append(line)
+    return tuple(Finding(*each, tuple(those)) for each, those in lines.items())
 
 
-def _said(line: int, text: str) -> Iterator[Finding]:
-    if text.startswith("error: "):
-        yield Finding(line, HALTS, text.removeprefix("error: "))
-    elif text.startswith("ALARM: "):
-        yield Finding(line, HALTS, text.removeprefix("ALARM: "))
-    elif text.startswith("This line leads beyond the sheet"):
-        yield Finding(line, LEAVES, text.partition(": ")[2])
-    elif text.endswith(" unsupported and ignored."):
-        yield Finding(line, IGNORED, text.split()[1])
-    elif text == "Maslow Paused":
-        yield Finding(line, WAITS, "the machine waits until the operator goes on")
-
-
-def _gouges(moves: Moves) -> Iterator[Finding]:
-    """G0 across the sheet with the bit in the wood."""
-    low = np.minimum(moves["z_from"], moves["z_to"])
-    fast = moves.rapid & moves.over_sheet & (moves["length"] > ACROSS)
-    for row in np.flatnonzero(fast & (low < IN_WOOD)):
-        deep = -float(low[row])
-        yield Finding(
-            int(moves["line"][row]), GOUGES, f"G0 crosses the sheet with the bit {deep:.2f} mm deep"
-        )
-
-
-def _plunges(moves: Moves) -> Iterator[Finding]:
-    """G0 down into wood that nothing has cut; down a hole that is there, as pecks go, is none."""
-    straight = moves.rapid & moves.over_sheet & (moves["length"] <= ACROSS)
-    low = moves["z_to"]
-    for row in np.flatnonzero(straight & (low < moves["z_from"]) & (low < IN_WOOD)):
-        into = float(_depth_of_hole(moves, int(row)) - low[row])
-        if into > -IN_WOOD:
-            yield Finding(
-                int(moves["line"][row]),
-                GOUGES,
-                f"G0 drives the bit {into:.2f} mm down into wood that nothing has cut",
-            )
-
-
-def _depth_of_hole(moves: Moves, row: int) -> float:
-    """Return the z [mm] down to which earlier cuts have freed the place of a move; 0:
-    nothing did.
-    """
-    x, y = moves["to_x"][row], moves["to_y"][row]
-    middle = np.stack([moves["from_x"] + moves["to_x"], moves["from_y"] + moves["to_y"]]) / 2
-    # No place of a move is farther from its middle than the way along it.
-    near = np.hypot(*(middle - [[x], [y]])) <= moves["length"] + SAME_HOLE
-    earlier = moves.cut & ~moves.rapid & (np.arange(len(moves)) < row)
-    samples = moves.only(earlier & near).sampled(SAME_HOLE / 2)
-    here = np.hypot(*(samples.places - (x, y)).T) <= SAME_HOLE
-    return float(samples.z[here].min(initial=0.0))
+def _said(line: int, text: str) -> tuple[int, str, str] | None:
+    if text.startswith(("error: ", "ALARM: ")):
+        return line, HALTS, text.partition(": ")[2]
+    if text.startswith("This line leads beyond the sheet"):
+        return line, LEAVES, text.partition(": ")[2]
+    if text.endswith(" unsupported and ignored."):
+        return line, IGNORED, text.split()[1]
+    if text == "Maslow Paused":
+        return line, WAITS, "the machine waits until the operator goes on"
+    return None
 
 
 # Whether a job ends so high on the sheet that the sled may sink without its motors.
@@ -124,7 +96,7 @@ def ends_too_high(settings: MachineSettings, done: Done) -> tuple[Finding, ...]:
         f"the program ends at X{x:.2f} Y{y:.2f}, where the sled may sink when its motors let go: "
         f"a chain pulls with {pull:.0f} N, and some gears hold no more than {WEAK_GEARS:.0f} N"
     )
-    return (Finding(int(moves["line"][-1]), SINKS, says),)
+    return (Finding(SINKS, says, (int(moves["line"][-1]),)),)
 
 
 # Where the sled goes slower than the program asks, and how long the job takes.
@@ -153,6 +125,7 @@ class Times:
     cutting: float
     rapid: float
     asked: float  # the cutting at the feeds of the program
+    capped: float  # the cutting at the feeds of the program, none above $15
 
 
 def slower_moves(moves: Moves) -> tuple[Slower, ...]:
@@ -185,16 +158,17 @@ def _z_speed(moves: Moves, those: Flags, rises: Array) -> float:
 
 
 def times_of(done: Done) -> Times:
-    """Return how long it takes, and what the cutting would take at the program's feeds."""
+    """Return how long it takes, and what the cutting would take if no other limit acted."""
     moves = done.moves
     took = np.diff(np.concatenate([[0.0], moves["ends"]]))
     works = ~moves.rapid
-    asked = moves.way[works] / np.minimum(moves["asked"], moves["feed"])[works] * 60
+    way, asked, feed = moves.way[works], moves["asked"][works], moves["feed"][works]
     return Times(
         whole=done.seconds,
         cutting=float(took[works].sum()),
         rapid=float(took[~works].sum()),
-        asked=float(asked.sum()),
+        asked=60 * float((way / asked).sum()),
+        capped=60 * float((way / np.minimum(asked, feed)).sum()),
     )
 
 

@@ -12,7 +12,8 @@ from plumb.marks.model import Mark, Measurements, Point
 from plumb.marks.plausible import Sheet, to_machine
 from plumb.marks.toml import CHAIN_RANGE, sled_weight_in_newtons
 from plumb.text.errors import InputError, naming
-from plumb.text.files import IniText, read_ini, read_text
+from plumb.text.files import read_text
+from plumb.text.ini import IniText, read_ini
 from plumb.text.values import INCH, length_in, number_in, refuse_unknown, within
 
 NEEDED = ("target_x_mm", "target_y_mm", "measured_x_mm", "measured_y_mm")

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from datetime import datetime
 from functools import partial
@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from plumb.model.predict import CANNOT_HANG, REACH_WORDS, TOO_SLACK, TOO_TIGHT, TOO_VERTICAL, USABLE
 from plumb.model.reach import Survey, percent
-from plumb.pictures.scale import View, around, saved
+from plumb.pictures.scale import around, saved
 from plumb.pictures.sheet import (
     BAD,
     EDGE,
@@ -22,8 +22,6 @@ from plumb.pictures.sheet import (
     MARGIN,
     WIDTH,
     WOOD,
-    draw_wood,
-    fitting,
     show,
     strip,
 )
@@ -38,6 +36,7 @@ PULLS = (5, 10, 15, 20, 25, 30, 40, 50, 100, 120, 150, 200, 250, 300, 400)  # [N
 # Far from a limit its lines say nothing: tight from half of it, slack up to three times.
 TIGHT_FROM, SLACK_UP_TO = 0.5, 3.0
 TIGHT, SLACK, SOFT = "#8e2c22", "#1f5f8b", "#6b3fa0"
+Array = np.ndarray
 Number = TypeVar("Number", bound=np.generic)
 ZONES = {
     TOO_TIGHT: (TIGHT, "too tight"),
@@ -182,89 +181,6 @@ def _draw_legend(axis: Axes, survey: Survey) -> None:
             axis.add_patch(Rectangle((place, 0.17), 0.35, 0.18, fc=colour, alpha=0.45, ec="none"))
             write(place + 0.45, 0.26, f"{words} {percent(share)}")
             place += step
-
-
-# A job on its sheet: where it lies, and its cuts from near, with what is wrong in orange.
-
-Array = np.ndarray
-JOB_TITLE, JOB_FOOT = 0.45, 0.5  # [inch]
-AROUND = 0.08  # of the job's size, left free around it
-LEAST = 20.0  # [mm] of wood that is shown from near
-TALLEST = 1.0  # height of the near view over its width
-# Colour, width [point] and style of each kind of way, from below.
-STROKES = {"rapid": ("#9a9a9a", 0.6, "--"), "cut": (GOOD, 1.0, "-"), "bad": (BAD, 2.4, "-")}
-
-
-@dataclass(frozen=True)
-class Drawn:
-    """What the picture shows."""
-
-    title: str
-    is_good: bool
-    sheet: tuple[float, float]  # [mm]
-    ways: Mapping[str, Sequence[Array]]  # "rapid", "cut" and "bad": (k, 2) [mm] each
-    labels: Sequence[tuple[float, float, str]]  # x, y [mm], words
-
-
-def draw_job(job: Drawn, *, form: str = "png") -> bytes:
-    """Return the picture as a file: the whole sheet above, the job from near below."""
-    from matplotlib.figure import Figure
-
-    view = around(job.sheet)
-    upper = WIDTH * view.height / view.width
-    low, high = _near(job)
-    lower = WIDTH * min(TALLEST, float((high[1] - low[1]) / (high[0] - low[0])))
-    tall = JOB_TITLE + upper + lower + JOB_FOOT
-    figure = Figure(figsize=(WIDTH, tall))
-    sheet = figure.add_axes((0, (JOB_FOOT + lower) / tall, 1, upper / tall))
-    show(sheet, view)
-    near = figure.add_axes((MARGIN, JOB_FOOT / tall, 1 - 2 * MARGIN, lower / tall))
-    show(near, View(low[0], high[0], low[1], high[1]))
-    near.set_aspect("equal")
-    for axis, scale in ((sheet, 0.6), (near, 1.0)):
-        _draw_ways(axis, job, scale)
-    _draw_frame(sheet, low, high)
-    for x, y, words in job.labels:
-        near.text(x, y, words, fontsize=9, color=INK, ha="center", va="center", zorder=6)
-    colour = GOOD if job.is_good else BAD
-    size = fitting(job.title, WIDTH * (1 - 2 * MARGIN), 16)
-    place = (MARGIN, 1 - 0.3 / tall)
-    figure.text(*place, job.title, fontsize=size, fontweight="bold", color=colour, va="center")
-    meaning = "blue: cut; grey: above the sheet; orange: wrong, or not usable"
-    figure.text(MARGIN, 0.2 / tall, meaning, fontsize=11, color=INK, va="center")
-    return saved(figure, form)
-
-
-def _near(job: Drawn) -> tuple[Array, Array]:
-    """Lower left and upper right corner [mm] of the near view."""
-    ways = [*job.ways["cut"], *job.ways["bad"]] or [*job.ways["rapid"]] or [np.zeros((1, 2))]
-    places = np.vstack(ways)
-    low, high = places.min(axis=0), places.max(axis=0)
-    half = np.maximum((high - low) / 2 * (1 + 2 * AROUND), LEAST / 2)
-    # No flatter than a quarter and no higher than it is wide.
-    half = np.maximum(half, [half[1] / TALLEST, half[0] / 4])
-    middle = (low + high) / 2
-    return middle - half, middle + half
-
-
-def _draw_ways(axis: Axes, job: Drawn, scale: float) -> None:
-    from matplotlib.collections import LineCollection
-
-    draw_wood(axis, job.sheet)
-    for order, (kind, (colour, stroke, style)) in enumerate(STROKES.items(), start=1):
-        lines = LineCollection(
-            job.ways[kind], colors=colour, linewidths=scale * stroke, linestyles=style
-        )
-        lines.set_zorder(order)
-        axis.add_collection(lines)
-
-
-def _draw_frame(axis: Axes, low: Array, high: Array) -> None:
-    """Show a part of the sheet from near."""
-    from matplotlib.patches import Rectangle
-
-    width, height = high - low
-    axis.add_patch(Rectangle(tuple(low), width, height, fc="none", ec=INK, lw=0.8, zorder=5))
 
 
 # A picture of a diary: the errors of each fit, and below them each number with its interval.

@@ -27,7 +27,8 @@ from plumb.settings.ini import (
 from plumb.settings.machine import MachineSettings, SettingsFile
 from plumb.settings.toml import read_machine_toml
 from plumb.text.errors import InputError
-from plumb.text.files import IniEntry, IniText, parse_ini, read_bytes, read_text
+from plumb.text.files import read_bytes, read_text
+from plumb.text.ini import IniEntry, IniText, parse_ini
 
 WEBCONTROL_ENDING = ".json"
 

@@ -21,7 +21,7 @@ from plumb.settings.machine import (
     tuned_numbers,
 )
 from plumb.text.errors import InputError, naming
-from plumb.text.files import IniText, parse_ini, read_ini, with_values
+from plumb.text.ini import IniText, parse_ini, read_ini, with_values
 from plumb.text.values import number_in
 
 MASLOW, ADVANCED = "Maslow Settings", "Advanced Settings"

@@ -6,15 +6,15 @@ none is: `links_refused` says so for all that is opened here, and `opened` is th
 
 from __future__ import annotations
 
+import codecs
 import errno
 import os
 import re
 import stat
 import tempfile
 from collections.abc import Iterator, Mapping
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from contextvars import ContextVar
-from dataclasses import dataclass
 from os import PathLike
 from pathlib import Path
 
@@ -76,11 +76,38 @@ def _content(path: str | PathLike[str]) -> bytes:
         return file.read()
 
 
-def read_text(path: str | PathLike[str]) -> str:
-    """Return the text of a UTF-8 file, without a byte-order mark."""
+# How files begin that are no text, and what each is.
+NO_TEXT = (
+    (b"%PDF", "a PDF"),
+    (b"\x89PNG", "a picture (PNG)"),
+    (b"\xff\xd8\xff", "a picture (JPEG)"),
+    (b"GIF8", "a picture (GIF)"),
+    (b"RIFF", "a picture or a film"),
+    (b"PK\x03\x04", "an archive (ZIP, or a document of an office program)"),
+    (b"\x1f\x8b", "an archive (gzip)"),
+    (b"\x7fELF", "a program for a computer"),
+)
+
+
+def text_bytes(path: str | PathLike[str]) -> bytes:
+    """Return a file's text in UTF-8, also that of UTF-16, which Notepad calls `Unicode` and whose
+    first bytes say so. InputError for what is no text.
+    """
     content = read_bytes(path)
+    for begin, what in NO_TEXT:
+        if content.startswith(begin):
+            raise InputError(path, f"is {what}, not a text file", remedy="name another file")
+    if content.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
+        with suppress(UnicodeDecodeError):
+            return content.decode("utf-16").encode()
     if b"\0" in content:
         raise InputError(path, "is not a text file", remedy="save it as plain text, UTF-8")
+    return content
+
+
+def read_text(path: str | PathLike[str]) -> str:
+    """Return the text of a file in UTF-8 or UTF-16, without a byte-order mark."""
+    content = text_bytes(path)
     try:
         text = content.decode("utf-8-sig")
     except UnicodeDecodeError as error:
@@ -212,169 +239,3 @@ def is_ours(path: Path) -> bool:
     if any(content.startswith(form) and said in content for form, said in PICTURES):
         return True
     return path.name.endswith(CLIENT_FILES) and b"maslow settings" in content.lower()
-
-
-# An ini file as lines: what it says, and the same lines with single values replaced.
-#
-# The published programs write these files with Python's ConfigParser (keys in lower case, values
-# that may hold a percent sign or run on over indented lines), so its rules are followed.
-
-_ENTRY = re.compile(r"(?P<head>\s*(?P<key>[^=:\s][^=:]*?)\s*[=:][ \t]*)(?P<value>.*?)(?P<tail>\s*)")
-_SECTION = re.compile(r"\s*\[(?P<name>[^]]+)\]\s*([#;].*)?")
-
-
-@dataclass(frozen=True)
-class IniEntry:
-    """One `key = value` of an ini file, the first of its lines counted from 1."""
-
-    section: str
-    key: str
-    value: str
-    line: int
-    runs_on: bool = False  # the value continues on indented lines
-
-    @property
-    def place(self) -> str:
-        """Line, section and key, as an error message names them."""
-        return f"line {self.line}, [{self.section}] {self.key}"
-
-
-@dataclass(frozen=True)
-class IniText:
-    """The lines of an ini file with their endings, and its entries."""
-
-    source: str
-    lines: tuple[str, ...]
-    entries: tuple[IniEntry, ...]
-
-    @property
-    def sections(self) -> tuple[str, ...]:
-        """Names of the sections, in the order of the file."""
-        headers = [_SECTION.fullmatch(_bare(line)) for line in self.lines]
-        return tuple(dict.fromkeys(match["name"] for match in headers if match))
-
-    def find(self, key: str, *, section: str) -> IniEntry | None:
-        """Return the entry of that key, case ignored; a single entry in another section is
-        accepted.
-        """
-        same = [entry for entry in self.entries if entry.key.lower() == key.lower()]
-        here = [entry for entry in same if entry.section.lower() == section.lower()]
-        if here:
-            return here[0]
-        if len(same) > 1:
-            names = " and ".join(f"[{entry.section}]" for entry in same)
-            raise InputError(
-                self.source,
-                f"{key} appears in {names}",
-                place=same[0].place,
-                remedy=f"keep the entry in [{section}]",
-            )
-        return same[0] if same else None
-
-
-def read_ini(path: str | PathLike[str]) -> IniText:
-    """Return the ini file at a path; bytes that are not UTF-8 survive as surrogates."""
-    content = read_bytes(path)
-    if b"\0" in content:
-        raise InputError(path, "is not a text file", remedy="save it as plain text")
-    return parse_ini(content.decode("utf-8", "surrogateescape"), source=str(path))
-
-
-def parse_ini(text: str, *, source: str) -> IniText:
-    """Return the entries of an ini text; duplicates, and lines that are nothing, are refused."""
-    lines = tuple(re.findall(r"[^\r\n]*(?:\r\n|\n|\r)|[^\r\n]+$", text))
-    entries: list[IniEntry] = []
-    section, indent = "", -1
-    for line_number, line in enumerate(lines, 1):
-        bare = _bare(line)
-        if not bare.strip() or bare.lstrip()[0] in "#;":
-            continue
-        depth = len(bare) - len(bare.lstrip())
-        if 0 <= indent < depth:
-            entries[-1] = _longer(entries[-1], bare)
-            continue
-        header, entry = _SECTION.fullmatch(bare), _ENTRY.fullmatch(bare)
-        if header:
-            section, indent = header["name"], -1
-        elif entry and section:
-            entries.append(IniEntry(section, entry["key"], entry["value"], line_number))
-            indent = depth
-        else:
-            what = "a value comes before the first [section]" if entry else "is not key = value"
-            raise InputError(source, what, place=f"line {line_number}", remedy="mend or remove it")
-    _refuse_twins(entries, source)
-    return IniText(source, lines, tuple(entries))
-
-
-def with_values(ini: IniText, changes: dict[tuple[str, str], str]) -> str:
-    """Return the text of the file with some values replaced and nothing else touched; new keys are
-    added at the end of their section.
-    """
-    lines = list(ini.lines)
-    new: list[tuple[str, str, str]] = []
-    for (section, key), value in changes.items():
-        entry = ini.find(key, section=section)
-        if entry is None:
-            new.append((section, key, value))
-        elif entry.runs_on:
-            raise InputError(
-                ini.source,
-                "runs on over several lines",
-                place=entry.place,
-                remedy="write the value on a single line",
-            )
-        else:
-            line = lines[entry.line - 1]
-            bare = _bare(line)
-            old = _ENTRY.fullmatch(bare)
-            assert old, "the line was parsed as an entry"
-            mark = line[: len(line.rstrip("\r\n")) - len(bare)]  # a byte-order mark, kept
-            ending = line[len(line.rstrip("\r\n")) :]
-            lines[entry.line - 1] = f"{mark}{old['head']}{value}{old['tail']}{ending}"
-    for section, key, value in new:
-        lines = _with_new_key(lines, ini, section, key, value)
-    return "".join(lines)
-
-
-def _with_new_key(lines: list[str], ini: IniText, section: str, key: str, value: str) -> list[str]:
-    """Return the lines with a new entry after the last entry of its section."""
-    ending = "\r\n" if any(line.endswith("\r\n") for line in ini.lines) else "\n"
-    small = all(entry.key == entry.key.lower() for entry in ini.entries)
-    added = f"{key.lower() if small else key} = {value}{ending}"
-    inside, last = False, None
-    for index, line in enumerate(lines):
-        header = _SECTION.fullmatch(_bare(line))
-        if header:
-            inside = header["name"].lower() == section.lower()
-        if inside and line.strip():
-            last = index
-    if last is None:
-        last = len(lines) - 1
-        added = f"{ending}[{section}]{ending}{added}"
-    before = lines[: last + 1]
-    if not before[-1].endswith(("\n", "\r")):
-        before[-1] += ending
-    return [*before, added, *lines[last + 1 :]]
-
-
-def _bare(line: str) -> str:
-    return line.rstrip("\r\n").removeprefix("\ufeff")
-
-
-def _longer(entry: IniEntry, more: str) -> IniEntry:
-    value = f"{entry.value}\n{more.strip()}"
-    return IniEntry(entry.section, entry.key, value, entry.line, runs_on=True)
-
-
-def _refuse_twins(entries: list[IniEntry], source: str) -> None:
-    seen: dict[tuple[str, str], int] = {}
-    for entry in entries:
-        name = (entry.section.lower(), entry.key.lower())
-        if name in seen:
-            raise InputError(
-                source,
-                f"the same key is already on line {seen[name]}",
-                place=entry.place,
-                remedy="remove a line",
-            )
-        seen[name] = entry.line

@@ -44,7 +44,6 @@ class PseudoTerminal:
         self._master, slave = pty.openpty()
         tty.setraw(slave)
         self.path = os.ttyname(slave)
-        self._serves = LineLock(_served(self.path))
         # Without a program at the other end the master hangs up; so an opening shows.
         os.close(slave)
         os.set_blocking(self._master, False)
@@ -56,6 +55,7 @@ class PseudoTerminal:
         self._lines = WholeLines()
         self._waiting = b""  # what the machine said and the client has no room for yet
         self.link: Path | None = None
+        self._name: LineLock | None = None  # held as long as the machine has its name
 
     def close(self) -> None:
         """Take the port away."""
@@ -63,7 +63,8 @@ class PseudoTerminal:
             self.link.unlink()
         self._openings.close()
         os.close(self._master)
-        self._serves.release()
+        if self._name:
+            self._name.release()
 
     def pass_time(self, milliseconds: int) -> None:
         """Let the machine's time pass, and carry what is on the line both ways.
@@ -86,12 +87,20 @@ class PseudoTerminal:
     def link_as(self, link: str) -> None:
         """Give the port a name; InputError if something else has it."""
         path = Path(link)
-        if path.is_symlink():
-            _refuse_if_used(path)
-            path.unlink()
+        if path.exists() and not _leads_to(path).startswith(PSEUDO):
+            raise InputError(link, "is the name of something else", remedy="give another --link")
         try:
+            # The kernel may have given a killed machine's number to another: the name counts.
+            self._name = LineLock(f"{path.parent.resolve() / path.name}-machine")
+        except TakenError:
+            why = "a virtual machine is at it already"
+            raise InputError(link, why, remedy="end it or give another --link") from None
+        try:
+            if path.is_symlink():
+                path.unlink()
             path.symlink_to(self.path)
         except OSError as error:
+            self._name.release()
             why = f"cannot be the name of the port ({error.strerror})"
             raise InputError(link, why, remedy="give another --link") from None
         self.link = path
@@ -135,28 +144,9 @@ class PseudoTerminal:
             self._waiting = self._waiting[os.write(self._master, self._waiting) :]
 
 
-def _served(path: str) -> str:
-    """Return what a machine holds as long as it serves the pseudo terminal at `path`."""
-    return f"{path}-machine"
-
-
 def _leads_to(link: Path) -> str:
     """Return where a link leads; empty if it is none."""
     return os.readlink(link) if link.is_symlink() else ""
-
-
-def _refuse_if_used(link: Path) -> None:
-    """InputError for the link of a machine that runs, or of something else that is there."""
-    there = _leads_to(link)
-    if not there.startswith(PSEUDO):
-        if link.exists():
-            raise InputError(link, "is the name of something else", remedy="give another --link")
-        return
-    try:
-        LineLock(_served(there)).release()
-    except TakenError:
-        why = "a virtual machine is at it already"
-        raise InputError(link, why, remedy="end it or give another --link") from None
 
 
 class Pace:

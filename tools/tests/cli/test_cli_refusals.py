@@ -74,7 +74,7 @@ def test_what_cannot_be_used_is_told_in_one_line(
         ("1,2,3\n", "line 1: has 3 values instead of 2"),
         ("y,x\n1,2\n", "line 1: the header is 'y,x'; write x,y on each line, in mm"),
         ("x_inch,y_inch\n1,2\n", "the header is 'x_inch,y_inch'"),
-        (b"\xff\xfe1,2\n", "UTF-8"),
+        (b"\xff1,2\n", "UTF-8"),
         (b"1,2\0\n", "is not a text file"),
     ],
 )

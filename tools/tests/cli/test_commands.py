@@ -16,12 +16,14 @@ FOLDER = Path(main.__file__).parent
 EXAMPLE = Path(__file__).resolve().parents[3] / "docs/example"
 # Files of the room that are no commands.
 SHARED = {
+    "start",
     "__init__",
     "answers",
     "arguments",
     "demo",
     "inputs",
     "main",
+    "man",
     "output",
     "screen",
 }

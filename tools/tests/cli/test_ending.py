@@ -8,11 +8,13 @@ import signal
 import subprocess
 import sys
 from importlib.metadata import version
+from pathlib import Path
 
 import pytest
 from plumb.cli.output import INTERRUPTED, ended
 from plumb.cure.machine_file import MARKS, SETTINGS
 
+TOOLS = Path(__file__).resolve().parents[2]
 PLUMB = [sys.executable, "-m", "plumb.cli.main"]
 COMPARE = [*PLUMB, "compare", str(SETTINGS), str(MARKS)]
 
@@ -53,6 +55,24 @@ def test_a_wrong_word_is_answered_by_the_nearest_right_one(words, said, run):
     code, out, complaint = run(*words)
     assert code == 2 and out == "" and complaint.count("\n") == 1
     assert said in complaint
+
+
+def test_ctrl_c_is_quiet_while_modules_load():
+    early = "import plumb.cli.start, os; os.kill(os.getpid(), 2); import time; time.sleep(9)"
+    late = (
+        "import sys, plumb.cli.start as door, plumb.cli.output as output; "
+        "output.refuse_stale = lambda: __import__('os').kill(__import__('os').getpid(), 2); "
+        "sys.exit(door.start())"
+    )
+    for code, ends_with in ((early, -signal.SIGINT), (late, INTERRUPTED)):
+        with INTERRUPTIBLE([sys.executable, "-c", code], stderr=subprocess.PIPE) as process:
+            _, complaint = process.communicate()
+        assert (process.returncode, complaint) == (ends_with, b"")
+
+
+def test_little_is_loaded_before_ctrl_c_is_quiet():
+    code = "import sys, plumb.cli.start; print({'typing', 're', 'argparse'} & {*sys.modules})"
+    assert subprocess.check_output([sys.executable, "-S", "-c", code], cwd=TOOLS) == b"set()\n"
 
 
 def test_ctrl_c_ends_quietly(tmp_path):

@@ -78,6 +78,10 @@ def test_colour_only_where_it_is_wanted(variables, coloured, monkeypatch):
     assert bool(COLOUR.search(said)) == coloured
     assert len(COLOUR.findall(said)) in (0, 1)
     assert ("\x1b" in headline("All is well.")) == bool(variables)
+    for is_good, green, red in ((True, True, False), (False, False, True), (None, False, False)):
+        said = headline("All is well.", is_good=is_good)
+        # 32 is green and 31 red; with NO_COLOR a verdict is bold.
+        assert (";32m" in said, ";31m" in said) == (green and coloured, red and coloured)
 
 
 class Terminal:

@@ -1,5 +1,7 @@
 """The command itself, to the end of the day."""
 
+import json
+
 import plumb.cli.guide
 from plumb.cli.main import main
 from plumb.guide.steps import STEPS
@@ -15,6 +17,20 @@ def test_at_the_end_it_names_the_grid_and_what_is_known(tmp_path, monkeypatch, c
     said = " ".join(capsys.readouterr().out.replace("\\", "").split())
     assert f"plumb grid --settings {tmp_path}/machine.toml" in said
     assert "--prior motor_gap=4" in said
+
+
+def test_a_program_gets_what_is_done_as_an_object(tmp_path, monkeypatch, run):
+    Progress(tmp_path, [step.name for step in STEPS], {"motor_gap": 4.0}).save()
+    monkeypatch.setattr(plumb.cli.guide, "SerialPort", lambda path: Silent())
+    monkeypatch.setattr(plumb.cli.guide.Sender, "await_start", lambda sender: None)
+    code, said, aside = run("guide", tmp_path, "--port", "any", "--json")
+    assert code == 0 and "Nothing moves before you say yes" in aside
+    assert json.loads(said) == {
+        "done": [step.name for step in STEPS],
+        "open": [],
+        "settings": str(tmp_path / "machine.toml"),
+        "sigmas": {"motor_gap": 4.0},
+    }
 
 
 def test_a_folder_that_is_missing_is_refused(tmp_path, capsys):

@@ -12,7 +12,7 @@ from plumb.bench.causes import MAKER
 from plumb.fit.inputs import Inputs
 from plumb.job.check import Believed, Part, check_job, with_errors
 from plumb.job.dry_run import hull_of, outline_of
-from plumb.job.findings import ARC, CHAINS, GOUGES, GREATEST, HALTS, IGNORED, LEAVES, WAITS, Z
+from plumb.job.findings import ARC, CHAINS, GREATEST, HALTS, IGNORED, LEAVES, WAITS, Z
 from plumb.marks.read import read_marks
 from plumb.model.predict import judged, lengths
 from plumb.settings.files import read_settings
@@ -59,61 +59,18 @@ def test_each_wrong_line_has_its_number_and_the_machines_words():
     assert not checked.is_good
 
 
-def test_the_sheets_edge_a_gouge_a_pause_and_a_foreign_code_are_found():
-    assert lines_and_kinds(["G0 Z2", "G0 X1300", "G0 X0"]) == [(2, LEAVES)]
-    assert lines_and_kinds(["G1 Z-2 F60", "G0 X40", "G1 X50 F500", "G0 Z-1", "G0 Z2", "G0 X0"]) == [
-        (2, GOUGES)
+def test_what_holds_for_many_lines_is_said_once():
+    checked = check_job(MAKER, ["G21", "G41 D1", "G0 Z5", "G41 D1 G41", "G42 D1"])
+    assert [(each.line, each.count, each.says) for each in checked.findings] == [
+        (2, 2, "this machine does no G41"),
+        (5, 1, "this machine does no G42"),
     ]
-    assert lines_and_kinds(["M8", "G0 Z2", "T3 M6", "M0"]) == [(1, IGNORED), (3, WAITS), (4, WAITS)]
+
+
+def test_the_sheets_edge_a_pause_and_a_foreign_code_are_found():
+    assert lines_and_kinds(["G0 Z2", "G0 X1300", "G0 X0"]) == [(2, LEAVES)]
+    assert lines_and_kinds(["M8", "G0 Z2", "T3 M6", "M0"]) == [(1, IGNORED), (3, WAITS)]
     assert lines_and_kinds(["G0 X0 Y-2500"])[0][1] in (HALTS, LEAVES)
-
-
-@pytest.mark.parametrize(("way", "is_gouge"), [(0.04, False), (0.06, True)])
-def test_a_rapid_in_the_wood_is_a_gouge_if_it_goes_across(way, is_gouge):
-    checked = check_job(MAKER, ["G1 Z-1 F60", f"G0 X{way}", "G0 Z4"])
-    assert (GOUGES in {each.kind for each in checked.findings}) is is_gouge
-
-
-def test_a_rapid_down_and_across_is_a_single_gouge():
-    assert lines_and_kinds(["G0 Z5", "G0 X9 Z-5", "G0 Z9"]) == [(2, GOUGES)]
-
-
-def test_a_rapid_way_of_a_drilling_cycle_is_no_gouge():
-    assert check_job(MAKER, ["G0 Z2", "G83 X9 Z-6 R1 Q2 F50", "X20", "G80", "G0 X0"]).is_good
-
-
-@pytest.mark.parametrize(
-    ("lines", "gouges"),
-    [
-        (["G0 Z5", "G0 X10 Y10", "G0 Z-12"], [(3, "12.00")]),
-        (["G0 Z5", "G53 G0 Z-5"], [(2, "5.00")]),
-        (["G20", "G0 Z.2", "G0 Z-.5"], [(3, "12.70")]),
-        (["G0 Z5", "G0 Z-0.009"], []),
-        (["G0 Z5", "G0 Z-0.02"], [(2, "0.02")]),
-        # A hole that is there gives room, as far as it goes, and where it is.
-        (["G1 Z-3 F60", "G0 Z5", "G0 Z-2.5", "G1 Z-5"], []),
-        (["G1 Z-3 F60", "G0 Z5", "G0 Z-4", "G0 Z5"], [(3, "1.00")]),
-        (["G1 Z-3 F60", "G0 Z5", "G0 X1", "G0 Z-3", "G0 Z5"], [(4, "3.00")]),
-        (["G1 Z-3 F60", "G1 X40 F500", "G0 Z5", "G0 X21.3", "G0 Z-3", "G1 Z-4"], []),
-        (["G1 Z-3 F60", "G2 X40 I20 F500", "G0 Z5", "G0 X20 Y20", "G0 Z-3", "G0 Z4"], []),
-        (
-            ["G1 Z-3 F60", "G2 X40 I20 F500", "G0 Z5", "G0 X20 Y19", "G0 Z-3", "G0 Z4"],
-            [(5, "3.00")],
-        ),
-        (["G1 Z-3 F60", "G1 X40 F500", "G0 Z5", "G0 Z-3", "G1 Z-4"], []),
-        # The way up gouges nothing.
-        (["G0 Z-5", "G0 Z-3"], [(1, "5.00")]),
-        # A rapid makes no room, and neither does what is cut later.
-        (["G0 Z-3", "G0 Z5", "G0 Z-3", "G1 Z-4 F60"], [(1, "3.00"), (3, "3.00")]),
-        (["G0 Z2", "G83 X9 Z-6 R1 Q2 F50", "G80"], []),
-        (["G0 Z2", "G81 X9 Z-6 R-1 F50", "G80"], [(2, "1.00")]),
-    ],
-)
-def test_a_rapid_into_wood_that_nothing_has_cut_is_a_gouge(lines, gouges):
-    findings = check_job(MAKER, [*lines, "G0 Z9"]).findings
-    assert [(each.line, each.kind) for each in findings] == [(line, GOUGES) for line, _ in gouges]
-    for finding, (_, deep) in zip(findings, gouges, strict=True):
-        assert finding.says == f"G0 drives the bit {deep} mm down into wood that nothing has cut"
 
 
 def test_a_cut_in_a_corner_is_where_the_chains_cannot_hold_the_sled():
@@ -168,6 +125,25 @@ def test_times_are_those_of_the_ways():
     assert times.asked == pytest.approx(10.0)
     assert times.cutting == pytest.approx(10.0, abs=0.3)
     assert times.whole == pytest.approx(times.cutting + times.rapid + 2.0, abs=0.2)
+
+
+def test_times_are_told_as_the_feeds_ask_and_as_the_cap_allows():
+    lines = [
+        "G0 Z3",
+        "G0 X0 Y0",
+        "G1 X100 F1800",
+        "G1 X190 F600",
+        "G93",
+        "G1 X90 F30",
+        "G1 X90 F30",
+        "G94",
+    ]
+    times = check_job(MAKER, lines, numbers={15: 900}).times
+    assert times.asked == pytest.approx(100 / 30 + 9 + 2, abs=0.02)
+    assert times.capped == pytest.approx(100 / 15 + 9 + 100 / 15, abs=0.02)
+    assert times.cutting == pytest.approx(times.capped, abs=0.5)
+    free = check_job(MAKER, lines[:4], numbers={15: 2000}).times
+    assert free.asked == pytest.approx(free.capped) == pytest.approx(100 / 30 + 9, abs=0.02)
 
 
 def test_cuts_that_lie_apart_are_parts_in_the_order_of_the_program():
@@ -342,6 +318,12 @@ def test_the_command_says_all_of_it(ask, run, tmp_path):
     assert answer["parts"][0]["width_error"]["within"] > 0
     assert b"pocket.nc: nothing is wrong" in picture.read_bytes()
     assert "G0 Z5.000" in outline.read_text()
+    _, capped = ask("check", POCKET, SETTINGS, "--set", "15=500")
+    assert capped["asked_seconds"] == answer["asked_seconds"]
+    assert capped["asked_seconds"] < capped["capped_seconds"] < capped["cutting_seconds"]
+    said = " ".join(run("check", POCKET, SETTINGS, "--set", "15=500")[1].split())
+    assert "s at the feeds asked for, 40 s with none above $15" in said
+    assert "above $15" not in run("check", POCKET, SETTINGS)[1]
     _, slower = ask("check", POCKET, SETTINGS, "--set", "18=6")
     assert slower["asked_seconds"] < slower["cutting_seconds"] < slower["seconds"]
     assert "askew" in run("check", POCKET, SETTINGS, "--marks", MARKS)[1]

@@ -4,6 +4,8 @@ import numpy as np
 from plumb.bench.causes import MAKER
 from plumb.cli.check import _drawn
 from plumb.job.check import check_job
+from plumb.pictures import job as job_picture
+from plumb.pictures.job import draw_job
 
 
 def drawn(*lines):
@@ -13,6 +15,16 @@ def drawn(*lines):
 def ends(ways):
     """The last place of each way [mm]."""
     return [tuple(np.round(way[-1], 3).tolist()) for way in ways]
+
+
+def test_the_piece_is_shaded_by_its_depth_and_seen_whole():
+    picture = draw_job(drawn(*SLOT), form="svg")
+    assert picture.count(b"<image") == 3  # on the sheet, from near, in the legend
+    assert b"depth of the finished piece, 0 to 1.00 mm" in picture
+    low, high = job_picture._near(drawn(*SLOT))
+    assert low[0] < 100 - 6.35 / 2 and high[0] > 140 + 6.35 / 2
+    nothing = draw_job(drawn("G0 Z3", "G0 X9"), form="svg")
+    assert b"<image" not in nothing and b"finished piece" not in nothing
 
 
 SLOT = ("G0 Z3", "G0 X100 Y50", "G1 Z-1 F60", "G1 X140 F600", "G0 Z3")

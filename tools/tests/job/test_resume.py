@@ -243,13 +243,18 @@ def test_a_place_on_the_left_half_needs_no_equals_sign(way, run, tmp_path):
     assert code == 2 and "--at" in complaint
 
 
-def test_the_command_writes_the_program(run, tmp_path):
+def test_the_command_writes_the_program(run, ask, tmp_path):
     output = tmp_path / "rest.nc"
     job = PROGRAMS / "kirimoto_outline.nc"
     code, said, _ = run("resume", job, SETTINGS, "--line", "18", "-o", output)
     assert code == 0 and "goes on with line 11" in said
     assert output.read_text().startswith("(plumb: kirimoto_outline.nc from line 11 on)\nG21")
     assert "Look at it before you send it:" in said and f"{output}" in said
+    code, answer = ask("resume", job, SETTINGS, "--line", "18", "-o", output)
+    assert code == 0 and answer["written"] == [str(output)] and answer["passes"] == []
+    assert (answer["line"], len(answer["begins_mm"])) == (11, 3)
+    code, answer = ask("resume", job, SETTINGS, "--at=-60,65", "-o", output)
+    assert (answer["line"], answer["passes"]) == (13, [13, 20]) and answer["begins_mm"][2] < 0
     code, said, report = run("resume", job, SETTINGS, "--at=-60,65")
     assert "Look at it" not in said + report
     assert code == 0 and "G1 Z-1.0000 F150\n" in said

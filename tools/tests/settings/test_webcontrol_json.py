@@ -16,7 +16,7 @@ from plumb.settings.files import (
 )
 from plumb.settings.ini import SOURCES
 from plumb.text.errors import InputError
-from plumb.text.files import read_ini
+from plumb.text.ini import read_ini
 
 EXAMPLE = Path(__file__).resolve().parents[3] / "docs/example"
 INI = EXAMPLE / "groundcontrol.ini"

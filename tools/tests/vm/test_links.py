@@ -37,13 +37,27 @@ def test_a_link_of_a_killed_machine_is_replaced_even_if_its_number_is_used_again
     terminal, tmp_path
 ):
     link = tmp_path / "maslow"
-    ours = terminal()
     _, shell = os.openpty()
     for left in ("/dev/pts/987654", os.ttyname(shell), str(tmp_path / "nothing")):
         link.unlink(missing_ok=True)
         link.symlink_to(left)
+        ours = terminal()
         ours.link_as(str(link))
         assert os.readlink(link) == ours.path
+        ours.close()
+
+
+def test_a_killed_machines_link_is_replaced_even_if_another_machine_has_its_number(
+    terminal, tmp_path
+):
+    other, ours = terminal(), terminal()
+    other.link_as(str(tmp_path / "other"))
+    link = tmp_path / "maslow"
+    link.symlink_to(other.path)  # as a killed machine left it
+    ours.link_as(str(link))
+    assert os.readlink(link) == ours.path and os.readlink(tmp_path / "other") == other.path
+    ours.close()
+    other.close()
 
 
 def test_what_is_no_machine_keeps_its_name(terminal, tmp_path):

@@ -174,6 +174,14 @@ def test_ctrl_c_ends_the_machine_from_the_moment_that_its_port_is_there(tmp_path
     assert not link.is_symlink() and memory.exists()
 
 
+def test_a_program_gets_the_port_as_an_object(ask, tmp_path):
+    link = tmp_path / "maslow"
+    code, answer = ask("vm", "--link", link, "--seconds", 0.1, "--hide", "chain_sag", "--reveal")
+    assert code == 0 and answer["port"] == str(link) and answer["preload"] is None
+    assert answer["hidden"].startswith("chain_sag")
+    assert ask("vm", "--preload")[1]["preload"].endswith("serial_port.so")
+
+
 def test_opening_the_port_resets_the_board_each_time(served, tmp_path):
     served()
     for _ in range(3):
@@ -202,7 +210,8 @@ def test_a_fresh_machine_knows_no_chains(served, tmp_path):
         (["vm", "--hide", "wind"], "--hide unknown name 'wind'"),
         (["vm", "--mega", "absent.elf"], "cannot read absent.elf"),
         (["vm", "--form", "here"], "--form and --readings go together"),
-        (["vm", "--link", "here"], "cannot be the name of the port"),
+        (["vm", "--link", "here"], "here: is the name of something else; give another --link"),
+        (["vm", "--link", "absent/maslow"], "cannot be the name of the port"),
         (["vm", "--eeprom", "here"], "is no memory of 4096 bytes"),
         (["send", "--port", "absent", "G0 X1"], "absent: cannot be opened; check the cable"),
         (["send", "absent.nc"], "absent.nc: there is no such file"),

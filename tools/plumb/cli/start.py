@@ -1,0 +1,23 @@
+"""The door of the command `plumb`: Ctrl-C ends it quietly, also while its modules load."""
+
+from __future__ import annotations
+
+import signal
+import sys
+
+IGNORED = signal.getsignal(signal.SIGINT) is signal.SIG_IGN  # as in the background of a shell
+if not IGNORED:
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
+
+
+def start() -> int:
+    """Run the command that the words of the command line name; return its exit code."""
+    from plumb.cli.main import main
+
+    if not IGNORED:
+        signal.signal(signal.SIGINT, signal.default_int_handler)
+    return main()
+
+
+if __name__ == "__main__":
+    sys.exit(start())

@@ -1,0 +1,174 @@
+"""What a job takes out of the sheet: a map of heights, and the moves that spoil it or the bit."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from typing import Annotated
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plumb._dry_run import take_wood
+from plumb.job.bits import USUAL_SHEET, Bit, Tools
+from plumb.job.dry_run import IN_WOOD, Flags, Moves, Rows, pieces
+from plumb.job.findings import DEEP, GOUGES, STILL, Finding
+from plumb.model.predict import Array
+from plumb.text.answers import Internal, key
+
+CHORD = 2.0  # [mm] of an arc that is led as straight
+FINE = 8.0  # cells over the radius of the smallest bit
+MOST_CELLS = 8e6
+NARROWEST = 0.75  # of a cell: the least radius that surely covers the middle of one
+GRAZE = 0.2  # of the bit's radius: wood that only its rim meets is no fault of a rapid move
+ON, OFF = (3, 4), (2, 5, 30)  # M codes
+SPOIL = 3.0  # [mm] that a cut may go into what lies under the sheet
+
+
+@dataclass(frozen=True)
+class Piece:
+    """The finished piece."""
+
+    bits: tuple[Bit, ...]
+    thickness: Annotated[float, key("sheet_mm")]
+    is_said: Annotated[bool, key("bit_is_said")]  # by the owner or the program, or it is the usual
+    removed: Annotated[float, key("removed_mm3")]
+    deepest: Annotated[float, key("deepest_mm")]  # below the face
+    line: Annotated[int, key("deepest_line")]
+    corner: Internal[tuple[float, float]]  # [mm] lower left of the heights
+    cell: Internal[float]  # [mm]
+    heights: Internal[NDArray[np.float32]]  # (rows, columns) [mm] from below
+
+    @property
+    def corners(self) -> Array:
+        """Lower left and upper right corner [mm] of the heights, as rows."""
+        rows, columns = self.heights.shape
+        left, low = self.corner
+        return np.array([(left, low), (left + columns * self.cell, low + rows * self.cell)])
+
+
+@dataclass(frozen=True)
+class Taken:
+    """The piece, and how deep each move went into wood that nothing had cut (n,) [mm]."""
+
+    piece: Piece | None  # None where nothing is cut
+    met: Array
+
+
+def take(moves: Moves, tools: Tools) -> Taken:
+    """Lead the bit along moves over the sheet."""
+    cut = moves.cut
+    if not cut.any():
+        return Taken(None, np.zeros(len(moves)))
+    which, bits = tools.at(moves["line"])
+    radii = np.array([bit.diameter / 2 for bit in bits])
+    # A straight way is led in one, so that its depth is that of all of it.
+    samples = moves.sampled(np.where(moves["sweep"] != 0, CHORD, np.inf))
+    move = samples.move
+    places, widest = samples.places[cut[move]], radii[which[cut]].max()
+    low, high = places.min(axis=0) - widest, places.max(axis=0) + widest
+    coarsest = float(np.sqrt(np.prod(high - low) / MOST_CELLS))
+    cell = max(float(radii[which[cut]].min()) / FINE, coarsest)
+    columns, rows = (int(count) for count in np.ceil((high - low) / cell))
+    begins = np.diff(move, prepend=-1) > 0
+    radius = np.where(begins, 0.0, np.maximum(radii, NARROWEST * cell)[which[move]])
+    slope = np.array([bit.slope for bit in bits])[which[move]]
+    ways = np.column_stack([samples.places, samples.z, radius, slope])
+    corner = float(low[0]), float(low[1])
+    heights, deeper = take_wood(corner, (rows, columns), cell, GRAZE, ways)
+    met = np.zeros(len(moves))
+    np.maximum.at(met, move, deeper)
+    depths = -np.minimum(moves["z_from"], moves["z_to"]) * cut
+    piece = Piece(
+        bits=tuple(bits[each] for each in np.unique(which[cut])),
+        thickness=tools.thickness or USUAL_SHEET,
+        is_said=bool(tools.bits),
+        removed=-float(heights.sum(dtype=float)) * cell**2,
+        deepest=float(depths.max()),
+        line=int(moves["line"][np.argmax(depths > depths.max() + IN_WOOD)]),
+        corner=corner,
+        cell=cell,
+        heights=heights,
+    )
+    return Taken(piece, met)
+
+
+def spoiled(moves: Moves, taken: Taken, tools: Tools, lines: Sequence[str]) -> Iterator[Finding]:
+    """Return what spoils the piece, the bit or the sheet: each cause once, with all its lines."""
+    if taken.piece is None:
+        return
+    into = taken.met > -IN_WOOD
+    turns = _turns(moves, lines)
+    first = _causes(into & moves.rapid, moves)
+    foreign = np.array([_is_foreign(lines[int(line) - 1]) for line in moves["line"][first]], bool)
+    falls = (moves["z_to"] < moves["z_from"])[first]
+    for those, says in (
+        (foreign, FROM_TOP),
+        (~foreign & falls, "a rapid move drives the bit {} mm down into wood that nothing has cut"),
+        (~foreign & ~falls, "a rapid move crosses wood that nothing has cut, {} mm deep"),
+    ):
+        if those.any():
+            rows = first[those]
+            deepest = f"{taken.met[rows].max():.2f}"
+            off = "" if turns[rows].any() else ", the spindle off"
+            yield Finding(GOUGES, says.format(deepest) + off, _lines(moves, rows))
+    still = np.flatnonzero(into & ~moves.rapid & ~turns)
+    if len(still):
+        yield Finding(
+            STILL, "cuts with the spindle off: M3 has to stand before it", _lines(moves, still)
+        )
+    yield from _too_deep(moves, taken.piece, tools)
+
+
+FROM_TOP = (
+    "G53 drives the bit {} mm into the wood. Carbide Create means a place near the top of z, but "
+    "here z is 0 at the face of the sheet: write G0 Z5 instead of G53 G0 Z-5"
+)
+FOREIGN = re.compile(r"G53(?!\d).*Z\s*-|Z\s*-.*G53(?!\d)", re.IGNORECASE)
+
+
+def _is_foreign(line: str) -> bool:
+    return bool(FOREIGN.search(line))
+
+
+def _causes(wrong: Flags, moves: Moves) -> Rows:
+    """Rows of the wrong rapid moves, of those that follow on one another in the wood the first."""
+    above = moves["z_to"] >= IN_WOOD
+    stay = np.cumsum(~moves.rapid | above)
+    rows = np.flatnonzero(wrong)
+    _, first = np.unique(stay[rows], return_index=True)
+    return np.asarray(rows[first])
+
+
+def _turns(moves: Moves, lines: Sequence[str]) -> Flags:
+    """Whether the program has the spindle turn in each move; always, where it never starts it."""
+    switched = [(0, False)]
+    for number, line in enumerate(lines, start=1):
+        # The firmware's reader takes its time, and few lines hold an M.
+        for letter, code, _ in pieces(line) if "M" in line.upper() else ():
+            if letter == "M" and code in (*ON, *OFF):
+                switched.append((number, code in ON))
+    if not any(on for _, on in switched):
+        return np.ones(len(moves), dtype=bool)
+    at, states = (np.array(each) for each in zip(*switched, strict=True))
+    return np.asarray(states[np.searchsorted(at, moves["line"], side="right") - 1])
+
+
+def _too_deep(moves: Moves, piece: Piece, tools: Tools) -> Iterator[Finding]:
+    """Cuts through the sheet into what carries it, and cuts deeper than a bit is long."""
+    depth = -np.minimum(moves["z_from"], moves["z_to"]) * moves.cut
+    which, bits = tools.at(moves["line"])
+    lengths = np.array([bit.length or np.inf for bit in bits])[which]
+    for limit, what, option in (
+        (piece.thickness + SPOIL, f"the sheet is {piece.thickness:g} mm thick", "--thickness"),
+        (lengths, f"the bit cuts only {lengths.min():g} mm", "--bit-length"),
+    ):
+        rows = np.flatnonzero(depth > limit)
+        if len(rows):
+            says = f"cuts {depth[rows].max():.2f} mm deep, and {what} ({option} says otherwise)"
+            yield Finding(DEEP, says, _lines(moves, rows))
+
+
+def _lines(moves: Moves, rows: Rows) -> tuple[int, ...]:
+    return tuple(int(line) for line in np.unique(moves["line"][rows]))

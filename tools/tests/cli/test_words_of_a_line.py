@@ -1,0 +1,97 @@
+"""Words of a command line: what is no option, no number, no program."""
+
+import codecs
+from pathlib import Path
+
+import pytest
+from plumb.cli.main import COMMANDS
+from plumb.settings.files import read_settings
+from plumb.text.files import read_text
+
+EXAMPLE = Path(__file__).resolve().parents[3] / "docs/example"
+JOB, SETTINGS, MARKS = (EXAMPLE / name for name in ("pocket.nc", "groundcontrol.ini", "marks.toml"))
+
+
+@pytest.mark.parametrize(
+    ("words", "says"),
+    [
+        (["resume", "--lnie", "5", JOB, SETTINGS], "no option --lnie here; did you mean --line?"),
+        (["resume", JOB, SETTINGS, "--lnie=5"], "no option --lnie here; did you mean --line?"),
+        (["check", "--lnie"], "there is no option --lnie here"),
+        (["--lnie"], "there is no option --lnie here; see plumb --help"),
+        (["--lnie", "check"], "there is no option --lnie here; see plumb --help"),
+        (["resume", JOB, SETTINGS, "--line", "0"], "--line: '0' is too low: it counts from 1"),
+        (["resume", JOB, SETTINGS, "--line", "two"], "'two' is not a whole number, like 100"),
+        (["inverse", SETTINGS], "say which places: X,Y one after the other, or --points FILE"),
+        (["inverse", SETTINGS, "1;2"], "'1;2' is not X,Y"),
+    ],
+)
+def test_a_wrong_word_is_named_and_not_what_stands_behind_it(run, words, says):
+    code, out, complaint = run(*words)
+    assert code == 2 and out == "" and says in complaint
+
+
+def test_what_stands_behind_two_dashes_is_no_option(run):
+    assert "--job.nc: there is no such file" in run("check", "--", "--job.nc", SETTINGS)[2]
+
+
+@pytest.mark.parametrize(
+    ("begin", "says"),
+    [
+        (b"%PDF-1.4\n1 0 obj", "is a PDF, not a text file"),
+        (b"\x89PNG\r\n\x1a\n\0", "is a picture (PNG), not a text file"),
+        (b"\xff\xd8\xff\xe0\0", "is a picture (JPEG), not a text file"),
+        (b"PK\x03\x04\0", "is an archive (ZIP"),
+        (MARKS.read_bytes(), "holds marks, not a program; give a program of G-code"),
+        (SETTINGS.read_bytes(), "holds settings of GroundControl, not a program"),
+        ((EXAMPLE / "machine.toml").read_bytes(), "holds settings of a machine; give a program"),
+        (b'<?xml version="1.0"?>\n<svg/>', "holds a drawing or a page, not a program; let a CAM"),
+        (b"  0\nSECTION\n  2\nHEADER\n", "holds a drawing (DXF), not a program; let a CAM"),
+        (b"# A page\n", "line 1: is no G-code (this begins no word: #)"),
+    ],
+)
+@pytest.mark.parametrize("command", ["check", "resume"])
+def test_what_is_no_program_is_called_what_it_is(run, tmp_path, command, begin, says):
+    path = tmp_path / "file.nc"
+    path.write_bytes(begin)
+    code, out, complaint = run(command, path, SETTINGS, *(["--line", 1] * (command == "resume")))
+    assert code == 2 and out == "" and says in complaint and complaint.count("\n") == 1
+
+
+@pytest.mark.parametrize(
+    ("mark", "coding"), [(codecs.BOM_UTF16_LE, "utf-16-le"), (codecs.BOM_UTF16_BE, "utf-16-be")]
+)
+def test_what_notepad_saves_as_unicode_is_read(run, tmp_path, mark, coding):
+    for path in (JOB, SETTINGS, MARKS):
+        (tmp_path / path.name).write_bytes(mark + path.read_text("utf-8").encode(coding))
+        assert read_text(tmp_path / path.name) == path.read_text("utf-8")
+    assert read_settings(tmp_path / SETTINGS.name) == read_settings(SETTINGS)
+    assert run("check", tmp_path / JOB.name, tmp_path / SETTINGS.name)[0] == 0
+    (tmp_path / "half.nc").write_bytes(mark + b"G")
+    assert "is not" in run("check", tmp_path / "half.nc", SETTINGS)[2]
+
+
+def test_places_stand_on_the_command_line(ask, tmp_path):
+    points = tmp_path / "places.csv"
+    points.write_text("x,y\n100,-50\n-300,20\n")
+    _, in_file = ask("inverse", SETTINGS, "--points", points)
+    code, on_line = ask("inverse", SETTINGS, "100,-50", "-300,20")
+    assert code == 0 and on_line == in_file
+
+
+def test_the_manual_has_each_command_with_its_options(run, capsys):
+    with pytest.raises(SystemExit) as end:
+        run("--man")
+    page = capsys.readouterr().out
+    assert end.value.code == 0 and page.startswith(".TH PLUMB 1\n.SH NAME\nplumb \\- Find and")
+    assert all(f"\n.SS plumb {name}\n" in page for name in COMMANDS)
+    assert "\n.TP\n.B \\-\\-bit MM\ndiameter of the bit [what JOB says" in page
+    assert "\n.TP\n.B JOB\na program of G\\-code\n" in page
+    assert "\n.TP\n.B \\-o FILE, \\-\\-output FILE\n" in page and "%(" not in page
+
+
+def test_a_bare_plumb_shows_its_help_and_completion_knows_fish(run, capsys):
+    for words, said in ((), "usage: plumb"), (("--completion", "fish"), "complete -c plumb"):
+        with pytest.raises(SystemExit) as end:
+            run(*words)
+        assert end.value.code == 0 and said in capsys.readouterr().out
