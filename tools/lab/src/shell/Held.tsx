@@ -25,7 +25,7 @@ export function Held() {
 
 function Question({ held, machine }: { held: HeldAnswer; machine: Machine }) {
   const { take, reload } = useProject();
-  const [busy, run] = useDo();
+  const [busy, run, refusal] = useDo();
   const { file, numbers } = held;
   const takeIn = async () => take(await send<Project>("POST", "machine/settings"));
   const write = async () => {
@@ -64,14 +64,15 @@ function Question({ held, machine }: { held: HeldAnswer; machine: Machine }) {
       </table>
       {numbers.length > SHOWN && <p>and {numbers.length - SHOWN} more.</p>}
       <p class="buttons">
-        <button type="button" disabled={blocked} onClick={() => run(takeIn)}>
+        <button type="button" disabled={blocked} onClick={() => void run(takeIn)}>
           The machine's: take them into the folder
         </button>
         {held.is_written_here && (
-          <button type="button" disabled={blocked} onClick={() => run(write)}>
+          <button type="button" disabled={blocked} onClick={() => void run(write)}>
             Those of {file}: send them to the machine; nothing moves
           </button>
         )}
+        {refusal}
       </p>
       {!held.is_written_here && (
         <p>

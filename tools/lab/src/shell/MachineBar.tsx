@@ -2,19 +2,22 @@
 import { useEffect } from "preact/hooks";
 import { send } from "../api/client";
 import { namedLength } from "../controls/lengths";
+import { useDo } from "./doing";
 import { isReady, type LiveMachine, type Machine, subject } from "./machine";
 import type { Press } from "./presses";
 import { useProject } from "./project";
+import { Reconnect } from "./Reconnect";
 import "./machine-bar.css";
 
 const UNREACHABLE = "Cannot reach the machine: use its power switch";
 
 export function MachineBar({ live }: { live: LiveMachine }) {
   const { machine, presses, press } = live;
-  const { project, setTrouble } = useProject();
+  const { project } = useProject();
+  const [, run, refusal] = useDo();
   const goOn = () => {
     presses.giveUp();
-    send("POST", "machine/go-on").catch((error: Error) => setTrouble(error.message));
+    void run(() => send("POST", "machine/go-on"));
   };
   const unseen = machine.unseen > 0;
   const runs = machine.moves || machine.phase === "busy";
@@ -59,7 +62,9 @@ export function MachineBar({ live }: { live: LiveMachine }) {
           </button>
         </p>
       )}
+      {machine.phase === "lost" && machine.kind === "board" && <Reconnect machine={machine} />}
       {machine.phase === "lost" && <p class="said">{UNREACHABLE}.</p>}
+      {refusal}
       <p class="pressed" role="status">
         {press && pressWords(press)}
       </p>

@@ -114,6 +114,7 @@ function Question(parts: Parts) {
           </button>
         )}
         <GoBack writing={writing} />
+        {writing.notWritten}
       </p>
       <ToMachine writing={writing} isNext={false} isHeld={parts.isHeld} />
     </Screen>
@@ -158,6 +159,7 @@ function Written(parts: Parts) {
       )}
       <p class="buttons">
         <GoBack writing={writing} />
+        {writing.notWritten}
       </p>
     </Screen>
   );

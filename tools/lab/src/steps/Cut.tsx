@@ -64,7 +64,7 @@ function whileRunning({ waits_for, unseen }: Machine): string {
 function Choice({ grid }: { grid: Grid }) {
   const { take, reload } = useProject();
   const machine = useMachine();
-  const [works, run] = useDo();
+  const [works, run, refusal] = useDo();
   const busy = useChoosing() || works;
   const save = async () => take(await send<Project>("POST", "grid"));
   const putBack = async () => take(await send<Project>("DELETE", "next"));
@@ -85,14 +85,14 @@ function Choice({ grid }: { grid: Grid }) {
           type="button"
           class={isCut ? "" : "primary"}
           disabled={busy || !isReady(machine) || grid.trouble !== ""}
-          onClick={() => run(cut)}
+          onClick={() => void run(cut)}
         >
           Move the sled and cut {grid.marks.length} marks
         </button>
       )}
       {grid.is_proposed ? (
         !isCut && (
-          <button type="button" disabled={busy} onClick={() => run(putBack)}>
+          <button type="button" disabled={busy} onClick={() => void run(putBack)}>
             Cut other marks instead
           </button>
         )
@@ -101,7 +101,7 @@ function Choice({ grid }: { grid: Grid }) {
           type="button"
           class={connected ? "" : "primary"}
           disabled={busy || grid.trouble !== ""}
-          onClick={() => run(save)}
+          onClick={() => void run(save)}
         >
           {grid.is_saved ? `Saved: ${grid.program}` : `Save ${grid.program}; nothing moves`}
         </button>
@@ -111,6 +111,7 @@ function Choice({ grid }: { grid: Grid }) {
           Type what your tape says
         </a>
       )}
+      {refusal}
       <p class="note">
         {grid.is_saved
           ? `${grid.program} and ${grid.form} are in your folder.`

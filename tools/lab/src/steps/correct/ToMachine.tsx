@@ -66,6 +66,7 @@ export function ToMachine({ writing, isNext, isHeld }: ToMachineParts) {
           )}
         </p>
       )}
+      {writing.notSent}
       {sent && (
         <>
           <p role="status">

@@ -1,6 +1,6 @@
 // What came of the last cut, and what to do about it.
-import { useState } from "preact/hooks";
 import { type Project, send } from "../../api/client";
+import { useDo } from "../../shell/doing";
 import { isReady, useMachine } from "../../shell/machine";
 import { useProject } from "../../shell/project";
 import type { Grid } from "../Cut";
@@ -15,7 +15,7 @@ export function Outcome({ grid }: { grid: Grid }) {
     done: "All marks are cut.",
     stopped: `Stopped after ${share}. The machine knows where it is. Cutting again begins at the first mark.`,
     refused: `The machine refused a line after ${share}. Read what it says below, then cut again.`,
-    lost: `The line was lost after ${share}. Nothing that you typed is lost. Connect the machine again, set its chains, then cut again.`,
+    lost: `The line was lost after ${share}. Nothing that you typed is lost. Connect the machine again in the bar below, set its chains, then cut again.`,
   }[program.outcome];
   const isThis = program.title === grid.program;
   if (!words || (!isThis && grid.is_proposed)) return null;
@@ -23,11 +23,6 @@ export function Outcome({ grid }: { grid: Grid }) {
     <section class={`outcome ${program.outcome}`} role="status">
       <p>{words}</p>
       {program.outcome === "done" && <Done grid={grid} waits={isThis ? grid.waits : 0} />}
-      {program.outcome === "lost" && machine.phase === "lost" && (
-        <a class="button" href="#/open">
-          Connect the machine again
-        </a>
-      )}
     </section>
   );
 }
@@ -39,38 +34,36 @@ interface DoneParts {
 }
 
 function Done({ grid, waits }: DoneParts) {
-  const { take, setTrouble } = useProject();
+  const { take } = useProject();
   const machine = useMachine();
-  const [busy, setBusy] = useState(false);
+  const [busy, run, refusal] = useDo();
   if (waits === 0)
     return (
       <a class="button" href="#/readings">
         Look at the readings
       </a>
     );
-  const read = () => {
-    setBusy(true);
-    send<Project>("POST", "machine/readings", { form: grid.form })
-      .then(
-        (project) => {
-          take(project);
-          setTrouble("");
-          location.hash = "#/readings";
-        },
-        (error: Error) => setTrouble(error.message),
-      )
-      .finally(() => setBusy(false));
-  };
+  const read = () =>
+    run(async () => {
+      take(await send<Project>("POST", "machine/readings", { form: grid.form }));
+      location.hash = "#/readings";
+    });
   return (
     <>
       {machine.kind === "virtual" && (
-        <button type="button" class="primary" disabled={busy || !isReady(machine)} onClick={read}>
+        <button
+          type="button"
+          class="primary"
+          disabled={busy || !isReady(machine)}
+          onClick={() => void read()}
+        >
           Let a tape read the {waits} marks
         </button>
       )}{" "}
       <a class="button" href="#/readings">
         Type what your tape says
       </a>
+      {refusal}
     </>
   );
 }
