@@ -92,8 +92,8 @@ class MachineLine:
         return worker.silence if worker and not self.virtual else 0.0
 
     def connect_board(self, path: str) -> None:
-        """Connect the board at a serial port, or at a link to one. Raises InputError for what is no
-        port.
+        """Connect the board at a serial port, or at a link to a port. Raises InputError for what
+        is no port.
         """
         port = _port_at(path)
         with self._lock:

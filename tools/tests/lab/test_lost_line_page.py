@@ -1,4 +1,4 @@
-"""A line that is lost, and a port that is refused: one state everywhere, and help at the control."""
+"""A line that is lost, and a port that is refused: one state, and help at the control."""
 
 import pytest
 from folder import got
@@ -14,7 +14,8 @@ def lost(lab, page, cable):
     path, pulled = cable
     page.goto(lab.url)
     got(lab.client().post("/api/machine/board", json={"port": path}))
-    expect(page.get_by_role("heading", name=f"{path} is connected")).to_be_visible(timeout=PATIENCE)
+    connected = page.get_by_role("heading", name=f"{path} is connected")
+    expect(connected).to_be_visible(timeout=PATIENCE)
     expect(bar(page)).to_contain_text("stands", timeout=PATIENCE)
     pulled.set()
     expect(bar(page)).to_contain_text("the line is lost", timeout=PATIENCE)

@@ -24,8 +24,9 @@ const PROPOSED =
 export function Cut() {
   const { project } = useProject();
   // The program as it would be written now; asked again when a file or a choice is saved.
-  const grid = useNewest<Grid>("grid", JSON.stringify(project.files));
   const machine = useMachine();
+  const outcome = machine.program?.outcome ?? "";
+  const grid = useNewest<Grid>("grid", JSON.stringify([project.files, outcome, machine.name]));
   if (!grid) return <Screen title="Cut the marks" say="One moment …" busy />;
   const runs = machine.program?.title === grid.program && machine.program.outcome === "running";
   return (
@@ -68,8 +69,8 @@ function Choice({ grid }: { grid: Grid }) {
   const busy = useChoosing() || works;
   const save = async () => take(await send<Project>("POST", "grid"));
   const putBack = async () => take(await send<Project>("DELETE", "next"));
-  const cut = async () => {
-    await send("POST", "grid/cut");
+  const cut = async (path: "cut" | "go-on") => {
+    await send("POST", `grid/${path}`);
     await reload();
   };
   if (machine.kind !== "none" && machine.phase !== "lost" && !machine.knows_place)
@@ -77,17 +78,29 @@ function Choice({ grid }: { grid: Grid }) {
   const connected = machine.kind !== "none" && machine.phase !== "lost";
   // The primary button is then that of the readings.
   const isCut = machine.program?.title === grid.program && machine.program.outcome === "done";
+  const goesOn = grid.goes_on ? grid.marks[grid.broke_off ?? 0] : undefined;
   return (
     <div class="choice">
       {grid.last_form && !grid.is_proposed && <NewSheet grid={grid} />}
+      {connected && goesOn && (
+        <button
+          type="button"
+          class="primary"
+          disabled={busy || !isReady(machine) || grid.trouble !== ""}
+          onClick={() => void run(() => cut("go-on"))}
+        >
+          Go on: move the sled and cut from mark {goesOn.name}
+        </button>
+      )}
       {connected && (
         <button
           type="button"
-          class={isCut ? "" : "primary"}
+          class={isCut || goesOn ? "" : "primary"}
           disabled={busy || !isReady(machine) || grid.trouble !== ""}
-          onClick={() => void run(cut)}
+          onClick={() => void run(() => cut("cut"))}
         >
-          Move the sled and cut {grid.marks.length} marks
+          {grid.broke_off == null ? "Move" : "Begin again: move"} the sled and cut{" "}
+          {grid.marks.length} marks
         </button>
       )}
       {grid.is_proposed ? (

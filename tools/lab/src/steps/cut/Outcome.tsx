@@ -8,23 +8,39 @@ import type { Grid } from "../Cut";
 export function Outcome({ grid }: { grid: Grid }) {
   const machine = useMachine();
   const { program } = machine;
-  if (!program || !/^(grid|more)/.test(program.title)) return null;
-  const share = `${program.done} of ${program.total} lines`;
-  const words = {
-    running: "",
-    done: "All marks are cut.",
-    stopped: `Stopped after ${share}. The machine knows where it is. Cutting again begins at the first mark.`,
-    refused: `The machine refused a line after ${share}. Read what it says below, then cut again.`,
-    lost: `The line was lost after ${share}. Nothing that you typed is lost. Connect the machine again in the bar below, set its chains, then cut again.`,
-  }[program.outcome];
-  const isThis = program.title === grid.program;
-  if (!words || (!isThis && grid.is_proposed)) return null;
+  const isThis = program?.title === grid.program;
+  const isRound = program && /^(grid|more)/.test(program.title) && (isThis || !grid.is_proposed);
+  const outcome = isRound ? program.outcome : undefined;
+  if (outcome === "running") return null;
+  const ended = outcome && ENDED[outcome];
+  const broke = brokenWords(grid, machine.kind !== "none" && machine.phase !== "lost");
+  const isCut = outcome === "done" || grid.broke_off === grid.marks.length;
+  if (!ended && !broke) return null;
   return (
-    <section class={`outcome ${program.outcome}`} role="status">
-      <p>{words}</p>
-      {program.outcome === "done" && <Done grid={grid} waits={isThis ? grid.waits : 0} />}
+    <section class={`outcome ${outcome ?? "lost"}`} role="status">
+      <p>
+        {ended} {broke}
+      </p>
+      {isCut && <Done grid={grid} waits={isThis || broke ? grid.waits : 0} />}
     </section>
   );
+}
+
+const ENDED = {
+  done: "All marks are cut.",
+  stopped: "Stopped. The machine knows where it is.",
+  refused: "The machine refused a line; read what it says below.",
+  lost: "The line was lost. Nothing that you typed is lost. Connect it again in the bar below, and set its chains.",
+};
+
+/** How far the cut came, as the folder knows it: after a restart of the lab too. */
+function brokenWords({ broke_off, goes_on, marks }: Grid, connected: boolean): string {
+  if (broke_off == null) return "";
+  const next = marks[broke_off];
+  if (!next) return "All marks are cut; the sled was on its way back.";
+  const begin = connected ? "Begin again" : "Connect the machine and begin again";
+  const ways = goes_on ? `${begin}, or go on from mark ${next.name}.` : `${begin}.`;
+  return `Cut ${broke_off} of ${marks.length} marks, then it broke off. ${ways}`;
 }
 
 interface DoneParts {
