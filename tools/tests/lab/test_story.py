@@ -141,7 +141,7 @@ def test_from_an_empty_folder_to_a_machine_whose_error_has_fallen(lab, page):
     expect(page.get_by_text(f"As set: {first:.2f} mm")).to_be_visible()
     visit.go_to("Correct")
     turned = page.get_by_role("region", name="By hand")
-    expect(turned).to_contain_text("lower its right end by", timeout=PATIENCE)
+    expect(turned).to_contain_text("lower the right end of the next sheet by", timeout=PATIENCE)
     count, promised = accept_one_by_one(visit)
     write_and_send(visit, count)
     checked = check_two_marks(visit)

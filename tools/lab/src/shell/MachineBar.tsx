@@ -35,8 +35,9 @@ export function MachineBar({ live }: { live: LiveMachine }) {
   const share = program?.outcome === "running" ? program.done / Math.max(1, program.total) : null;
   return (
     <section class={`machine-bar ${tone(machine)}`} aria-label="The machine">
-      <p class={unseen ? "state old" : "state"} role="status">
-        <strong>{stateWords(machine)}</strong>
+      <p class={unseen ? "state old" : "state"}>
+        <strong role="status">{stateWords(machine)}</strong>
+        <strong>{countWords(machine)}</strong>
         {machine.place && machine.knows_place && (
           <span class="place">{placeWords(machine.place, project.choices.units ?? "mm")}</span>
         )}
@@ -99,18 +100,24 @@ function tone(machine: Machine): string {
   return machine.moves || machine.phase === "busy" ? "moves" : "";
 }
 
+/** How far it is, which changes many times a second: shown, and not spoken. */
+function countWords({ unseen, holds, phase, program }: Machine): string {
+  if (unseen > 0) return ` ${unseen} s ago`;
+  if (holds || phase !== "busy" || program?.outcome !== "running") return "";
+  return `: ${program.done} of ${program.total} lines`;
+}
+
 /** What the machine does, in a few words. */
 function stateWords(machine: Machine): string {
   const { phase, program } = machine;
   const name = subject(machine);
-  if (machine.unseen > 0) return `${name}: last seen ${machine.unseen} s ago`;
+  if (machine.unseen > 0) return `${name}: last seen`;
   if (phase === "lost") return `${name}: the line is lost`;
   if (phase === "connecting") return `${name}: connecting`;
   if (phase === "stopping") return `${name} stops`;
   if (machine.waits_for) return `${name} waits for you`;
   if (machine.holds) return `${name} holds`;
-  if (phase === "busy" && program?.outcome === "running")
-    return `${name} runs ${program.title}: ${program.done} of ${program.total} lines`;
+  if (phase === "busy" && program?.outcome === "running") return `${name} runs ${program.title}`;
   if (machine.moves) return `${name} moves`;
   return isReady(machine) ? `${name} stands` : `${name} works`;
 }

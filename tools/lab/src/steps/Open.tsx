@@ -63,7 +63,7 @@ function Opened({ machine }: { machine: NonNullable<Project["machine"]> }) {
 
 /** Takes a file that is picked or dropped. */
 function SettingsFile() {
-  const { take } = useProject();
+  const { project, take } = useProject();
   const [over, setOver] = useState(false);
   const [, run, refusal] = useDo();
   const open = async (file: File | undefined) => {
@@ -83,7 +83,9 @@ function SettingsFile() {
         void open(event.dataTransfer?.files[0]);
       }}
     >
-      <span>Settings' file</span>
+      <span>
+        {project.machine ? `${project.machine.file} is open; open another` : "Settings' file"}
+      </span>
       <small>groundcontrol.ini, webcontrol.json or machine.toml: pick it, or drop it here</small>
       <input
         type="file"
