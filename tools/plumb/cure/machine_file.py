@@ -56,8 +56,8 @@ def turn_sentences(result: Addition) -> list[str]:
     rise = result.sheet_rise
     which = "raise" if rise > 0 else "lower"
     return [
-        f"no setting holds the sheet's rotation: {which} its right end by {worded(abs(rise))} over "
-        f"its width of {worded(result.settings.sheet_width, 0)}"
+        f"no setting holds the sheet's rotation: {which} the right end of the next sheet by "
+        f"{worded(abs(rise))} over its width of {worded(result.settings.sheet_width, 0)}"
     ]
 
 

@@ -127,9 +127,8 @@ def _promised(
     settings: MachineSettings, measurements: Measurements, outside: Mapping[str, float]
 ) -> FitRecord | None:
     """Return the record of the fit, if all its boards are here, cut as it took them."""
-    digests = {file_round.digest for file_round in measurements.rounds}
     record = settings.fitted
-    whole = record and {board.digest for board in record.boards} == digests
+    whole = record and record.is_of([file_round.digest for file_round in measurements.rounds])
     return record if whole and outside else None
 
 

@@ -116,7 +116,30 @@ def stops_of(grid: Grid, machine: PlainMachine) -> list[tuple[str, tuple[float, 
     stops: list[tuple[str, tuple[float, float]]] = []
     for mark in touches_of(grid, machine):
         stops += [(f"the lead-in of {mark}", lead_in(mark)), (str(mark), (mark.x, mark.y))]
-    return [("the start", (0.0, 0.0)), *stops, ("the end", (0.0, 0.0))]
+    return [("the start", (0.0, 0.0)), *stops, ("the end", rest_after(touches_of(grid, machine)))]
+
+
+UNDER = 260.0  # [mm] around the bit: what is nearer lies under the sled, and no tape reaches it
+RASTER = 50.0  # [mm] between places that are looked at
+
+
+def rest_after(marks: Sequence[Touch]) -> tuple[float, float]:
+    """x, y [mm] where the sled rests after the last mark: no mark lies under it, if that can be.
+
+    The nearest such place to the middle, and never above it: a sled that is high may sink.
+    """
+    across, down = [0.0, *(mark.x for mark in marks)], [0.0, *(min(mark.y, 0.0) for mark in marks)]
+    places = [
+        (x * RASTER, y * RASTER)
+        for x in range(math.ceil(min(across) / RASTER), math.floor(max(across) / RASTER) + 1)
+        for y in range(math.ceil(min(down) / RASTER), 1)
+    ]
+
+    def order(place: tuple[float, float]) -> tuple[float, float]:
+        clear = min(math.dist(place, (mark.x, mark.y)) for mark in marks)
+        return max(0.0, UNDER - clear), math.hypot(*place)
+
+    return min(places, key=order)
 
 
 # The community's Calibration Benchmark Test: its places, its spans, and the form for its readings.

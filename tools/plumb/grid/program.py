@@ -11,6 +11,7 @@ from plumb.grid.pattern import (
     check,
     lead_in,
     listed,
+    rest_after,
     spans_line,
     spans_of,
     touches_of,
@@ -49,7 +50,9 @@ def program(grid: Grid, machine: PlainMachine) -> str:
             f"G1 {word('Z', -grid.depth)} {word('F', PLUNGE_FEED)}",
             up,
         ]
-    return "\n".join([*lines, "(back to the middle)", "G0 X0 Y0", ""])
+    x, y = rest_after(touches)
+    lines += ["(to a place where the sled hides no mark)", f"G0 {word('X', x)} {word('Y', y)}"]
+    return "\n".join([*lines, ""])
 
 
 # The form for the tape's readings: a marks.toml that waits for them.

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import re
 from collections.abc import Callable, Iterator, Mapping
 from concurrent.futures import Future
@@ -59,6 +60,14 @@ def ports() -> list[Port]:
     return sorted(each, key=lambda port: (not port.is_board, port.path))
 
 
+def _port_at(path: str) -> str:
+    """Return the serial port of this name, or that a link of this name leads to."""
+    port = os.path.realpath(path) if os.path.islink(path) else path
+    if not PORT.fullmatch(port) or ".." in port:
+        raise InputError(f"{path!r} is no serial port: choose one, or type a name like COM3")
+    return port
+
+
 class MachineLine:
     """A line at most, which all tabs share."""
 
@@ -83,19 +92,21 @@ class MachineLine:
         return worker.silence if worker and not self.virtual else 0.0
 
     def connect_board(self, path: str) -> None:
-        """Connect the board at a serial port. Raises InputError for what is no port."""
-        if not PORT.fullmatch(path) or ".." in path:
-            raise InputError(f"{path!r} is no serial port: choose one, or type a name like COM3")
+        """Connect the board at a serial port, or at a link to a port. Raises InputError for what
+        is no port.
+        """
+        port = _port_at(path)
         with self._lock:
             same, was = path == self.name, self._let_go()
             self.name, self.virtual, self._port = path, None, None
-            knows_place = was.knows_place or not same
+            # A board that was lost may come back at another port.
+            knows_place = was.knows_place or not (same or was.phase == "lost")
             before = self._before
 
             def opened() -> SerialPort:
                 if before:
                     before.await_end()
-                return SerialPort(path)
+                return SerialPort(port)
 
             self._worker = LineWorker(opened, knows_place=knows_place)
 

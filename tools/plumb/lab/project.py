@@ -23,8 +23,9 @@ from plumb.text.files import links_refused, opened, write_all
 
 # A name is a single word without a folder, so no name from outside leads out of the project.
 NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_.-]{0,63}")
-# Settings as they were when marks were cut with them; the lab keeps them.
-KEPT = re.compile(r"\.settings-[0-9a-f]{16}\.(ini|json|toml)")
+CUT = ".cut.json"  # how far a cut came
+# What the lab keeps for itself: that, and settings as they were when marks were cut with them.
+KEPT = re.compile(r"\.settings-[0-9a-f]{16}\.(ini|json|toml)|" + re.escape(CUT))
 MISSING = ""  # digest of a file that does not exist
 LOCK = ".lab.lock"
 

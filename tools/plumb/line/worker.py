@@ -140,19 +140,28 @@ class LineWorker:
         then: Callable[[Sender], None] = lambda sender: None,
         *,
         paused: Callable[[int], None] = lambda lines: None,
+        taken: Callable[[int], None] = lambda lines: None,
+        before: int = 0,
     ) -> None:
         """Send a program; `then` is called when the machine rests after it, and `paused` at each of
-        its pauses with how many lines the machine took before.
+        its pauses with how many lines the machine took before. `taken` hears how many it took.
+        `before`: those that it took on an earlier day; these here are the rest.
 
         Raises InputError for lines that cannot be sent, and while there is other work.
         """
         clean = list(cleaned(lines))
-        progress = Progress(title, 0, len(clean), waits=tuple(waits_in(lines)))
+        progress = Progress(title, before, before + len(clean), waits=tuple(waits_in(lines)))
+
+        def answered(done: int) -> None:
+            now = self._state.program
+            assert now is not None
+            self._note(program=replace(now, done=before + done))
+            taken(before + done)
 
         def sending(sender: Sender) -> _Done:
             self._paused = paused
             try:
-                sender.stream(clean, answered=self._note_done)
+                sender.stream(clean, answered=answered)
                 self._await_rest(sender)
                 then(sender)
             except StoppedError:
@@ -210,12 +219,6 @@ class LineWorker:
     def _note(self, **changes: Any) -> None:
         with self._lock:
             self._state = replace(self._state, **changes)
-
-    def _note_done(self, done: int) -> None:
-        """Note how many lines of the program the machine took."""
-        program = self._state.program
-        assert program is not None
-        self._note(program=replace(program, done=done))
 
     def _finished(self, outcome: Literal["done", "stopped", "refused"], trouble: str) -> _Done:
         program = self.state.program

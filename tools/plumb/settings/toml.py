@@ -6,7 +6,7 @@ import json
 import math
 import re
 import tomllib
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field, fields, replace
 from os import PathLike
 from typing import Any
@@ -366,6 +366,10 @@ class FitRecord:
     def last_sheet_rotation(self) -> float:
         """[rad] counter-clockwise, of the sheet that was fitted last."""
         return self.sheet_rotation + (self.boards[-1].sheet[2] if self.boards else 0.0)
+
+    def is_of(self, digests: Collection[str]) -> bool:
+        """Return whether just the boards with these readings were fitted."""
+        return {board.digest for board in self.boards} == set(digests)
 
     def board(self, digest: str) -> FittedBoard | None:
         """Return the board with these readings."""

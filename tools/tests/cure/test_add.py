@@ -104,7 +104,7 @@ def test_the_sheet_is_to_be_turned_back():
     result = add(Inputs(BELIEVED, turned), effects=["chain_sag"])
     assert result.sheet_rise == pytest.approx(0.002 * 2438.4, rel=0.01)
     (sentence,) = turn_sentences(result)
-    assert "raise its right end by 4.88 mm" in sentence
+    assert "raise the right end of the next sheet by 4.88 mm" in sentence
 
 
 @pytest.mark.parametrize(("turn", "said"), [(0.0001, 0), (-0.0001, 0), (0.0006, 1), (-0.0006, 1)])

@@ -15,6 +15,8 @@ import pytest
 
 TOOL = Path(__file__).resolve().parents[2] / "calibration_grid.py"
 
+SLED = 229.0  # [mm] radius of the largest usual sled, 18 inch across
+
 Move = namedtuple("Move", "code start end feed")  # places [mm], feed [mm/min]
 
 CHOICES = [
@@ -131,12 +133,28 @@ def test_every_mark_is_entered_along_the_approach(options):
 
 
 @pytest.mark.parametrize("options", CHOICES)
-def test_the_program_starts_by_raising_the_bit_and_ends_raised_in_the_middle(options):
+def test_the_program_starts_by_raising_the_bit_and_ends_raised_where_the_sled_hides_no_mark(
+    options,
+):
     grid = grids.Grid(**options)
     made = moves(gcode(**options))
     assert made[0].start[:2] == made[0].end[:2]
     assert made[0].end[2] == grid.safe_height
-    assert made[-1].end == (0.0, 0.0, grid.safe_height)
+    x, y, z = made[-1].end
+    assert z == grid.safe_height and y <= 0
+    clear = min(math.dist((x, y), (mark.x, mark.y)) for mark in touches(**options))
+    assert clear > (SLED if grid.columns < 7 else 190)  # 7 x 5 marks leave no room for a sled
+
+
+def test_the_sled_rests_near_the_middle_and_never_on_a_mark_though_marks_are_dense():
+    def rest(*places):
+        return grids.pattern.rest_after([grids.pattern.Touch("", *place, 0) for place in places])
+
+    assert rest((900, 400), (-900, -400)) == (0, 0)
+    assert rest((0, 0), (-900, -400)) == (-250, -100)
+    dense = [(x, y) for x in range(-300, 301, 100) for y in range(-300, 301, 100)]
+    x, y = rest(*dense)
+    assert min(math.dist((x, y), place) for place in dense) == pytest.approx(math.hypot(50, 50))
 
 
 @pytest.mark.parametrize("options", CHOICES)

@@ -89,7 +89,7 @@ def test_by_hand_is_about_the_sheet_that_hangs_there_now(client, tmp_path):
     recorded = record_of(made, inputs)
     assert made.sheet_rise == pytest.approx(recorded.sheet_rise(WIDTH))
     (said,) = turn_sentences(made)
-    assert f"raise its right end by {made.sheet_rise:.2f} mm" in said
+    assert f"raise the right end of the next sheet by {made.sheet_rise:.2f} mm" in said
 
 
 @pytest.mark.parametrize(("turn", "said"), [(0.0, 0), (0.0001, 0), (-0.003, 1)])

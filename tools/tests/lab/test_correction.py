@@ -81,7 +81,7 @@ def test_what_a_setting_holds(name, expected):
 
 def test_written_opened_and_taken_back(client, tmp_path):
     before = shown(client)["correction"]
-    assert before["rms_accepted"] is None
+    assert before["rms_accepted"] is None and not before["is_written"]
     names = [number["name"] for number in before["numbers"]]
     gap = before["numbers"][names.index("motor_gap")]
     assert gap["unit"] == "mm" and float(gap["margin"]) > 0 and gap["possible"]
@@ -98,6 +98,7 @@ def test_written_opened_and_taken_back(client, tmp_path):
     assert compared(tmp_path).rms == pytest.approx(before["rms_all"], abs=0.02)
     (entry,) = read_diary(tmp_path).of_kind("fit")
     assert entry.content["machine"] == "machine.toml"
+    assert shown(client)["correction"]["is_written"]
     undone = client.post("/api/correction/undo", json=known(client)).json()
     assert undone["file"] == "groundcontrol.ini"
     assert compared(tmp_path).rms == pytest.approx(before["rms_set"])

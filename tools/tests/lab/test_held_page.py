@@ -40,7 +40,7 @@ def test_nothing_is_cut_before_it_is_said_which_numbers_hold(lab, page):
 
 def test_the_files_numbers_go_into_the_machine_as_the_other_answer(lab, page):
     with_another_file(lab, page)
-    question(page).get_by_role("button", name="write them into the machine").click()
+    question(page).get_by_role("button", name="send them to the machine").click()
     expect(question(page)).to_have_count(0, timeout=PATIENCE)
     (before,) = lab.folder.glob("*-before-*.nc")
     assert "$2=2978.4\n" in before.read_text()

@@ -72,6 +72,17 @@ def test_only_a_serial_port_is_opened(ask, port):
     assert ask("GET", "machine")["kind"] == "none"
 
 
+def test_a_link_leads_to_its_port_and_to_nothing_else(ask, cable, tmp_path):
+    port, _ = cable
+    link, other = tmp_path / "maslow", tmp_path / "other"
+    link.symlink_to(port)
+    other.symlink_to("/etc/passwd")
+    ask("POST", "machine/board", port=str(link))
+    state = until(ask, lambda state: state["phase"] == "ready")
+    assert state["name"] == str(link)
+    assert "is no serial port" in ask("POST", "machine/board", 422, port=str(other))["error"]
+
+
 def test_a_port_that_is_not_there_is_said(ask):
     ask("POST", "machine/board", port="/dev/ttyNOWHERE")
     state = until(ask, lambda state: state["phase"] == "lost")
@@ -153,7 +164,8 @@ def test_the_live_line_is_for_our_page_alone(lab):
             pass
 
 
-def test_a_line_that_was_lost_in_mid_cut_does_not_know_the_place_when_it_is_back(monkeypatch):
+@pytest.mark.parametrize("port", ["/dev/ttyACM0", "/dev/ttyACM1"])
+def test_a_line_that_was_lost_in_mid_cut_does_not_know_the_place_when_it_is_back(monkeypatch, port):
     class Gone:
         def __init__(self, path):
             self.left, self.said = 200, b""
@@ -182,10 +194,10 @@ def test_a_line_that_was_lost_in_mid_cut_does_not_know_the_place_when_it_is_back
     wait_for(line, "ready")
     line.worker.send("job.nc", ["G1 X1"] * 100)
     wait_for(line, "lost")
-    line.connect_board("/dev/ttyACM0")
+    line.connect_board(port)
     wait_for(line, "ready")
     assert not line.state.knows_place
-    line.connect_board("/dev/ttyACM1")
+    line.connect_board("/dev/ttyACM7")
     wait_for(line, "ready")
     assert line.state.knows_place
     line.disconnect()

@@ -54,7 +54,7 @@ def test_a_stop_that_nobody_heard_stops_the_machine_as_soon_as_the_lab_hears(lab
     expect(shown.get_by_role("button", name=UNREACHABLE)).to_be_visible()
     lab.process.send_signal(signal.SIGCONT)
     expect(shown).to_contain_text("Stop was passed on to the machine.")
-    expect(cutting.get_by_text("Stopped after")).to_be_visible()
+    expect(cutting.get_by_text("Stopped. The machine knows")).to_be_visible()
     expect(shown.get_by_role("button", name="Stop", exact=True)).to_be_visible()
 
 
@@ -65,7 +65,7 @@ def test_stop_comes_through_while_the_browser_has_no_connection_left(lab, cuttin
     cutting.evaluate(lines)
     bar(cutting).get_by_role("button", name="Stop", exact=True).click()
     expect(bar(cutting)).to_contain_text("Stop was passed on to the machine.")
-    expect(cutting.get_by_text("Stopped after")).to_be_visible()
+    expect(cutting.get_by_text("Stopped. The machine knows")).to_be_visible()
 
 
 def test_a_machine_whose_line_is_lost_is_stopped_at_its_power_switch(lab, page, cable):

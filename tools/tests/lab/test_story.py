@@ -88,14 +88,14 @@ def write_and_send(visit, count):
     expect(wanted).to_have_text(f"Write {count} numbers into machine-2.toml", timeout=PATIENCE)
     visit.press(f"Write {count} numbers into machine-2.toml")
     visit.see("Written: machine-2.toml")
-    expect(wanted).to_have_text(re.compile("^Write machine-2.toml into"), timeout=PATIENCE)
+    expect(wanted).to_have_text(re.compile("^Send machine-2.toml to virtual"), timeout=PATIENCE)
     written = read_settings(visit.folder / "machine-2.toml")
     before = read_settings(visit.folder / "machine.toml").motor_gap
     assert visit.number(GAP) == before != pytest.approx(written.motor_gap, abs=1)
     for press, now in (
-        ("Write machine-2.toml into virtual machine", written.motor_gap),
+        ("Send machine-2.toml to virtual machine", written.motor_gap),
         ("Give back its numbers from before machine-2.toml", before),
-        ("Write machine-2.toml into virtual machine", written.motor_gap),
+        ("Send machine-2.toml to virtual machine", written.motor_gap),
     ):
         rows = visit.page.locator(".to-machine tbody tr")
         visit.press(press)
@@ -111,6 +111,9 @@ def write_and_send(visit, count):
         visit.go_to("Correct")
         back = visit.page.get_by_role("button", name="Give back its numbers from before")
         expect(back).to_be_enabled(timeout=PATIENCE)
+        # What comes next is said by what the machine holds, not by what was pressed.
+        comes_next = "Send machine-2.toml" if kind == "old" else "Check it with two marks"
+        expect(wanted).to_contain_text(comes_next, timeout=PATIENCE)
     assert len(list(visit.folder.glob("machine-2-before-*.nc"))) >= 1
 
 
@@ -138,7 +141,7 @@ def test_from_an_empty_folder_to_a_machine_whose_error_has_fallen(lab, page):
     expect(page.get_by_text(f"As set: {first:.2f} mm")).to_be_visible()
     visit.go_to("Correct")
     turned = page.get_by_role("region", name="By hand")
-    expect(turned).to_contain_text("lower its right end by", timeout=PATIENCE)
+    expect(turned).to_contain_text("lower the right end of the next sheet by", timeout=PATIENCE)
     count, promised = accept_one_by_one(visit)
     write_and_send(visit, count)
     checked = check_two_marks(visit)

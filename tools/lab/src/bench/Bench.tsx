@@ -1,6 +1,7 @@
 // The bench for effects: add and take away, and see at once what is left of the errors.
 import { useState } from "preact/hooks";
 import { type Project, send } from "../api/client";
+import { useDo } from "../shell/doing";
 import { useNewest } from "../shell/newest";
 import { useProject } from "../shell/project";
 import { Screen } from "../shell/Screen";
@@ -73,25 +74,22 @@ function OpenBench({ bench }: { bench: Board }) {
 
 /** The button that writes the file of the new machine. */
 function Write({ bench, choice }: { bench: Board; choice: Choice }) {
-  const { project, take, setTrouble } = useProject();
+  const { project, take } = useProject();
+  const [busy, run, refusal] = useDo();
   const [written, setWritten] = useState("");
   const key = JSON.stringify(choice);
   const write = async () => {
     const read = project.files[bench.new_machine] ?? "";
-    try {
-      take(await send<Project>("POST", "bench/machine", { ...choice, read }));
-      setWritten(key);
-      setTrouble("");
-    } catch (error) {
-      setTrouble(error instanceof Error ? error.message : String(error));
-    }
+    take(await send<Project>("POST", "bench/machine", { ...choice, read }));
+    setWritten(key);
   };
   return (
     <p class="write">
-      <button type="button" class="primary" onClick={() => void write()}>
+      <button type="button" class="primary" disabled={busy} onClick={() => void run(write)}>
         Write these numbers to {bench.new_machine}
       </button>{" "}
       <span role="status">{written === key && `${bench.new_machine} is written.`}</span>
+      {refusal}
     </p>
   );
 }

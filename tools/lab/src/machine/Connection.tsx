@@ -1,14 +1,12 @@
 // Connects a machine: a board at a port, or a virtual machine to try; afterwards its settings can be read.
-import { useEffect, useState } from "preact/hooks";
-import { get, isSilence, type Project, type Schemas, send } from "../api/client";
+import { useState } from "preact/hooks";
+import { get, type Project, send } from "../api/client";
 import { LOOK_MS } from "../api/patience";
 import { useDo } from "../shell/doing";
-import { Lookout } from "../shell/lookout";
 import { type Machine, subject, useMachine } from "../shell/machine";
+import { usePorts } from "../shell/ports";
 import { useProject } from "../shell/project";
 import "./connection.css";
-
-type Port = Schemas["Port"];
 
 export function Connection() {
   const machine = useMachine();
@@ -17,65 +15,68 @@ export function Connection() {
 }
 
 function Ways() {
-  const [ports, setPorts] = useState<Port[]>([]);
-  const [typed, setTyped] = useState("");
-  const [busy, run] = useDo();
-  useEffect(() => {
-    const lookout = new Lookout(() => get<Port[]>("machine/ports", LOOK_MS), isSilence, {
-      state: setPorts,
-      silence: (is) => is && setPorts([]),
-      refusal: () => setPorts([]),
-    });
-    void lookout.look();
-    const timer = setInterval(() => void lookout.look(), 3000);
-    return () => clearInterval(timer);
-  }, []);
-  const connect = (port: string) => run(() => send("POST", "machine/board", { port }));
   return (
     <div class="ways">
-      <section>
-        <h2>A machine on USB</h2>
-        {ports.length === 0 && <p>No port is there: plug the Mega in, and it appears here.</p>}
-        {ports.map((port) => (
-          <button key={port.path} type="button" disabled={busy} onClick={() => connect(port.path)}>
-            Connect {port.path}
-          </button>
-        ))}
-        <details>
-          <summary>Another port</summary>
-          <form
-            onSubmit={(event) => {
-              event.preventDefault();
-              connect(typed);
-            }}
-          >
-            <label>
-              Its name, like COM3 or /dev/ttyACM0{" "}
-              <input value={typed} onInput={(event) => setTyped(event.currentTarget.value)} />
-            </label>{" "}
-            <button type="submit" disabled={busy || !typed}>
-              Connect
-            </button>
-          </form>
-        </details>
-      </section>
-      <VirtualStart busy={busy} run={run} />
+      <Boards />
+      <VirtualStart />
     </div>
+  );
+}
+
+/** What is on USB; other ports are folded away. */
+function Boards() {
+  const ports = usePorts();
+  const [typed, setTyped] = useState("");
+  const [busy, run, refusal] = useDo();
+  const connect = (port: string) => run(() => send("POST", "machine/board", { port }));
+  const buttons = (isBoard: boolean) =>
+    ports
+      .filter((port) => port.is_board === isBoard)
+      .map(({ path }) => (
+        <button key={path} type="button" disabled={busy} onClick={() => void connect(path)}>
+          Connect {path}
+        </button>
+      ));
+  const boards = buttons(true);
+  return (
+    <section>
+      <h2>A machine on USB</h2>
+      {boards.length > 0 ? (
+        boards
+      ) : (
+        <p>No board is there: plug the Mega in, and it appears here.</p>
+      )}
+      <details>
+        <summary>Another port</summary>
+        {buttons(false)}
+        <form
+          onSubmit={(event) => {
+            event.preventDefault();
+            void connect(typed);
+          }}
+        >
+          <label>
+            Its name, like COM3 or /dev/ttyACM0{" "}
+            <input value={typed} onInput={(event) => setTyped(event.currentTarget.value)} />
+          </label>{" "}
+          <button type="submit" disabled={busy || !typed}>
+            Connect
+          </button>
+        </form>
+      </details>
+      {refusal}
+    </section>
   );
 }
 
 const MACHINES = 1_000_000; // that can be drawn
 
-interface StartParts {
-  busy: boolean;
-  run: (work: () => Promise<unknown>) => void;
-}
-
-function VirtualStart({ busy, run }: StartParts) {
+function VirtualStart() {
   const { project, take } = useProject();
   const [hides, setHides] = useState<"random" | "nothing">("random");
   const [speed, setSpeed] = useState(100);
   const [number, setNumber] = useState("");
+  const [busy, run, refusal] = useDo();
   const start = async () => {
     const drawn = Math.floor(Math.random() * MACHINES);
     const seed = /^\d{1,6}$/.test(number) ? Number(number) : drawn;
@@ -121,9 +122,10 @@ function VirtualStart({ busy, run }: StartParts) {
           />
         </label>
       </details>
-      <button type="button" disabled={busy} onClick={() => run(start)}>
+      <button type="button" disabled={busy} onClick={() => void run(start)}>
         {busy ? "It starts …" : "Start a virtual machine"}
       </button>
+      {refusal}
     </section>
   );
 }
@@ -139,26 +141,19 @@ async function ready(): Promise<void> {
 
 function Connected({ machine }: { machine: Machine }) {
   const { take } = useProject();
-  const [busy, run] = useDo();
+  const [busy, run, refusal] = useDo();
   const readSettings = async () => take(await send<Project>("POST", "machine/settings"));
-  const again = () => run(() => send("POST", "machine/board", { port: machine.name }));
+  const isLost = machine.phase === "lost";
   return (
     <section class="connected">
-      <h2>{subject(machine)} is connected</h2>
-      {machine.phase === "lost" ? (
-        <>
-          <p>The line was lost. What you cut and typed is kept.</p>
-          {machine.kind === "board" && (
-            <button type="button" class="primary" disabled={busy} onClick={again}>
-              Connect {machine.name} again
-            </button>
-          )}
-        </>
+      <h2>{connectionWords(machine)}</h2>
+      {isLost ? (
+        <p>What you cut and typed is kept. Connect it again in the bar below.</p>
       ) : (
         <button
           type="button"
           disabled={busy || machine.phase !== "ready"}
-          onClick={() => run(readSettings)}
+          onClick={() => void run(readSettings)}
         >
           {busy ? "It is asked …" : "Read its settings; nothing moves"}
         </button>
@@ -166,10 +161,11 @@ function Connected({ machine }: { machine: Machine }) {
       <button
         type="button"
         disabled={busy}
-        onClick={() => run(() => send("POST", "machine/disconnect"))}
+        onClick={() => void run(() => send("POST", "machine/disconnect"))}
       >
-        Disconnect
+        {isLost ? "Let go of it" : "Disconnect"}
       </button>
+      {refusal}
       {machine.said.length > 0 && (
         <details>
           <summary>What the machine said</summary>
@@ -178,4 +174,10 @@ function Connected({ machine }: { machine: Machine }) {
       )}
     </section>
   );
+}
+
+function connectionWords(machine: Machine): string {
+  if (machine.phase === "lost") return `The line to ${machine.name} is lost`;
+  if (machine.phase === "connecting") return `${subject(machine)} is being connected`;
+  return `${subject(machine)} is connected`;
 }

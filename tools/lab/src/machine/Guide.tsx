@@ -1,6 +1,7 @@
 // A machine's first day, step by step, by the steps of plumb guide; each can be left and taken up again.
 import { useEffect } from "preact/hooks";
 import type { Schemas } from "../api/client";
+import { Refusal } from "../shell/doing";
 import { isReady, useMachine } from "../shell/machine";
 import { useProject } from "../shell/project";
 import { Silence } from "../shell/Silence";
@@ -18,28 +19,28 @@ export interface Guide {
   press: (path: string, body?: unknown) => void;
   busy: boolean;
   silent: boolean;
+  refused: string;
 }
 
 export function useGuide(): Guide {
-  const { setTrouble, reload } = useProject();
-  const { state, silent, press, busy } = useWatched<Answer>({
+  const { reload } = useProject();
+  const { state, silent, press, busy, refused } = useWatched<Answer>({
     path: "guide",
     works: isUnderWay,
     oftenMs: LOOK_MS,
-    trouble: setTrouble,
   });
   const here = state?.here;
   useEffect(() => {
     if (here) return () => void reload(); // what the step wrote
   }, [here, reload]);
-  return { guide: state, press, busy, silent };
+  return { guide: state, press, busy, silent, refused };
 }
 
 function isUnderWay(guide: Answer): boolean {
   return guide.here !== "";
 }
 
-export function FirstDay({ guide, press, busy, silent }: Guide) {
+export function FirstDay({ guide, press, busy, silent, refused }: Guide) {
   const ready = isReady(useMachine());
   if (!guide) return null;
   const place = guide.steps.findIndex((step) => step.name === guide.open);
@@ -50,6 +51,7 @@ export function FirstDay({ guide, press, busy, silent }: Guide) {
       <h2 id="guide-title">Its first day, step by step</h2>
       <p>Nothing moves before you press a button that says what moves and how far.</p>
       <Silence silent={silent} />
+      {refused && <Refusal line={refused} />}
       <ol>
         {guide.steps.map((step, index) => (
           <li key={step.name} class={step.done ? "done" : ""} data-here={step.name === guide.here}>

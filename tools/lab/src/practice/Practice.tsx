@@ -11,7 +11,7 @@ const SECRET = "practice.json";
 export function Practice() {
   const { project } = useProject();
   const [revealed, setRevealed] = useState<Schemas["Revealed"]>();
-  const [busy, run] = useDo();
+  const [busy, run, refusal] = useDo();
   const hides = SECRET in project.files;
   const reveal = async () => setRevealed(await send("POST", "practice/reveal"));
   return (
@@ -31,7 +31,7 @@ export function Practice() {
       }
     >
       {hides ? (
-        <button type="button" disabled={busy || !project.machine} onClick={() => run(reveal)}>
+        <button type="button" disabled={busy || !project.machine} onClick={() => void run(reveal)}>
           Reveal what was hidden
         </button>
       ) : (
@@ -39,6 +39,7 @@ export function Practice() {
           No virtual machine was started in this folder: <a href="#/open">start it</a>.
         </p>
       )}
+      {refusal}
       {revealed && <Score {...revealed} />}
     </Screen>
   );

@@ -1,5 +1,6 @@
 // Which form is typed into, and a file of marks from elsewhere.
 import { sendFile } from "../api/client";
+import { useDo } from "../shell/doing";
 import { useProject } from "../shell/project";
 import type { Form } from "./useReadings";
 
@@ -9,18 +10,15 @@ interface FormPickerParts {
 }
 
 export function FormPicker({ form, choose }: FormPickerParts) {
-  const { setTrouble, reload } = useProject();
+  const { reload } = useProject();
+  const [, run, refusal] = useDo();
   const pick = async (input: HTMLInputElement) => {
     const file = input.files?.[0];
     if (!file) return;
-    try {
-      const answer = await sendFile<Form>("marks", file);
-      choose(answer.file);
-      setTrouble("");
+    await run(async () => {
+      choose((await sendFile<Form>("marks", file)).file);
       await reload();
-    } catch (error) {
-      setTrouble(error instanceof Error ? error.message : String(error));
-    }
+    });
     input.value = "";
   };
   const picker = (
@@ -31,6 +29,7 @@ export function FormPicker({ form, choose }: FormPickerParts) {
         accept=".toml,.csv,.ini"
         onChange={(event) => void pick(event.currentTarget)}
       />
+      {refusal}
     </label>
   );
   if (form.files.length === 0) {

@@ -1,36 +1,31 @@
 // What the connected machine and the open file say otherwise, and the question which of the two holds: nothing is cut
 // before it is answered.
-import { type Project, type Schemas, send } from "../api/client";
+import { type Project, send } from "../api/client";
 import { useDo } from "./doing";
 import { isReady, type Machine, subject, useMachine } from "./machine";
-import { useNewest } from "./newest";
 import { useProject } from "./project";
+import { type HeldAnswer, useHeld } from "./useHeld";
 import "./held.css";
 
-type Answer = Schemas["HeldAnswer"];
 const SHOWN = 6;
 
 export function Held() {
   const machine = useMachine();
-  const { project } = useProject();
-  const file = project.choices.settings ?? "";
-  const state = JSON.stringify([machine.numbers_digest, file, project.files[file]]);
-  const held = useNewest<Answer>(machine.numbers_digest && file ? "machine/held" : "", state);
-  if (!machine.numbers_digest || !held || held.file !== file || held.numbers.length === 0)
-    return null;
+  const held = useHeld();
+  if (!held || held.numbers.length === 0) return null;
   if (held.is_fit)
     return (
       <p class="which-holds" role="status">
-        {subject(machine)} does not hold the numbers of {file} yet.{" "}
-        <a href="#/correct">Write them into it</a> before you cut.
+        {subject(machine)} does not hold the numbers of {held.file} yet.{" "}
+        <a href="#/correct">Send them to it</a> before you cut.
       </p>
     );
   return <Question held={held} machine={machine} />;
 }
 
-function Question({ held, machine }: { held: Answer; machine: Machine }) {
+function Question({ held, machine }: { held: HeldAnswer; machine: Machine }) {
   const { take, reload } = useProject();
-  const [busy, run] = useDo();
+  const [busy, run, refusal] = useDo();
   const { file, numbers } = held;
   const takeIn = async () => take(await send<Project>("POST", "machine/settings"));
   const write = async () => {
@@ -69,14 +64,15 @@ function Question({ held, machine }: { held: Answer; machine: Machine }) {
       </table>
       {numbers.length > SHOWN && <p>and {numbers.length - SHOWN} more.</p>}
       <p class="buttons">
-        <button type="button" disabled={blocked} onClick={() => run(takeIn)}>
+        <button type="button" disabled={blocked} onClick={() => void run(takeIn)}>
           The machine's: take them into the folder
         </button>
         {held.is_written_here && (
-          <button type="button" disabled={blocked} onClick={() => run(write)}>
-            Those of {file}: write them into the machine; nothing moves
+          <button type="button" disabled={blocked} onClick={() => void run(write)}>
+            Those of {file}: send them to the machine; nothing moves
           </button>
         )}
+        {refusal}
       </p>
       {!held.is_written_here && (
         <p>

@@ -7,8 +7,23 @@ import { MachineBar } from "./MachineBar";
 import { MachineContext, useLiveMachine } from "./machine";
 import { OtherTab } from "./OtherTab";
 import { type Loaded, ProjectContext, type Shared, useSharedProject } from "./project";
+import { Screen } from "./Screen";
 import { ROOMS, STEPS, type Step } from "./steps";
 import { Way, WayOn } from "./Way";
+
+/** What an address shows that no screen has. */
+const NOWHERE: Step = {
+  id: "nowhere",
+  title: "No such screen",
+  Screen: () => (
+    <Screen title="No such screen" say="The address names no screen of the lab.">
+      <a class="go" href="#/open">
+        To the machine
+      </a>
+    </Screen>
+  ),
+  needs: () => "",
+};
 
 /** The id of the screen behind # in the address; behind a further / a screen may have a place. */
 function useAddress(): string {
@@ -33,7 +48,8 @@ export function Lab() {
   if (!shared) {
     return <main class="alone">{trouble ? <p role="alert">{trouble}</p> : <p>Loading …</p>}</main>;
   }
-  const step: Step = [...STEPS, ...ROOMS].find((step) => step.id === id) ?? (STEPS[0] as Step);
+  const first = STEPS[0] as Step;
+  const step = id === "" ? first : ([...STEPS, ...ROOMS].find((each) => each.id === id) ?? NOWHERE);
   return (
     <ProjectContext.Provider value={shared}>
       <MachineContext.Provider value={live.machine}>

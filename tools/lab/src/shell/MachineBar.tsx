@@ -2,19 +2,22 @@
 import { useEffect } from "preact/hooks";
 import { send } from "../api/client";
 import { namedLength } from "../controls/lengths";
+import { useDo } from "./doing";
 import { isReady, type LiveMachine, type Machine, subject } from "./machine";
 import type { Press } from "./presses";
 import { useProject } from "./project";
+import { Reconnect } from "./Reconnect";
 import "./machine-bar.css";
 
 const UNREACHABLE = "Cannot reach the machine: use its power switch";
 
 export function MachineBar({ live }: { live: LiveMachine }) {
   const { machine, presses, press } = live;
-  const { project, setTrouble } = useProject();
+  const { project } = useProject();
+  const [, run, refusal] = useDo();
   const goOn = () => {
     presses.giveUp();
-    send("POST", "machine/go-on").catch((error: Error) => setTrouble(error.message));
+    void run(() => send("POST", "machine/go-on"));
   };
   const unseen = machine.unseen > 0;
   const runs = machine.moves || machine.phase === "busy";
@@ -32,8 +35,9 @@ export function MachineBar({ live }: { live: LiveMachine }) {
   const share = program?.outcome === "running" ? program.done / Math.max(1, program.total) : null;
   return (
     <section class={`machine-bar ${tone(machine)}`} aria-label="The machine">
-      <p class={unseen ? "state old" : "state"} role="status">
-        <strong>{stateWords(machine)}</strong>
+      <p class={unseen ? "state old" : "state"}>
+        <strong role="status">{stateWords(machine)}</strong>
+        <strong>{countWords(machine)}</strong>
         {machine.place && machine.knows_place && (
           <span class="place">{placeWords(machine.place, project.choices.units ?? "mm")}</span>
         )}
@@ -59,7 +63,9 @@ export function MachineBar({ live }: { live: LiveMachine }) {
           </button>
         </p>
       )}
+      {machine.phase === "lost" && machine.kind === "board" && <Reconnect machine={machine} />}
       {machine.phase === "lost" && <p class="said">{UNREACHABLE}.</p>}
+      {refusal}
       <p class="pressed" role="status">
         {press && pressWords(press)}
       </p>
@@ -94,18 +100,24 @@ function tone(machine: Machine): string {
   return machine.moves || machine.phase === "busy" ? "moves" : "";
 }
 
+/** How far it is, which changes many times a second: shown, and not spoken. */
+function countWords({ unseen, holds, phase, program }: Machine): string {
+  if (unseen > 0) return ` ${unseen} s ago`;
+  if (holds || phase !== "busy" || program?.outcome !== "running") return "";
+  return `: ${program.done} of ${program.total} lines`;
+}
+
 /** What the machine does, in a few words. */
 function stateWords(machine: Machine): string {
   const { phase, program } = machine;
   const name = subject(machine);
-  if (machine.unseen > 0) return `${name}: last seen ${machine.unseen} s ago`;
+  if (machine.unseen > 0) return `${name}: last seen`;
   if (phase === "lost") return `${name}: the line is lost`;
   if (phase === "connecting") return `${name}: connecting`;
   if (phase === "stopping") return `${name} stops`;
   if (machine.waits_for) return `${name} waits for you`;
   if (machine.holds) return `${name} holds`;
-  if (phase === "busy" && program?.outcome === "running")
-    return `${name} runs ${program.title}: ${program.done} of ${program.total} lines`;
+  if (phase === "busy" && program?.outcome === "running") return `${name} runs ${program.title}`;
   if (machine.moves) return `${name} moves`;
   return isReady(machine) ? `${name} stands` : `${name} works`;
 }

@@ -1,5 +1,5 @@
 // A question that is asked again whenever what it depends on has changed: only the answer to the newest counts.
-import { useEffect, useState } from "preact/hooks";
+import { useEffect, useRef, useState } from "preact/hooks";
 import { get, isSilence } from "../api/client";
 import { useProject } from "./project";
 
@@ -12,6 +12,7 @@ const AGAIN_MS = 3000; // after a question that nobody answered
 export function useNewest<Answer>(path: string, state: string): Answer | undefined {
   const { setTrouble } = useProject();
   const [answer, setAnswer] = useState<Answer>();
+  const refused = useRef(""); // what is said of this question
   // What the server has by now needs a new answer.
   useEffect(() => {
     if (!path) return;
@@ -19,9 +20,14 @@ export function useNewest<Answer>(path: string, state: string): Answer | undefin
     let timer = 0;
     const ask = () =>
       get<Answer>(path).then(
-        (now) => over || setAnswer(now),
+        (now) => {
+          if (over) return;
+          setAnswer(now);
+          setTrouble((line) => (line === refused.current ? "" : line));
+        },
         (error: Error) => {
           if (over) return;
+          refused.current = error.message;
           setTrouble(error.message);
           if (isSilence(error)) timer = window.setTimeout(ask, AGAIN_MS);
         },

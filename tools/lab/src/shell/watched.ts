@@ -15,6 +15,8 @@ export interface Watched<State> {
   press: (path: string, body?: unknown) => Promise<void>;
   /** Whether a press waits for its answer. */
   busy: boolean;
+  /** Why the last was refused; empty if it was not. */
+  refused: string;
 }
 
 interface Watching<State> {
@@ -22,26 +24,21 @@ interface Watching<State> {
   /** Whether the server is at work, so that there is more to see. */
   works: (state: State) => boolean;
   oftenMs: number;
-  trouble: (line: string) => void;
 }
 
-export function useWatched<State>({
-  path,
-  works,
-  oftenMs,
-  trouble,
-}: Watching<State>): Watched<State> {
+export function useWatched<State>({ path, works, oftenMs }: Watching<State>): Watched<State> {
   const [state, setState] = useState<State>();
   const [silent, setSilent] = useState(false);
+  const [refused, setRefused] = useState("");
   const [waiting, setWaiting] = useState(0);
   const lookout = useMemo(
     () =>
       new Lookout<State>(() => get<State>(path, LOOK_MS), isSilence, {
         state: setState,
         silence: setSilent,
-        refusal: (error) => trouble(error instanceof Error ? error.message : String(error)),
+        refusal: (error) => setRefused(error instanceof Error ? error.message : String(error)),
       }),
-    [path, trouble],
+    [path],
   );
   const often = state !== undefined && works(state);
   useEffect(() => {
@@ -54,10 +51,10 @@ export function useWatched<State>({
     setWaiting((count) => count + 1);
     await lookout.press(async () => {
       const answer = await send<State>("POST", `${path}/${name}`, body);
-      trouble("");
+      setRefused("");
       return answer;
     });
     setWaiting((count) => count - 1);
   };
-  return { state, silent, press, busy: waiting > 0 };
+  return { state, silent, press, busy: waiting > 0, refused };
 }

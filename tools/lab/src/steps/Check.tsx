@@ -1,8 +1,8 @@
 // Step 9: two marks that took no part: is the machine where its settings promise?
 
-import { useState } from "preact/hooks";
 import { type Project, type Schemas, send } from "../api/client";
 import { namedLength, shownLength } from "../controls/lengths";
+import { useDo } from "../shell/doing";
 import { isReady, useMachine } from "../shell/machine";
 import { useNewest } from "../shell/newest";
 import { useProject } from "../shell/project";
@@ -15,25 +15,19 @@ import "./check/check.css";
 export type CheckAnswer = Schemas["CheckAnswer"];
 
 export function Check() {
-  const { project, take, reload, setTrouble } = useProject();
+  const { project, take, reload } = useProject();
   const machine = useMachine();
   // The check marks as they are now; asked again when a file changes.
   const answer = useNewest<CheckAnswer>("check", JSON.stringify(project.files));
-  const [busy, setBusy] = useState(false);
+  const [busy, run, refusal] = useDo();
   const units = project.choices.units ?? "mm";
   if (!answer) return <Screen title="Is it true?" say="One moment …" busy />;
-  const doing = async (path: string) => {
-    setBusy(true);
-    try {
-      const answered = await send<Project | Schemas["MachineAnswer"]>("POST", path);
+  const doing = (path: string, body?: unknown) =>
+    run(async () => {
+      const answered = await send<Project | Schemas["MachineAnswer"]>("POST", path, body);
       if ("choices" in answered) take(answered);
       else await reload();
-      setTrouble("");
-    } catch (error) {
-      setTrouble(error instanceof Error ? error.message : String(error));
-    }
-    setBusy(false);
-  };
+    });
   if (answer.trouble) return <NoPromise />;
   const ready = isReady(machine);
   const isCut = machine.program?.title === answer.program && machine.program.outcome === "done";
@@ -80,7 +74,7 @@ export function Check() {
             type="button"
             class={isCut ? "primary" : ""}
             disabled={busy || !ready || !isCut}
-            onClick={() => void read(answer.form, setTrouble, take)}
+            onClick={() => void doing("machine/readings", { form: answer.form })}
           >
             Let the tape read them
           </button>
@@ -101,6 +95,7 @@ export function Check() {
             Let the verdict go by these marks too
           </button>
         )}
+        {refusal}
       </p>
       {answer.is_saved && <CheckReadings file={answer.form} />}
       {answer.marks.length > 0 && (
@@ -125,15 +120,6 @@ export function Check() {
       )}
     </Screen>
   );
-}
-
-async function read(form: string, setTrouble: (line: string) => void, take: (p: Project) => void) {
-  try {
-    take(await send<Project>("POST", "machine/readings", { form }));
-    setTrouble("");
-  } catch (error) {
-    setTrouble(error instanceof Error ? error.message : String(error));
-  }
 }
 
 function Why() {

@@ -1,24 +1,26 @@
 // Step 8: each number before and after, accepted one by one; written, sent, read back, and taken back.
 import { useRef } from "preact/hooks";
-import type { Schemas } from "../api/client";
+import type { Choices, Schemas } from "../api/client";
 import { namedLength } from "../controls/lengths";
 import { Progress } from "../controls/Progress";
 import { useAnswer } from "../shell/answer";
 import { useChoosing } from "../shell/kept";
 import { useProject } from "../shell/project";
 import { Screen } from "../shell/Screen";
+import { useHeld } from "../shell/useHeld";
+import { asked } from "./correct/asked";
 import { Numbers } from "./correct/Numbers";
 import { ToMachine } from "./correct/ToMachine";
-import { type CorrectionAnswer, type Known, useWriting } from "./correct/useWriting";
+import { type CorrectionAnswer, type Known, useWriting, type Writing } from "./correct/useWriting";
 import "./correct/correct.css";
 
+type Made = Schemas["CorrectionParts"];
+
 export function Correct() {
-  const { project, choose } = useProject();
-  const accepted = project.choices.accepted ?? [];
+  const { project } = useProject();
   const { answer, refused } = useAnswer<CorrectionAnswer>("correction");
   const writing = useWriting();
-  const units = project.choices.units ?? "mm";
-  const choosing = useChoosing();
+  const isHeld = useHeld()?.numbers.length === 0;
   // The numbers stay in view while they are fitted again.
   const latest = useRef(answer?.correction);
   latest.current = answer?.correction ?? latest.current;
@@ -38,24 +40,56 @@ export function Correct() {
       </Screen>
     );
   }
-  const known: Known = {
-    settings: project.files[project.choices.settings ?? ""] ?? "",
-    choices: project.choices_digest,
-  };
-  // Whether the fit on the screen is that of what is accepted, and the server knows what that is.
-  const current =
-    !choosing &&
+  const parts = { answer, made, writing, isHeld };
+  return isWritten(made, project.choices, writing) ? (
+    <Written {...parts} />
+  ) : (
+    <Question {...parts} />
+  );
+}
+
+/** Whether the open file holds a fit to these marks, and nothing more is accepted: it goes to the machine next. */
+function isWritten(made: Made, choices: Choices, writing: Writing): boolean {
+  if (choices.accepted?.length) return false;
+  if (made.settings === choices.settings) return made.is_written;
+  return writing.written?.file === choices.settings; // and its fit is on its way
+}
+
+interface Parts {
+  answer: CorrectionAnswer;
+  made: Made;
+  writing: Writing;
+  /** Whether the machine holds the numbers of the open file. */
+  isHeld: boolean;
+}
+
+/** Whether the fit on the screen is that of what is accepted, and the server knows what that is. */
+function useCurrent({ answer, made }: Parts): boolean {
+  const { settings, accepted = [] } = useProject().project.choices;
+  return (
+    !useChoosing() &&
     answer.share === 1 &&
-    made.settings === project.choices.settings &&
-    made.numbers.every((number) => number.is_accepted === accepted.includes(number.name));
-  const before = project.choices.settings_before ?? [];
-  // Nothing is accepted since the last correction was written: it goes to the machine next.
-  const isWritten = before.length > 0 && accepted.length === 0;
+    made.settings === settings &&
+    made.numbers.every((number) => number.is_accepted === accepted.includes(number.name))
+  );
+}
+
+/** Which numbers are believed, and written. */
+function Question(parts: Parts) {
+  const { answer, made, writing } = parts;
+  const { accepted = [], units = "mm" } = useProject().project.choices;
+  const current = useCurrent(parts);
+  const known = useKnown();
   const count = made.numbers.filter((number) => accepted.includes(number.name)).length;
+  const isAsked = asked(made, accepted).length > 0;
   return (
     <Screen
-      title="What would change?"
-      say="Accept each number that you believe. The others stay as they are, and the rest is fitted again. Writing moves nothing; your old file stays."
+      title={isAsked ? "What would change?" : "Nothing would change"}
+      say={
+        isAsked
+          ? "Accept each number that you believe. The others stay as they are, and the rest is fitted again. Writing moves nothing; your old file stays."
+          : `${made.settings} fits these marks as it is.`
+      }
       why={<Why made={made} />}
       command={answer.command}
     >
@@ -64,37 +98,96 @@ export function Correct() {
         <ErrorFigure name="with what you accepted" mm={made.rms_accepted} units={units} />
         <ErrorFigure name="with all of it" mm={made.rms_all} units={units} />
       </dl>
-      <Numbers
-        made={made}
-        accepted={accepted}
-        accept={(names) => void choose({ accepted: names })}
-        busy={!current}
-      />
+      <Numbers made={made} busy={!current} />
       {made.cures.length > 0 && <ByHand cures={made.cures} />}
       <p class="buttons">
-        <button
-          type="button"
-          class={isWritten ? "" : "primary"}
-          disabled={count === 0 || !current || writing.busy}
-          onClick={() => void writing.write(known)}
-        >
-          {count === 0
-            ? "Accept a number, and it can be written"
-            : `Write ${count} ${count === 1 ? "number" : "numbers"} into ${answer.file}`}
-        </button>
-        {before.length > 0 && (
+        {isAsked && (
           <button
             type="button"
-            disabled={choosing || writing.busy}
-            onClick={() => void writing.undo(known)}
+            class="primary"
+            disabled={count === 0 || !current || writing.busy}
+            onClick={() => void writing.write(known)}
           >
-            Go back to {before.at(-1)}
+            {count === 0
+              ? "Accept a number, and it can be written"
+              : `Write ${count} ${count === 1 ? "number" : "numbers"} into ${answer.file}`}
           </button>
         )}
+        <GoBack writing={writing} />
+        {writing.notWritten}
       </p>
-      <ToMachine writing={writing} isNext={isWritten} />
+      <ToMachine writing={writing} isNext={false} isHeld={parts.isHeld} />
     </Screen>
   );
+}
+
+/** What is written goes to the machine; what would still change is folded away. */
+function Written(parts: Parts) {
+  const { answer, made, writing, isHeld } = parts;
+  const { settings, units = "mm" } = useProject().project.choices;
+  const current = useCurrent(parts);
+  return (
+    <Screen
+      title={isHeld ? "The machine holds the numbers" : "The numbers are written"}
+      say={
+        isHeld
+          ? `They are those of ${settings}. Two marks on the same sheet show whether it came true.`
+          : `${settings} holds them; your old file stays. The machine takes them next: nothing moves, and each number is read back.`
+      }
+      why={<Why made={made} />}
+      command={answer.command}
+    >
+      {writing.written && !isHeld && (
+        <p role="status">
+          Written: {writing.written.files.join(", ")}. {writing.written.failure}
+        </p>
+      )}
+      <dl class="errors" aria-busy={!current}>
+        <ErrorFigure
+          name={`as ${settings} says`}
+          mm={current ? made.rms_set : null}
+          units={units}
+        />
+      </dl>
+      <ToMachine writing={writing} isNext isHeld={isHeld} />
+      {current && made.cures.length > 0 && <ByHand cures={made.cures} />}
+      {current && asked(made, []).length > 0 && (
+        <details>
+          <summary>What would still change</summary>
+          <Numbers made={made} busy={false} />
+        </details>
+      )}
+      <p class="buttons">
+        <GoBack writing={writing} />
+        {writing.notWritten}
+      </p>
+    </Screen>
+  );
+}
+
+function GoBack({ writing }: { writing: Writing }) {
+  const before = useProject().project.choices.settings_before ?? [];
+  const known = useKnown();
+  const choosing = useChoosing();
+  if (before.length === 0) return null;
+  return (
+    <button
+      type="button"
+      disabled={choosing || writing.busy}
+      onClick={() => void writing.undo(known)}
+    >
+      Go back to {before.at(-1)}
+    </button>
+  );
+}
+
+/** What the page knows of the folder: nothing is written over what it has not seen. */
+function useKnown(): Known {
+  const { project } = useProject();
+  return {
+    settings: project.files[project.choices.settings ?? ""] ?? "",
+    choices: project.choices_digest,
+  };
 }
 
 interface ErrorParts {
@@ -126,7 +219,7 @@ function ByHand({ cures }: { cures: string[] }) {
   );
 }
 
-function Why({ made }: { made: Schemas["CorrectionParts"] }) {
+function Why({ made }: { made: Made }) {
   const { reasons, warnings, intervals } = made;
   return (
     <>

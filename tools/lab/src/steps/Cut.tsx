@@ -26,8 +26,9 @@ const PROPOSED =
 export function Cut() {
   const { project } = useProject();
   // The program as it would be written now; asked again when a file or a choice is saved.
-  const grid = useNewest<Grid>("grid", JSON.stringify(project.files));
   const machine = useMachine();
+  const outcome = machine.program?.outcome ?? "";
+  const grid = useNewest<Grid>("grid", JSON.stringify([project.files, outcome, machine.name]));
   if (!grid) return <Screen title="Cut the marks" say="One moment …" busy />;
   const runs = machine.program?.title === grid.program && machine.program.outcome === "running";
   return (
@@ -67,12 +68,12 @@ function whileRunning({ waits_for, unseen }: Machine): string {
 function Choice({ grid }: { grid: Grid }) {
   const { take, reload } = useProject();
   const machine = useMachine();
-  const [works, run] = useDo();
+  const [works, run, refusal] = useDo();
   const busy = useChoosing() || works;
   const save = async () => take(await send<Project>("POST", "grid"));
   const putBack = async () => take(await send<Project>("DELETE", "next"));
-  const cut = async () => {
-    await send("POST", "grid/cut");
+  const cut = async (path: "cut" | "go-on") => {
+    await send("POST", `grid/${path}`);
     await reload();
   };
   if (machine.kind !== "none" && machine.phase !== "lost" && !machine.knows_place)
@@ -80,22 +81,34 @@ function Choice({ grid }: { grid: Grid }) {
   const connected = machine.kind !== "none" && machine.phase !== "lost";
   // The primary button is then that of the readings.
   const isCut = machine.program?.title === grid.program && machine.program.outcome === "done";
+  const goesOn = grid.goes_on ? grid.marks[grid.broke_off ?? 0] : undefined;
   return (
     <div class="choice">
       {grid.last_form && !grid.is_proposed && <NewSheet grid={grid} />}
+      {connected && goesOn && (
+        <button
+          type="button"
+          class="primary"
+          disabled={busy || !isReady(machine) || grid.trouble !== ""}
+          onClick={() => void run(() => cut("go-on"))}
+        >
+          Go on: move the sled and cut from mark {goesOn.name}
+        </button>
+      )}
       {connected && (
         <button
           type="button"
-          class={isCut ? "" : "primary"}
+          class={isCut || goesOn ? "" : "primary"}
           disabled={busy || !isReady(machine) || grid.trouble !== ""}
-          onClick={() => run(cut)}
+          onClick={() => void run(() => cut("cut"))}
         >
-          Move the sled and cut {grid.marks.length} marks
+          {grid.broke_off == null ? "Move" : "Begin again: move"} the sled and cut{" "}
+          {grid.marks.length} marks
         </button>
       )}
       {grid.is_proposed ? (
         !isCut && (
-          <button type="button" disabled={busy} onClick={() => run(putBack)}>
+          <button type="button" disabled={busy} onClick={() => void run(putBack)}>
             Cut other marks instead
           </button>
         )
@@ -104,7 +117,7 @@ function Choice({ grid }: { grid: Grid }) {
           type="button"
           class={connected ? "" : "primary"}
           disabled={busy || grid.trouble !== ""}
-          onClick={() => run(save)}
+          onClick={() => void run(save)}
         >
           {grid.is_saved ? `Saved: ${grid.program}` : `Save ${grid.program}; nothing moves`}
         </button>
@@ -114,6 +127,7 @@ function Choice({ grid }: { grid: Grid }) {
           Type what your tape says
         </a>
       )}
+      {refusal}
       <p class="note">
         {grid.is_saved
           ? `${grid.program} and ${grid.form} are in your folder.`

@@ -5,6 +5,7 @@ import { namedLength } from "../controls/lengths";
 import { Connection } from "../machine/Connection";
 import { FirstDay, useGuide } from "../machine/Guide";
 import { MachinePicture } from "../machine/MachinePicture";
+import { useDo } from "../shell/doing";
 import { useMachine } from "../shell/machine";
 import { useProject } from "../shell/project";
 import { Screen } from "../shell/Screen";
@@ -62,16 +63,11 @@ function Opened({ machine }: { machine: NonNullable<Project["machine"]> }) {
 
 /** Takes a file that is picked or dropped. */
 function SettingsFile() {
-  const { take, setTrouble } = useProject();
+  const { project, take } = useProject();
   const [over, setOver] = useState(false);
+  const [, run, refusal] = useDo();
   const open = async (file: File | undefined) => {
-    if (!file) return;
-    try {
-      take(await sendFile<Project>("settings", file));
-      setTrouble("");
-    } catch (error) {
-      setTrouble(error instanceof Error ? error.message : String(error));
-    }
+    if (file) await run(async () => take(await sendFile<Project>("settings", file)));
   };
   return (
     <label
@@ -87,7 +83,9 @@ function SettingsFile() {
         void open(event.dataTransfer?.files[0]);
       }}
     >
-      <span>Settings' file</span>
+      <span>
+        {project.machine ? `${project.machine.file} is open; open another` : "Settings' file"}
+      </span>
       <small>groundcontrol.ini, webcontrol.json or machine.toml: pick it, or drop it here</small>
       <input
         type="file"
@@ -99,6 +97,7 @@ function SettingsFile() {
           });
         }}
       />
+      {refusal}
     </label>
   );
 }

@@ -26,7 +26,7 @@ export function Verdict() {
   const { project } = useProject();
   const units = project.choices.units ?? "mm";
   const { answer, refused } = useAnswer<VerdictAnswer>("verdict");
-  const [isNextWanted, wantNext] = useState(false);
+  const [isNextWanted, wantNext] = useNextWanted(project.key);
   const verdict = answer?.verdict;
   if (refused)
     return (
@@ -61,12 +61,7 @@ export function Verdict() {
         </ul>
       )}
       <HalfTyped />
-      <NextStep
-        sheet={sheet}
-        before={verdict.before}
-        wanted={isNextWanted}
-        want={() => wantNext(true)}
-      />
+      <NextStep sheet={sheet} before={verdict.before} wanted={isNextWanted} want={wantNext} />
       {verdict.cards.length > 0 && (
         <section aria-label="Suspects">
           <h2>Suspects</h2>
@@ -83,6 +78,17 @@ export function Verdict() {
       <TakeAlong name="report.html">Save the report</TakeAlong>
     </Screen>
   );
+}
+
+/** Whether somebody asked for the next measurement of a folder; a reload keeps the question. */
+function useNextWanted(folder: string): [boolean, () => void] {
+  const key = `plumb-next/${folder}`;
+  const [isWanted, setWanted] = useState(sessionStorage.getItem(key) !== null);
+  const want = () => {
+    sessionStorage.setItem(key, "asked");
+    setWanted(true);
+  };
+  return [isWanted, want];
 }
 
 function Why({ noise, notes }: { noise: string; notes: string[] }) {

@@ -66,6 +66,7 @@ class CorrectionParts(BaseModel):
     warnings: list[str] = []
     intervals: str = ""  # for which noise they hold
     settings: str = ""  # name of the file that these numbers would change
+    is_written: bool = False  # that file was fitted to just these marks
     rms_set: float | None = None  # [mm] as that file stands
     rms_accepted: float | None = None
     rms_all: float | None = None
@@ -120,7 +121,7 @@ def show_correction(project: TheProject, background: TheBackground) -> Correctio
                 why = list(auto.said)
                 return CorrectionParts(reasons=why, is_slip=True, add=_auto_words(choices))
             made = correct(auto.inputs, auto.chosen, choices.accepted, noise=auto.diagnosis.noise)
-            return _parts(made, auto, choices)
+            return _parts(made, auto, choices, is_written=_is_fit_of(inputs))
 
     answer = background.ask("correction", key, work)
     file = project.free_name("machine", *WRITTEN)
@@ -189,7 +190,16 @@ def undo(known: Write, project: TheProject) -> Undone:
     return Undone(file=name)
 
 
-def _parts(made: Correction, auto: AutoAddition, choices: Choices) -> CorrectionParts:
+def _is_fit_of(inputs: Inputs) -> bool:
+    """Return whether the open settings were fitted to just these marks."""
+    record = inputs.settings.fitted
+    digests = [file_round.digest for file_round in inputs.measurements.rounds]
+    return record is not None and record.is_of(digests)
+
+
+def _parts(
+    made: Correction, auto: AutoAddition, choices: Choices, *, is_written: bool
+) -> CorrectionParts:
     whole, some = made.whole, made.accepted
     accepted = [number for number in some.parameters if has_setting(number.name)] if some else []
     return CorrectionParts(
@@ -200,6 +210,7 @@ def _parts(made: Correction, auto: AutoAddition, choices: Choices) -> Correction
         warnings=list((some or whole).warnings),
         intervals=(some or whole).intervals_said,
         settings=choices.settings,
+        is_written=is_written,
         rms_set=whole.raw.rms,
         rms_accepted=some.after.fit_rms if some else None,
         rms_all=whole.after.fit_rms,

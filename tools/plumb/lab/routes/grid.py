@@ -9,8 +9,17 @@ from fastapi import APIRouter
 from pydantic import BaseModel
 
 from plumb.grid import program, spans_in, touches_of
+from plumb.lab.broken_cut import BrokenCut, Noting, broken_cut, end, rest_of
 from plumb.lab.machine_line import MachineLine, TheLine, refuse_other_machine
-from plumb.lab.project import FILE, Choices, Project, read_choices, save_choices, with_marks
+from plumb.lab.project import (
+    FILE,
+    Choices,
+    Project,
+    digest_of,
+    read_choices,
+    save_choices,
+    with_marks,
+)
 from plumb.lab.rounds import (
     Planned,
     Taken,
@@ -67,6 +76,8 @@ class GridAnswer(BaseModel):
     sheet_rise: float = 0.0  # [mm] by which the next sheet's right end is raised, as the fit says
     is_proposed: bool = False  # somebody took them from the verdict; they go onto the sheet before
     pauses: tuple[Wait, ...] = ()  # where the program waits for somebody
+    broke_off: int | None = None  # marks that were cut before the program broke off
+    goes_on: bool = False  # the next mark can be cut on that sheet
 
 
 class FormRequest(BaseModel):
@@ -76,8 +87,25 @@ class FormRequest(BaseModel):
 
 
 @router.get("/grid")
-def show_grid(project: TheProject) -> GridAnswer:
-    """Return the program for the chosen marks, as it would be written now."""
+def show_grid(project: TheProject, line: TheLine) -> GridAnswer:
+    """Return the program for the chosen marks, as it would be written now, and whether it broke
+    off.
+    """
+    answer = _shown(project)
+    cut = None if _runs(line, answer.program) else broken_cut(project, answer.program, answer.text)
+    if cut is None:
+        return answer
+    goes_on = not answer.is_proposed and (line.virtual is not None or not cut.is_virtual)
+    return answer.model_copy(update={"broke_off": cut.marks, "goes_on": goes_on})
+
+
+def _runs(line: MachineLine, program_name: str) -> bool:
+    """Return whether the machine is at this program now."""
+    progress = line.state.program
+    return bool(progress and progress.title == program_name and progress.outcome == "running")
+
+
+def _shown(project: Project) -> GridAnswer:
     choices = project.choices
     settings, trouble = opened(project), ""
     taken = taken_marks(project, choices)
@@ -145,8 +173,7 @@ def save_grid(project: TheProject) -> ProjectAnswer:
 @router.post("/grid/cut")
 def cut_grid(project: TheProject, line: TheLine) -> MachineAnswer:
     """Write both, and send the program. The machine moves."""
-    if not line.state.knows_place:
-        raise InputError("where the sled is, is not known: set its chains first")
+    _refuse_unknown_place(line)
     choices = project.choices
     taken = taken_marks(project, choices)
     if taken:
@@ -157,8 +184,39 @@ def cut_grid(project: TheProject, line: TheLine) -> MachineAnswer:
     if owner:
         raised = _sheet_rise(opened(project), choices)
         line.do(lambda sender: _lay(owner, raised, new_sheet=on_new_sheet(choices)))
-    line.worker.send(name, list(cleaned(text.splitlines())))
+    _send(project, line, BrokenCut(name, digest_of(text.encode()), 0, owner is not None), text)
     return machine(line)
+
+
+@router.post("/grid/go-on")
+def go_on(project: TheProject, line: TheLine) -> MachineAnswer:
+    """Send the rest of the program that broke off: the marks that are not cut. The machine
+    moves.
+    """
+    _refuse_unknown_place(line)
+    answer = show_grid(project, line)
+    cut = broken_cut(project, answer.program, answer.text)
+    if cut is None or not answer.goes_on:
+        raise InputError("no cut broke off that could go on: begin with the first mark")
+    refuse_other_machine(project, line)
+    _send(project, line, cut, answer.text)
+    return machine(line)
+
+
+def _refuse_unknown_place(line: MachineLine) -> None:
+    if not line.state.knows_place:
+        raise InputError("where the sled is, is not known: set its chains first")
+
+
+def _send(project: Project, line: MachineLine, cut: BrokenCut, text: str) -> None:
+    """Send what is not cut yet, and note in the folder how far it comes."""
+    ends = _lines_of_marks(text)
+    lines, before = rest_of(list(cleaned(text.splitlines())), ends, cut.marks)
+    noting = Noting(project, cut, ends)
+    line.worker.send(
+        cut.program, lines, then=lambda sender: end(project), taken=noting, before=before
+    )
+    noting(before)
 
 
 def _cut_taken(taken: Taken, project: Project, line: MachineLine) -> MachineAnswer:
@@ -168,17 +226,20 @@ def _cut_taken(taken: Taken, project: Project, line: MachineLine) -> MachineAnsw
     if owner and taken.swaps_chains:
         raise InputError("the chains of a virtual machine stay: take another measurement")
     refuse_other_machine(project, line)
-    if owner is None:
-        line.worker.send(taken.program, taken.text.splitlines())
-        return machine(line)
-    weights = _weights_after_pauses(taken, owner.settings.sled_weight)
-
-    line.do(lambda sender: _lay(owner, 0.0, new_sheet=False))
+    if owner:
+        laid = owner
+        line.do(lambda sender: _lay(laid, 0.0, new_sheet=False))
+        weights = _weights_after_pauses(taken, owner.settings.sled_weight)
+    cut = BrokenCut(taken.program, digest_of(taken.text.encode()), 0, owner is not None)
+    noting = Noting(project, cut, _lines_of_marks(taken.text))
     line.worker.send(
         taken.program,
         taken.text.splitlines(),
-        paused=lambda lines: owner.weigh_down(weights[lines]),
+        then=lambda sender: end(project),
+        paused=lambda lines: owner.weigh_down(weights[lines]) if owner else None,
+        taken=noting,
     )
+    noting(0)
     return machine(line)
 
 

@@ -1,22 +1,20 @@
 // The numbers of the machine, each with a box to accept it.
 import type { Schemas } from "../../api/client";
+import { useProject } from "../../shell/project";
+import { asked } from "./asked";
 import { believable, withAll } from "./believable";
 
 type Parts = Schemas["CorrectionParts"];
 type Changed = Schemas["ChangedNumber"];
 
-interface NumbersParts {
-  made: Parts;
-  /** Names of the accepted numbers, those too that the server does not know yet. */
-  accepted: readonly string[];
-  accept: (names: string[]) => void;
-  busy: boolean;
-}
-
-export function Numbers({ made, accepted, accept, busy }: NumbersParts) {
-  const again = new Map(made.with_accepted.map((number) => [number.name, number]));
-  const now = made.numbers.map((number) => again.get(number.name) ?? number);
+export function Numbers({ made, busy }: { made: Parts; busy: boolean }) {
+  const { project, choose } = useProject();
+  // Those too that the server does not know yet.
+  const accepted = project.choices.accepted ?? [];
+  const accept = (names: string[]) => void choose({ accepted: names });
+  const now = asked(made, accepted);
   const all = believable(now);
+  if (now.length === 0) return null;
   return (
     <fieldset class="numbers" aria-busy={busy}>
       <legend>Numbers of the machine</legend>

@@ -8,11 +8,13 @@ const SHOWN = 12;
 
 interface ToMachineParts {
   writing: Writing;
-  /** Whether sending is what comes next. */
+  /** Whether the open file waits to be sent. */
   isNext: boolean;
+  /** Whether the machine holds its numbers. */
+  isHeld: boolean;
 }
 
-export function ToMachine({ writing, isNext }: ToMachineParts) {
+export function ToMachine({ writing, isNext, isHeld }: ToMachineParts) {
   const { project } = useProject();
   const machine = useMachine();
   const { written, sent, busy } = writing;
@@ -24,27 +26,33 @@ export function ToMachine({ writing, isNext }: ToMachineParts) {
   return (
     <section class="to-machine" aria-label="To the machine">
       <h2>To the machine</h2>
-      {written && (
-        <p role="status">
-          Written: {written.files.join(", ")}. {written.failure}
-        </p>
-      )}
       {!connected && (
+        <>
+          {written && written.steps.length > 0 && <p>By hand: {written.steps.join("; ")}.</p>}
+          <p>
+            <a class={isNext ? "button primary" : "button"} href="#/open">
+              Connect the machine, then send {file ?? last}
+            </a>
+          </p>
+        </>
+      )}
+      {file && isHeld && isNext && (
         <p>
-          No machine is connected. <a href="#/open">Connect it</a>
-          {written && written.steps.length > 0 && `, or by hand: ${written.steps.join("; ")}`}.
+          <a class="button primary" href="#/check">
+            Check it with two marks
+          </a>
         </p>
       )}
       {connected && (
         <p class="buttons">
-          {file && (
+          {file && !isHeld && (
             <button
               type="button"
-              class={isNext && !sent ? "primary" : ""}
+              class={isNext ? "primary" : ""}
               disabled={busy || !isReady(machine)}
               onClick={() => void writing.toMachine(file, false)}
             >
-              Write {file} into {machine.name}; nothing moves
+              Send {file} to {machine.name}; nothing moves
             </button>
           )}
           {last && (
@@ -58,6 +66,7 @@ export function ToMachine({ writing, isNext }: ToMachineParts) {
           )}
         </p>
       )}
+      {writing.notSent}
       {sent && (
         <>
           <p role="status">
@@ -68,13 +77,6 @@ export function ToMachine({ writing, isNext }: ToMachineParts) {
           </p>
           {sent.changed.length > 0 && (
             <p>The sled stands where it stood; its place reads otherwise with other numbers.</p>
-          )}
-          {!sent.back && (
-            <p>
-              <a class="button primary" href="#/check">
-                Check it with two marks
-              </a>
-            </p>
           )}
           <table>
             <tbody>

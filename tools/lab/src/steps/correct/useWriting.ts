@@ -1,6 +1,7 @@
 // Writes the accepted numbers into a file, sends a file to the machine, and takes either back.
 import { useState } from "preact/hooks";
 import { type Schemas, send } from "../../api/client";
+import { type Doing, useDo } from "../../shell/doing";
 import { useProject } from "../../shell/project";
 
 export type CorrectionAnswer = Schemas["CorrectionAnswer"];
@@ -9,6 +10,9 @@ export type Sent = Schemas["NumbersAnswer"];
 
 export interface Writing {
   busy: boolean;
+  /** Why the last was refused, to be shown at its button. */
+  notWritten: Doing[2];
+  notSent: Doing[2];
   written: Schemas["Written"] | undefined;
   sent: Sent | undefined;
   write: (known: Known) => Promise<void>;
@@ -18,38 +22,37 @@ export interface Writing {
 }
 
 export function useWriting(): Writing {
-  const { reload, setTrouble } = useProject();
-  const [busy, setBusy] = useState(false);
+  const { reload } = useProject();
+  const [writes, change, notWritten] = useDo();
+  const [sends, tell, notSent] = useDo();
   const [written, setWritten] = useState<Schemas["Written"]>();
   const [sent, setSent] = useState<Sent>();
-  const doing = async (work: () => Promise<void>) => {
-    setBusy(true);
-    try {
-      await work();
-      setTrouble("");
-    } catch (error) {
-      setTrouble(error instanceof Error ? error.message : String(error));
-    }
-    await reload();
-    setBusy(false);
-  };
+  const reloading = (work: () => Promise<void>) => () => work().finally(reload);
   return {
-    busy,
+    busy: writes || sends,
+    notWritten,
+    notSent,
     written,
     sent,
     write: (known) =>
-      doing(async () => {
-        setSent(undefined);
-        setWritten(await send<Schemas["Written"]>("POST", "correction", known));
-      }),
+      change(
+        reloading(async () => {
+          setSent(undefined);
+          setWritten(await send<Schemas["Written"]>("POST", "correction", known));
+        }),
+      ),
     undo: (known) =>
-      doing(async () => {
-        await send<Schemas["Undone"]>("POST", "correction/undo", known);
-        setWritten(undefined);
-      }),
+      change(
+        reloading(async () => {
+          await send<Schemas["Undone"]>("POST", "correction/undo", known);
+          setWritten(undefined);
+        }),
+      ),
     toMachine: (file, back) =>
-      doing(async () =>
-        setSent(await send<Sent>("POST", back ? "machine/undo" : "machine/numbers", { file })),
+      tell(
+        reloading(async () =>
+          setSent(await send<Sent>("POST", back ? "machine/undo" : "machine/numbers", { file })),
+        ),
       ),
   };
 }

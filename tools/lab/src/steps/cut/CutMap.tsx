@@ -14,17 +14,15 @@ interface MapParts {
 export function CutMap({ sheet, grid }: MapParts) {
   const { program, place, knows_place, kind, unseen } = useMachine();
   const taken = program?.title === grid.program ? program.done : 0;
-  const done = grid.marks.filter((mark) => taken >= mark.lines).length;
+  const isCut = grid.marks.map(
+    (mark, index) => taken >= mark.lines || index < (grid.broke_off ?? 0),
+  );
+  const done = isCut.filter(Boolean).length;
   return (
     <figure class="cut-map">
       <SheetMap sheet={sheet} label={`${done} of ${grid.marks.length} marks are cut`}>
-        {grid.marks.map((mark) => (
-          <MarkDot
-            key={mark.name}
-            place={mark.place}
-            name={mark.name}
-            hollow={taken < mark.lines}
-          />
+        {grid.marks.map((mark, index) => (
+          <MarkDot key={mark.name} place={mark.place} name={mark.name} hollow={!isCut[index]} />
         ))}
         {place && knows_place && kind !== "none" && <Sled place={place} old={unseen > 0} />}
       </SheetMap>

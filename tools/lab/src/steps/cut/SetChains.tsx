@@ -2,22 +2,21 @@
 import { useState } from "preact/hooks";
 import { send } from "../../api/client";
 import { shownLength, typedLength } from "../../controls/lengths";
+import { useDo } from "../../shell/doing";
 import { useProject } from "../../shell/project";
 
 const USUAL = 1651; // [mm] of both chains at their marks
 
 export function SetChains() {
-  const { project, setTrouble } = useProject();
+  const { project } = useProject();
+  const [busy, run, refusal] = useDo();
   const unit = project.choices.units ?? "mm";
   const [left, setLeft] = useState(shownLength(USUAL, unit));
   const [right, setRight] = useState(shownLength(USUAL, unit));
   const lengths = [typedLength(left, unit), typedLength(right, unit)];
   const known = lengths.every((length) => length !== undefined && length > 0);
   const tell = () =>
-    send("POST", "machine/line", { text: `B06 L${lengths[0]} R${lengths[1]}` }).then(
-      () => setTrouble(""),
-      (error: Error) => setTrouble(error.message),
-    );
+    run(() => send("POST", "machine/line", { text: `B06 L${lengths[0]} R${lengths[1]}` }));
   return (
     <form
       class="set-chains"
@@ -47,9 +46,10 @@ export function SetChains() {
           onInput={(event) => setRight(event.currentTarget.value)}
         />
       </label>
-      <button type="submit" class="primary" disabled={!known}>
+      <button type="submit" class="primary" disabled={!known || busy}>
         Set both lengths; nothing moves
       </button>
+      {refusal}
     </form>
   );
 }

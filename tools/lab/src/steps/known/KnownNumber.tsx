@@ -2,6 +2,7 @@
 import { useEffect, useRef, useState } from "preact/hooks";
 import { type Schemas, send } from "../../api/client";
 import { shownLength, typedLength, type Unit } from "../../controls/lengths";
+import { useDo } from "../../shell/doing";
 import { useMachine } from "../../shell/machine";
 import { useProject } from "../../shell/project";
 import { numberOf, readingOf, type Value } from "./values";
@@ -19,25 +20,15 @@ interface NumberParts {
 }
 
 export function KnownNumber({ number, known, here, wanted, look, keep }: NumberParts) {
-  const { project, setTrouble } = useProject();
+  const { project } = useProject();
   const isVirtual = useMachine().kind === "virtual";
   const place = useRef<HTMLLIElement>(null);
   useEffect(() => {
     if (wanted) place.current?.scrollIntoView({ block: "center" });
   }, [wanted]);
-  const [busy, setBusy] = useState(false);
-  const measure = () => {
-    setBusy(true);
-    return send<Value>("POST", "known/measured", { name: number.name })
-      .then(
-        (measured) => {
-          keep(measured);
-          setTrouble("");
-        },
-        (error: Error) => setTrouble(error.message),
-      )
-      .finally(() => setBusy(false));
-  };
+  const [busy, run, refusal] = useDo();
+  const measure = () =>
+    run(async () => keep(await send<Value>("POST", "known/measured", { name: number.name })));
   const unit: Unit = number.unit === "mm" ? (project.choices.units ?? "mm") : "mm";
   const name = number.unit === "mm" ? unit : number.unit;
   const show = (read: number) => shownLength(read, unit, number.digits);
@@ -110,6 +101,7 @@ export function KnownNumber({ number, known, here, wanted, look, keep }: NumberP
           {busy ? "Measuring …" : "Measure it on the virtual machine"}
         </button>
       )}
+      {refusal}
     </li>
   );
 }

@@ -1,7 +1,7 @@
 // What would help most in addition to these marks; it is worked out when somebody asks.
 import { useEffect, useState } from "preact/hooks";
 import { send } from "../../api/client";
-import { useProject } from "../../shell/project";
+import { useDo } from "../../shell/doing";
 import type { Layout, Place } from "./plan";
 
 interface AdditionsParts {
@@ -11,22 +11,20 @@ interface AdditionsParts {
 }
 
 export function Additions({ plan, layout, places }: AdditionsParts) {
-  const { setTrouble } = useProject();
   const [additions, setAdditions] = useState<Layout.Addition[]>();
-  const [busy, setBusy] = useState(false);
+  const [busy, run, refusal] = useDo();
   const asked = JSON.stringify({ layout, places: layout === "own" ? places : [] });
   useEffect(() => setAdditions(undefined), [asked]);
-  const ask = () => {
-    setBusy(true);
-    send<Layout.Addition[]>("POST", "preview/additions", JSON.parse(asked))
-      .then(setAdditions, (error: Error) => setTrouble(error.message))
-      .finally(() => setBusy(false));
-  };
+  const ask = async () =>
+    setAdditions(await send<Layout.Addition[]>("POST", "preview/additions", JSON.parse(asked)));
   if (!additions)
     return (
-      <button type="button" disabled={busy} onClick={ask}>
-        {busy ? "Working; this takes some seconds …" : "What would help most?"}
-      </button>
+      <>
+        <button type="button" disabled={busy} onClick={() => void run(ask)}>
+          {busy ? "Working; this takes some seconds …" : "What would help most?"}
+        </button>
+        {refusal}
+      </>
     );
   return (
     <section class="additions">

@@ -1,6 +1,6 @@
 // Takes a proposal into the folder: a form for its readings, and the program that cuts its marks. Nothing moves.
-import { useState } from "preact/hooks";
 import { type Project, type Schemas, send } from "../../api/client";
+import { useDo } from "../../shell/doing";
 import { useProject } from "../../shell/project";
 
 export type Taking = Schemas["Taking"];
@@ -12,26 +12,21 @@ interface TakeParts {
 }
 
 export function TakeMarks({ taking, title }: TakeParts) {
-  const { take, setTrouble } = useProject();
-  const [busy, setBusy] = useState(false);
-  const press = () => {
-    setBusy(true);
-    send<Project>("POST", "next", { choose: taking.choose, digest: taking.digest })
-      .then(
-        (project) => {
-          take(project);
-          setTrouble("");
-          location.hash = taking.program ? "#/cut" : "#/readings";
-        },
-        (error: Error) => setTrouble(error.message),
-      )
-      .finally(() => setBusy(false));
-  };
+  const { take } = useProject();
+  const [busy, run, refusal] = useDo();
+  const press = () =>
+    void run(async () => {
+      take(await send<Project>("POST", "next", { choose: taking.choose, digest: taking.digest }));
+      location.hash = taking.program ? "#/cut" : "#/readings";
+    });
   if (title !== undefined)
     return (
-      <button type="button" aria-label={`Take: ${title}`} disabled={busy} onClick={press}>
-        Take
-      </button>
+      <>
+        <button type="button" aria-label={`Take: ${title}`} disabled={busy} onClick={press}>
+          Take
+        </button>
+        {refusal}
+      </>
     );
   const { form, program, marks } = taking;
   return (
@@ -44,6 +39,7 @@ export function TakeMarks({ taking, title }: TakeParts) {
           ? `${program} cuts them, ${form} waits for their readings.`
           : `${form} waits for them; nothing is cut.`}
       </small>
+      {refusal}
     </p>
   );
 }

@@ -1,0 +1,34 @@
+// One thing at a time, asked for by a control; what is refused stands at that control.
+import type { ComponentChild } from "preact";
+import { useState } from "preact/hooks";
+
+/** Whether something is being done, what does it, and why the last was refused: to be shown at the control. */
+export type Doing = [
+  busy: boolean,
+  run: (work: () => Promise<unknown>) => Promise<void>,
+  refusal: ComponentChild,
+];
+
+export function useDo(): Doing {
+  const [busy, setBusy] = useState(false);
+  const [line, setLine] = useState("");
+  const run = async (work: () => Promise<unknown>) => {
+    setBusy(true);
+    try {
+      await work();
+      setLine("");
+    } catch (error) {
+      setLine(error instanceof Error ? error.message : String(error));
+    }
+    setBusy(false);
+  };
+  return [busy, run, line && <Refusal line={line} />];
+}
+
+export function Refusal({ line }: { line: string }) {
+  return (
+    <span class="refusal" role="alert">
+      {line}
+    </span>
+  );
+}

@@ -1,0 +1,47 @@
+"""A correction that is written: the page says so, asks no question again, and sends it next."""
+
+import re
+
+from folder import choose, finished
+from lab_machine import PATIENCE
+from playwright.sync_api import expect
+from screens import measured_machine
+
+TITLE = "main h1"
+WANTED = "main .primary"
+ALL = ("motor_gap", "motor_height", "motor_center_x", "chain_stretch.compliance")
+
+
+def write(page, lab, *names):
+    """Numbers of the example's correction, into a file."""
+    measured_machine(lab.folder)
+    with lab.client() as client:
+        choose(client, accepted=list(names))
+        finished(client, "correction")
+    page.goto(f"{lab.url}#/correct")
+    expect(page.locator(TITLE)).to_have_text("What would change?")
+    page.get_by_role("button", name=re.compile(r"Write \d numbers? into machine")).click()
+    expect(page.locator(TITLE)).to_have_text("The numbers are written")
+    expect(page.locator("dl.errors[aria-busy=false]")).to_be_visible(timeout=PATIENCE)
+    expect(page.locator(TITLE)).to_have_text("The numbers are written")
+
+
+def test_what_is_written_is_not_asked_again_and_goes_to_the_machine_next(lab, page):
+    write(page, lab, *ALL)
+    assert page.get_by_role("checkbox").count() == 0
+    assert page.get_by_role("button", name="Accept all").count() == 0
+    expect(page.locator(WANTED)).to_have_text("Connect the machine, then send machine.toml")
+    page.reload()
+    expect(page.locator(WANTED)).to_have_text("Connect the machine, then send machine.toml")
+    page.get_by_role("button", name="Go back to groundcontrol.ini").click()
+    expect(page.locator(TITLE)).to_have_text("What would change?")
+
+
+def test_what_was_not_accepted_is_folded_away_and_can_be_accepted_later(lab, page):
+    write(page, lab, "motor_height")
+    assert page.get_by_role("checkbox").count() == 0
+    page.get_by_text("What would still change").click()
+    gap = page.get_by_role("checkbox", name="gap between the motors")
+    gap.check()
+    wanted = page.locator(WANTED)
+    expect(wanted).to_have_text("Write 1 number into machine-2.toml", timeout=PATIENCE)
