@@ -164,10 +164,14 @@ def test_the_schema_is_a_schema():
     Validator.check_schema(SCHEMA)
 
 
+# They write a file, serve, or talk; the tests of their rooms hold their answers to the schema.
+ASKED_ELSEWHERE = {"guide", "resume", "vm"}
+
+
 def test_every_command_with_json_is_asked():
     subparsers = build_parser()._subparsers._group_actions[0].choices
     answering = {name for name in COMMANDS if "--json" in subparsers[name].format_help()}
-    assert {question[0] for question in QUESTIONS} == answering
+    assert {question[0] for question in QUESTIONS} | ASKED_ELSEWHERE == answering
     assert {each["$ref"] for each in SCHEMA["anyOf"]} == {
         f"#/$defs/{name}" for name in answering | {"refusal"}
     }
