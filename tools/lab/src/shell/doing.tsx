@@ -1,6 +1,6 @@
 // One thing at a time, asked for by a control; what is refused stands at that control.
 import type { ComponentChild } from "preact";
-import { useState } from "preact/hooks";
+import { useEffect, useState } from "preact/hooks";
 
 /** Whether something is being done, what does it, and why the last was refused: to be shown at the control. */
 export type Doing = [
@@ -9,14 +9,24 @@ export type Doing = [
   refusal: ComponentChild,
 ];
 
+/** Takes each refusal away: what one control did may have mended what another was refused for. */
+const clearings = new Set<() => void>();
+
 export function useDo(): Doing {
   const [busy, setBusy] = useState(false);
   const [line, setLine] = useState("");
+  useEffect(() => {
+    const clear = () => setLine("");
+    clearings.add(clear);
+    return () => {
+      clearings.delete(clear);
+    };
+  }, []);
   const run = async (work: () => Promise<unknown>) => {
     setBusy(true);
     try {
       await work();
-      setLine("");
+      for (const clear of clearings) clear();
     } catch (error) {
       setLine(error instanceof Error ? error.message : String(error));
     }
