@@ -241,7 +241,7 @@ class SoFar:
         return then, np.array(truths), np.hstack(drawn_sizes)
 
     def _of_acting(self, part: Part, place: int, sizes: Array) -> Array:
-        """Return sizes (k, count) of a variant as those (p, count) of the effects that act in it."""
+        """Return sizes (k, count) of a variant as those (p, count) of the effects that act."""
         every = np.zeros((self.board.effects.shape[1], sizes.shape[1]))
         every[part.index[place]] = sizes
         of_acting = np.zeros_like(every)

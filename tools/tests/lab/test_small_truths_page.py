@@ -27,11 +27,7 @@ def test_a_file_that_is_open_is_named_where_another_is_picked(lab, page):
     page.goto(lab.url)
     expect(page.locator("label.pick")).to_contain_text("groundcontrol.ini is open")
     colour = page.locator("label.pick input").evaluate("(each) => getComputedStyle(each).color")
-<<<<<<< HEAD
     assert colour == "rgba(0, 0, 0, 0)"  # the browser says "No file chosen" next to its button
-=======
-    assert colour == "rgba(0, 0, 0, 0)"  # "No file chosen" is hidden
->>>>>>> bd780c46604310e47e7b20be78e81cf21d28e311
 
 
 def test_the_question_for_the_next_measurement_outlasts_a_reload(lab, page):
