@@ -10,6 +10,7 @@ from playwright.sync_api import expect
 WIDE, NARROW = {"width": 1280, "height": 800}, {"width": 390, "height": 844}
 # What each screen wants first: a field or a button.
 FIRST = {
+    "open": ".pick",
     "known": ".known input",
     "measure": ".layouts label",
     "cut": ".choice .primary",

@@ -26,7 +26,9 @@ export function Diary() {
         title="The diary"
         say="Each correction that you write, and what you send to the machine, is noted here by itself. Nothing is noted yet."
         command={diary.command}
-      />
+      >
+        <TakeAlong name="folder.zip">Save the whole folder</TakeAlong>
+      </Screen>
     );
   }
   return (

@@ -35,9 +35,9 @@ export function Open() {
         </p>
       }
       command={connected && guide.guide ? `${read}\n${guide.guide.command}` : read}
+      stage={machine && <Opened machine={machine} />}
     >
       {first && <FirstDay {...guide} />}
-      {machine && <Opened machine={machine} />}
       <SettingsFile />
       <Connection />
       {connected && !first && <FirstDay {...guide} />}
