@@ -1,6 +1,6 @@
 """Takes the pictures of the lab that README shows.
 
-    .venv/bin/python tools/tests/lab/readme_pictures.py [FOLDER]
+    PYTHONPATH=tools/tests .venv/bin/python tools/tests/lab/readme_pictures.py [FOLDER]
 
 It serves the example's machine, opens it in Chromium, and writes the pictures into docs/pictures.
 Look at each before you commit it.
