@@ -17,12 +17,13 @@ def grid_paper(
     """Return the pages, as a pdf, for a grid that was made with these settings; `form` waits for
     the numbers.
     """
-    return measuring_sheet(_content(grid, machine, settings=settings, form=form))
+    return measuring_sheet(content_of(grid, machine, settings=settings, form=form))
 
 
-def _content(
+def content_of(
     grid: marks_grid.Grid, machine: marks_grid.PlainMachine, *, settings: str | None, form: str
 ) -> MeasuringSheet:
+    """Return what the pages say."""
     cut = f" These marks are cut with {Path(settings).name}." if settings else ""
     then = f"Then type the numbers into {Path(form).name}.{cut}"
     holes = _holes(grid, machine)

@@ -197,21 +197,17 @@ def test_a_reading_that_is_off_is_a_shift_of_its_own_numbers(count, pull):
     numbers = np.array([[0, 1], [2, 3], [4, 5], [6, len(board.read)]])
     accounts = accounts_of(board, 2)
     ours = outlier_weights(board, accounts, noises, numbers)
-    used, halves = noises, count > 2
-    if halves:  # every other stands for two
-        kept = slice(count % 2, None, 2)
-        used = Noises(noises.sigmas[kept], noises.log_prior[kept] + np.log(2))
     drifting = board.effects[:, [2]] * board.sizes.pitch[2]
     for reading, rows in enumerate(numbers):
         each = []
         for spread in OUTLIER_SPREADS:
             shifts = spread * np.eye(len(board.read) + 1)[:-1, rows]
             moved = replace(board, frame=np.hstack([board.frame, drifting, shifts]))
-            each.append(weights_of(accounts, Metric.of(moved, used.sigmas), used))
+            each.append(weights_of(accounts, Metric.of(moved, noises.sigmas), noises))
         wanted = np.logaddexp.reduce(np.concatenate(each), axis=None)
         wanted -= np.log(len(numbers) * len(OUTLIER_SPREADS))
         # The sizes' spread is taken as if no reading were off.
-        assert ours[reading] == pytest.approx(wanted, abs=0.2)
+        assert ours[reading] == pytest.approx(wanted, abs=0.1)
 
 
 # Noises worth a look.

@@ -7,8 +7,8 @@ import tomllib
 import plumb.grid as marks_grid
 import pytest
 from matplotlib.patches import Rectangle
-from plumb.cli.grid import content_of
 from plumb.grid.pattern import SPANS
+from plumb.pictures.grid_paper import content_of
 from plumb.pictures.measuring_sheet import PAPER, measuring_sheet, pages_of
 
 MACHINE = marks_grid.PlainMachine()
