@@ -1,22 +1,17 @@
 """The bench for effects in a real browser."""
 
-import json
 import re
-import shutil
 import tomllib
 
 import pytest
-from folder import EXAMPLE
 from playwright.sync_api import expect
+from screens import measured_machine
 
 
 @pytest.fixture
 def bench(lab, page):
     """The bench of the example's marks."""
-    for name in ("groundcontrol.ini", "marks.toml"):
-        shutil.copy(EXAMPLE / name, lab.folder / name)
-    choices = {"settings": "groundcontrol.ini", "marks": ["marks.toml"]}
-    (lab.folder / "lab.json").write_text(json.dumps(choices))
+    measured_machine(lab.folder)
     page.goto(f"{lab.url}#/bench")
     page.get_by_role("checkbox", name="chains too long").wait_for()
     return page

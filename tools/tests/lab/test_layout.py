@@ -1,11 +1,8 @@
 """What one looks at stays in view, what one does scrolls next to it; a phone has one column."""
 
-import json
-import shutil
-
 import pytest
-from folder import EXAMPLE
 from playwright.sync_api import expect
+from screens import measured_machine
 
 WIDE, NARROW = {"width": 1280, "height": 800}, {"width": 390, "height": 844}
 # What each screen wants first: a field or a button.
@@ -23,10 +20,7 @@ FIRST = {
 @pytest.fixture
 def measured(lab, page):
     """The page of a machine whose marks are read."""
-    for name in ("groundcontrol.ini", "marks.toml"):
-        shutil.copy(EXAMPLE / name, lab.folder / name)
-    choices = {"settings": "groundcontrol.ini", "marks": ["marks.toml"]}
-    (lab.folder / "lab.json").write_text(json.dumps(choices))
+    measured_machine(lab.folder)
     page.set_viewport_size(WIDE)
     page.goto(f"{lab.url}#/open")
     page.get_by_role("heading", level=1).wait_for()

@@ -8,9 +8,11 @@ import zipfile
 import pytest
 from folder import EXAMPLE, choose, got
 from playwright.sync_api import expect
+from plumb.lab.routes import papers
 from plumb.marks.csv import read_marks_csv
 from plumb.marks.read import read_marks
 from plumb.pictures import grid_paper
+from screens import measured_machine
 
 SHEET = (2438.4, 1219.2)
 
@@ -57,7 +59,13 @@ def test_the_folder_is_packed_whole_and_the_same_each_time(measured, tmp_path):
         assert "secret.toml" not in archive.namelist()
 
 
-def test_a_sheet_to_print_has_the_marks_that_are_to_be_cut(client, monkeypatch):
+def test_a_folder_that_is_too_large_is_left_to_its_owner(measured, monkeypatch):
+    monkeypatch.setattr(papers, "MOST", 1000)
+    answer = measured.get("/api/papers/folder.zip")
+    assert answer.status_code == 422 and "copy it by hand" in answer.json()["error"]
+
+
+def test_a_sheet_to_print_has_the_marks_that_are_to_be_cut(client, tmp_path, monkeypatch):
     drawn = []
     draw = grid_paper.measuring_sheet
     monkeypatch.setattr(
@@ -73,6 +81,14 @@ def test_a_sheet_to_print_has_the_marks_that_are_to_be_cut(client, monkeypatch):
         map(tuple, places)
     )
     assert any("marks.toml" in line for line in drawn[1].how)
+    # Marks that the verdict proposed and somebody took come before.
+    got(client.post("/api/grid"))
+    for ending in ("toml", "nc"):
+        written = tmp_path / ("marks.toml" if ending == "toml" else "grid.nc")
+        written.rename(tmp_path / f"more.{ending}")
+    choose(client, layout="nine", proposed="more.toml")
+    paper(client, "marks.pdf")
+    assert len(drawn[2].holes) == 4 and any("more.toml" in line for line in drawn[2].how)
 
 
 def test_the_report_says_what_the_verdict_says(measured):
@@ -97,10 +113,7 @@ def test_no_other_file_can_be_had(client):
 
 
 def test_the_browser_saves_them(lab, page):
-    for name in ("groundcontrol.ini", "marks.toml"):
-        shutil.copy(EXAMPLE / name, lab.folder / name)
-    choices = {"settings": "groundcontrol.ini", "marks": ["marks.toml"]}
-    (lab.folder / "lab.json").write_text(json.dumps(choices))
+    measured_machine(lab.folder)
     for step, words, name in (
         ("readings", "Save the readings as a table", "readings.csv"),
         ("cut", "Save a sheet to print", "marks.pdf"),
