@@ -232,11 +232,10 @@ def log_orthant(mean: Array, covariance: Array) -> Array:
         mass += log_mass
         pull = np.exp(-0.5 * at**2 - 0.5 * np.log(2 * np.pi) - log_mass)
         less = pull * (pull + at)
-        for j in range(i + 1, len(mean)):
-            share = spread[i, j] / deviation
-            mean[j] += share * pull
-            for k in range(j, len(mean)):
-                spread[j, k] -= share * spread[i, k] / deviation * less
+        shares = spread[i, i + 1 :] / deviation
+        mean[i + 1 :] += shares * pull
+        for j, share in enumerate(shares):  # above the diagonal, where it is read
+            spread[i + 1 + j, i + 1 + j :] -= less * share * shares[j:]
     return mass
 
 
