@@ -104,14 +104,11 @@ def _plan(arguments: argparse.Namespace, settings: MachineSettings) -> Measureme
 
 def as_text(outlook: Preview) -> str:
     """Return the preview for people."""
-    smallest = [outline.smallest for outline in outlook.outlines]
-    good = [size for size in smallest if size is not None and size <= 1]
     what = f"{outlook.marks} marks"
     what += f" and {outlook.distances} distances" if outlook.distances else ""
     first = (
-        f"{what} read to {worded(outlook.sigma)}: {len(good)} of {len(outlook.outlines)} effects "
-        f"would be found in their usual size, and {outlook.pairs} of {outlook.matrix.size} cells "
-        f"below are told apart ({APART:g} or more)."
+        f"{what} read to {worded(outlook.sigma)}: of {len(outlook.outlines)} causes in their usual "
+        f"size, {outlook.seen} would show and {outlook.named} could be named."
     )
     parts = [sentences([first], mark=""), _outline_table(outlook), _cells(outlook)]
     if outlook.additions:
@@ -156,21 +153,22 @@ def _smallest(outline: Outline) -> str:
 
 
 def _cells(outlook: Preview) -> str:
-    header = ["", "reading errors against", *(str(i) for i in range(1, len(outlook.effects) + 1))]
+    note = f"the row's cause against each other, in reading errors: told apart from {APART:g} on"
+    header = ["", "cause", *(str(i) for i in range(1, len(outlook.effects) + 1))]
     rows = [
         [str(i + 1), noun_of(name), *(shown(float(value)) for value in outlook.matrix[i])]
         for i, name in enumerate(outlook.effects)
     ]
-    return table(header, rows, left=2, gap=1)
+    return table(header, rows, left=2, gap=1) + "\n" + sentences([note], mark="")
 
 
 def _addition_table(outlook: Preview) -> str:
     rows = [
-        [addition.title, f"{addition.minutes:.0f}", f"{outlook.pairs} -> {addition.pairs}"]
+        [addition.title, f"{addition.minutes:.0f}", f"{outlook.named} -> {addition.named}"]
         for place, addition in enumerate(outlook.additions)
         if place < SHOWN or addition.kind == "many"
     ]
-    return table(["what to add, best per minute first", "minutes", "cells told apart"], rows)
+    return table(["what to add, best per minute first", "minutes", "causes named"], rows)
 
 
 def shown(value: float) -> str:

@@ -249,8 +249,8 @@ def draw_preview(preview: Preview, *, sheet: tuple[float, float], form: str = "p
 
 def sentences_of(preview: Preview) -> list[str]:
     """Return what the plan finds, what it misses, and a sentence for each numbered addition."""
-    seen = [outline for outline in preview.outlines if _is_seen(outline.smallest)]
-    missed = [outline for outline in preview.outlines if not _is_seen(outline.smallest)]
+    seen = [outline for outline in preview.outlines if outline.is_seen]
+    missed = [outline for outline in preview.outlines if not outline.is_seen]
     said = [
         f"{what}: {', '.join(noun_of(outline.effect) for outline in outlines)}."
         for what, outlines in (
@@ -259,10 +259,9 @@ def sentences_of(preview: Preview) -> list[str]:
         )
         if outlines
     ]
-    pairs = f"{preview.pairs} of {preview.matrix.size}"
     said += [
-        f"Of all causes against each other, {pairs} are told apart.",
-        "More would be with what follows; numbers show where on the sheet:",
+        f"{preview.named} of {len(preview.outlines)} causes could be named.",
+        "More could be with what follows; numbers show where on the sheet:",
     ]
     said += [f"{i}: {_promise(each)}." for i, each in enumerate(with_places(preview), 1)]
     without = [each for each in preview.additions if not len(each.visits)][:PLACELESS]
@@ -285,11 +284,9 @@ def numbered_places(preview: Preview) -> list[tuple[str, np.ndarray]]:
 
 
 def _promise(addition: PlanAddition) -> str:
-    return f"{addition.title}, about {addition.minutes:.0f} minutes: {addition.pairs} told apart"
-
-
-def _is_seen(smallest: float | None) -> bool:
-    return smallest is not None and smallest <= 1
+    return (
+        f"{addition.title}, about {addition.minutes:.0f} minutes: {addition.named} could be named"
+    )
 
 
 def _draw_numbers(

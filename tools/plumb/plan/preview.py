@@ -38,6 +38,7 @@ from plumb.text.errors import InputError
 
 Array = np.ndarray
 POWER = 0.8  # chance with which the smallest size that counts as proved is proved
+UNSEEN = 0.01  # sigmas below which no size is worth asking for
 APART = 3.0  # sigmas from which two effects are distinguished in most cases
 
 
@@ -62,6 +63,13 @@ class Outline:
     smallest: float | None  # times typical, proved with POWER
     parameters: tuple[SmallestSize, ...]
     alike: tuple[str, ...]  # effects it would be taken for
+    is_distinct: bool  # in most cases it is taken for no other effect
+
+    @computed_field
+    @property
+    def is_seen(self) -> bool:
+        """Whether it shows in its typical size, with POWER."""
+        return self.smallest is not None and self.smallest <= 1
 
 
 @dataclass(frozen=True)
@@ -73,7 +81,7 @@ class PlanAddition:
     do: tuple[str, ...]  # in sentences
     minutes: float
     visits: Internal[Visits]
-    pairs: Annotated[int, key("pairs_told_apart")]  # cells of the matrix that then reach APART
+    named: Annotated[int, meant("Effects that could then be named in their usual size.")]
     bits: Annotated[float, meant("Expected information on which effect acts.")]
 
     @property
@@ -96,11 +104,17 @@ class Preview:
     additions: tuple[PlanAddition, ...]  # best first
     targets: Internal[Array]  # (k, 2) [mm]
 
-    @computed_field(alias="pairs_told_apart")
+    @computed_field
     @property
-    def pairs(self) -> int:
-        """Cells of the matrix that reach APART."""
-        return _reached(self.matrix)
+    def seen(self) -> int:
+        """Effects that would show in their usual size."""
+        return sum(each.is_seen for each in self.outlines)
+
+    @computed_field
+    @property
+    def named(self) -> int:
+        """Effects that could be named in their usual size: they show, and look like no other."""
+        return sum(each.is_seen and each.is_distinct for each in self.outlines)
 
 
 def preview(
@@ -181,7 +195,7 @@ def _outline(frame: Explanation, i: int, matrix: Array) -> Outline:
     count = frame.board.rows.count
     places = len(frame.board.rows.measured) or count
     raw = float(np.linalg.norm(frame.slopes[:count, columns])) * frame.board.sigma / np.sqrt(places)
-    smallest = _needed(frame.board, name, seen) / seen if seen > 0.01 else None
+    smallest = _smallest(frame.board, name, seen)
     typical = [words[frame.board.problem.names[column]] for column in columns]
     alike = [
         (matrix[i, j], other)
@@ -203,6 +217,25 @@ def _outline(frame: Explanation, i: int, matrix: Array) -> Outline:
             for parameter in typical
         ),
         alike=tuple(other for _, other in ranked(alike, lambda each: each[0])),
+        is_distinct=_is_distinct(matrix, i),
+    )
+
+
+def _smallest(board: Board, effect: str, seen: float) -> float | None:
+    """Return the smallest size, times typical, that is named with POWER."""
+    return _needed(board, effect, seen) / seen if seen > UNSEEN else None
+
+
+def _is_distinct(matrix: Array, i: int) -> bool:
+    return bool((matrix[i] >= APART).all())
+
+
+def _named(board: Board, matrix: Array) -> int:
+    """Return how many effects could be named in their usual size."""
+    smallest = (_smallest(board, name, matrix[i, i]) for i, name in enumerate(effect_names()))
+    return sum(
+        size is not None and size <= 1 and _is_distinct(matrix, i)
+        for i, size in enumerate(smallest)
     )
 
 
@@ -231,14 +264,8 @@ def _additions(case: Case) -> tuple[PlanAddition, ...]:
     blind, outlooks = many_marks(case), Outlooks(case)
     additions = []
     for option in [*options(case), *([blind] if blind else [])]:
-        if option.kind == "repeats":
-            continue
         planned = Planned(option.visits, option.checks)
         then = _matrix(case.frame, planned.ahead(case.frame).slopes)
         what = (option.kind, option.title, option.do, option.minutes, option.visits)
-        additions.append(PlanAddition(*what, _reached(then), outlooks.of(planned).bits))
+        additions.append(PlanAddition(*what, _named(case.board, then), outlooks.of(planned).bits))
     return tuple(ranked(additions, lambda addition: -addition.rate))
-
-
-def _reached(matrix: Array) -> int:
-    return int((matrix >= APART).sum())

@@ -144,9 +144,9 @@ def test_a_grid_is_previewed_before_it_is_cut(ask, run, maker, tmp_path):
     command = {each["effect"]: each for each in answer["outlines"]}
     assert command["motor_level"]["hidden_share"] > 0.95
     assert "frame_lean" in command["chain_sag"]["alike"]
-    assert answer["additions"][0]["pairs_told_apart"] > answer["pairs_told_apart"]
+    assert answer["additions"][0]["named"] > answer["named"]
     code, said, _ = run("preview", maker, "--preset", "twenty-five")
-    assert code == 0 and "Best addition" in said and "told apart" in said
+    assert code == 0 and "Best addition" in said and "could be named" in said
     # A command to copy keeps its file's name in one piece.
     assert max(len(line) for line in said.splitlines() if not line.startswith("  ")) <= 80
 

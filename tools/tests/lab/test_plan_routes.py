@@ -133,7 +133,7 @@ def test_a_plan_tells_what_the_command_tells(client, tmp_path, capsys):
     seen = [outline["effect"] for outline in said["outlines"] if outline["smallest"] <= 1]
     assert [effect["name"] for effect in answer["effects"] if effect["is_seen"]] == seen
     assert 0 < len(seen) < len(said["effects"])
-    assert answer["pairs"] == said["pairs_told_apart"]
+    assert answer["named"] == said["named"] > 0
     assert answer["trouble"] == ""
 
 
@@ -142,10 +142,30 @@ def test_more_marks_tell_more(client):
         got(client.post("/api/preview", json={"layout": layout}))
         for layout in ("nine", "twenty-five")
     )
-    assert many["pairs"] > few["pairs"] and many["minutes"] > few["minutes"]
+    assert many["seen"] > few["seen"] and many["minutes"] > few["minutes"]
+    assert many["named"] >= few["named"]
     places = [[-900, 400], [900, 400], [0, -400]]
     mine = got(client.post("/api/preview", json={"layout": "own", "places": places}))
-    assert mine["marks"] == 3 and mine["pairs"] < few["pairs"]
+    assert mine["marks"] == 3 and mine["named"] <= few["named"]
+
+
+@pytest.mark.parametrize("fineness", [0.25, 1.0, 3.0])
+def test_the_plan_that_names_most_causes_is_recommended(client, fineness):
+    choose(client, fineness=fineness)
+    advice = got(client.get("/api/layouts/advice"))
+    plans = {
+        each["id"]: got(client.post("/api/preview", json={"layout": each["id"]}))
+        for each in got(client.get("/api/layouts"))
+    }
+    worth = {name: (plan["named"], plan["seen"], -plan["minutes"]) for name, plan in plans.items()}
+    assert worth[advice["layout"]] == max(worth.values())
+    best, few = plans[advice["layout"]], plans["nine"]
+    said = f"{best['seen']} would show and {best['named']} could be named"
+    assert (said in advice["sentence"]) == (best["seen"] > 0)
+    instead = f"instead of {few['seen']} and {few['named']} with nine marks"
+    assert (instead in advice["sentence"]) == (advice["layout"] != "nine")
+    for plan in plans.values():
+        assert plan["seen"] == sum(each["is_seen"] for each in plan["effects"])
 
 
 def test_what_cannot_be_planned_is_said(client):
@@ -160,7 +180,7 @@ def test_what_cannot_be_planned_is_said(client):
 def test_additions_come_best_first(client):
     before = got(client.post("/api/preview", json={"layout": "nine"}))
     best, *_ = got(client.post("/api/preview/additions", json={"layout": "nine"}))
-    assert best["pairs_told_apart"] > before["pairs"] and best["do"] and best["minutes"] > 0
+    assert best["named"] > before["named"] and best["do"] and best["minutes"] > 0
 
 
 def test_places_are_taken_in_bands_there_and_back():

@@ -24,22 +24,22 @@ def choices(lab):
     return json.loads((lab.folder / "lab.json").read_text())
 
 
-def cells(page):
-    """How many cells of effect against effect count as apart."""
-    text = page.get_by_text(re.compile("Effect against effect: ")).inner_text()
-    return int(re.search(r"(\d+) of", text)[1])
+def shows(page):
+    """How many causes would show in their usual size."""
+    text = page.locator(".sum").inner_text()
+    return int(re.search(r"(\d+) would show", text)[1])
 
 
 def test_marks_are_chosen_dragged_added_and_taken_away(lab, opened):
     page = opened
     page.goto(f"{lab.site}#/measure")
-    page.get_by_text(re.compile("Effect against effect: ")).wait_for(timeout=PATIENCE)
-    nine = cells(page)
+    page.locator(".sum", has_text="would show").wait_for(timeout=PATIENCE)
+    nine, sigmas = shows(page), page.locator(".heat table").text_content()
     page.get_by_label(re.compile("Twenty-five marks")).check()
-    go_on_until(page, lambda: cells(page) > nine)
+    go_on_until(page, lambda: shows(page) > nine)
     assert choices(lab)["layout"] == "twenty-five"
     page.get_by_label(re.compile("^Nine marks")).check()
-    go_on_until(page, lambda: cells(page) == nine)
+    go_on_until(page, lambda: shows(page) == nine)
     first = page.get_by_role("button", name=re.compile(r"^Mark 1 at"))
     box = first.bounding_box()
     page.mouse.move(box["x"] + box["width"] / 2, box["y"] + box["height"] / 2)
@@ -57,7 +57,21 @@ def test_marks_are_chosen_dragged_added_and_taken_away(lab, opened):
     go_on_until(page, lambda: len(choices(lab)["planned"]) == 8)
     page.get_by_role("button", name="Add a mark in the middle").click()
     go_on_until(page, lambda: choices(lab)["planned"][-1] == [0, 0])
-    go_on_until(page, lambda: cells(page) != nine)
+    go_on_until(page, lambda: page.locator(".heat table").text_content() != sigmas)
+
+
+def test_the_recommended_plan_is_a_click_away(lab, opened):
+    page = opened
+    page.goto(f"{lab.site}#/measure")
+    advice = page.locator(".advised")
+    advice.wait_for(timeout=PATIENCE)
+    said = advice.inner_text()
+    assert "would show" in said and "instead of 2 and 1 with nine marks" in said
+    advice.get_by_role("button", name="Take these").click()
+    go_on_until(page, lambda: choices(lab).get("layout", "nine") != "nine")
+    advice.get_by_role("button").wait_for(state="detached")
+    taken = page.locator(".layouts label:has(:checked)").inner_text().split("about")[0].strip()
+    assert said.startswith(f"Recommended. {taken}")
 
 
 def test_what_is_known_is_kept_and_makes_less_error_normal(lab, opened):

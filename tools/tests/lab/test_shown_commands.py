@@ -127,7 +127,7 @@ def test_the_preview(client, tmp_path, capsys, known):
     assert main(shlex.split(grid)[1:]) == 0
     said = said_by(preview, capsys)
     assert said["sigma_mm"] == pytest.approx(shown["sigma"])
-    assert said["pairs_told_apart"] == shown["pairs"] and said["marks"] == shown["marks"] == 15
+    assert said["named"] == shown["named"] and said["marks"] == shown["marks"] == 15
     written = (tmp_path / "marks-2.toml").read_bytes()
     got(client.post("/api/grid"))
     assert (tmp_path / "marks-2.toml").read_bytes() == written

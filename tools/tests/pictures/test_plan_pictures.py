@@ -64,8 +64,8 @@ def test_many_places_have_no_sentences_and_a_few_have_a_column():
     assert [rows_for(count) for count in (0, 8, 9, 10)] == [0, 8, 5, 5]
 
 
-def addition(title, visits, pairs):
-    return SimpleNamespace(title=title, minutes=9.2, visits=visits, pairs=pairs)
+def addition(title, visits, named):
+    return SimpleNamespace(title=title, minutes=9.2, visits=visits, named=named)
 
 
 def test_a_preview_numbers_the_places_of_additions_and_says_what_each_brings():
@@ -76,21 +76,19 @@ def test_a_preview_numbers_the_places_of_additions_and_says_what_each_brings():
         addition("4 marks with 5 kg more", visits_to((100, 0)), 6),
     )
     outlines = tuple(
-        SimpleNamespace(effect=name, smallest=size)
-        for name, size in (("chain_sag", 0.9), ("chain_pitch", 1.1), ("frame_lean", None))
+        SimpleNamespace(effect=name, is_seen=is_seen)
+        for name, is_seen in (("chain_sag", True), ("chain_pitch", False), ("frame_lean", False))
     )
-    preview = SimpleNamespace(
-        additions=additions, outlines=outlines, pairs=4, matrix=np.zeros((3, 3))
-    )
-    assert [each.pairs for each in with_places(preview)] == [7, 6]
+    preview = SimpleNamespace(additions=additions, outlines=outlines, named=1)
+    assert [each.named for each in with_places(preview)] == [7, 6]
     places = {said: place.tolist() for said, place in numbered_places(preview)}
     assert places == {"1": [0.0, 0.0], "1, 2": [100.0, 0.0]}
     assert sentences_of(preview) == [
         "Found in their usual size: chain sag.",
         "Not found in their usual size: chains too long or too short, a leaning frame.",
-        "Of all causes against each other, 4 of 9 are told apart.",
-        "More would be with what follows; numbers show where on the sheet:",
-        "1: marks from opposite sides, about 9 minutes: 7 told apart.",
-        "2: 4 marks with 5 kg more, about 9 minutes: 6 told apart.",
-        "Without a mark: a level, about 9 minutes: 5 told apart.",
+        "1 of 3 causes could be named.",
+        "More could be with what follows; numbers show where on the sheet:",
+        "1: marks from opposite sides, about 9 minutes: 7 could be named.",
+        "2: 4 marks with 5 kg more, about 9 minutes: 6 could be named.",
+        "Without a mark: a level, about 9 minutes: 5 could be named.",
     ]

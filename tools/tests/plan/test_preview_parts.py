@@ -105,21 +105,27 @@ def test_effects_are_alike_that_the_marks_cannot_part(nine):
 
 def test_additions_are_worth_the_information_that_they_bring(nine):
     kinds = [each.kind for each in nine.additions]
-    assert "repeats" not in kinds and {"marks", "weight", "many", "frame"} <= {*kinds}
+    assert {"marks", "weight", "many", "frame", "repeats"} <= {*kinds}
     rates = [each.rate for each in nine.additions]
     assert rates == sorted(rates, reverse=True) and min(rates) >= 0
     for each in nine.additions:
         assert each.rate == pytest.approx(each.bits / (each.minutes + AGAIN))
         assert each.bits <= np.log2(len(nine.effects))
-        assert each.pairs >= nine.pairs
-    assert nine.pairs == int((nine.matrix >= APART).sum())
+        assert each.named >= nine.named
+    assert max(each.named for each in nine.additions) > nine.named
+    named = [
+        each.effect
+        for each, row in zip(nine.outlines, nine.matrix, strict=True)
+        if each.smallest is not None and each.smallest <= 1 and min(row) >= APART
+    ]
+    assert nine.named == len(named)
     # All marks of the addition at once are a plan like any other.
     many = next(each for each in nine.additions if each.kind == "many")
     marks = plan_of(3, 3, approach=(0.0, 1.0)).marks + tuple(
         replace(mark, sled_weight=None) for mark in many.visits.marks(many.visits.targets)
     )
     whole = preview(MACHINE, Measurements(marks), sigma=SIGMA, is_quick=True)
-    assert whole.pairs == pytest.approx(many.pairs, abs=2)
+    assert whole.named == pytest.approx(many.named, abs=1)
 
 
 def test_a_plan_of_too_few_places_is_refused():

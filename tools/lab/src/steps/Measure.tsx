@@ -16,6 +16,7 @@ export function Measure() {
   const { project, choose } = useProject();
   const { settings = "" } = project.choices;
   const layouts = useNewest<Layout.Layout[]>(settings && "layouts", settings) ?? [];
+  const advice = useNewest<Layout.Advice>(settings && "layouts/advice", settings);
   const saved: Place[] = project.choices.planned ?? [];
   const [moved, setMoved] = useState<Place[]>();
   const id = moved ? "own" : (project.choices.layout ?? "nine");
@@ -28,10 +29,15 @@ export function Measure() {
     setMoved(next);
     void choose({ layout: "own", planned: next, proposed: "" }).then(() => setMoved(undefined));
   };
+  const take = (layout: Layout.Id) => {
+    setMoved(undefined);
+    const planned = layout === "own" && saved.length === 0 ? places : saved;
+    void choose({ layout, planned, proposed: "" });
+  };
   return (
     <Screen
       title="Which marks?"
-      say="More marks tell more and take longer. Drag a mark, tap the sheet to add a mark: what the marks could tell shows at once. Nothing is cut yet."
+      say="Drag a mark, or tap the sheet to add a mark: what the marks could tell shows at once. Nothing is cut yet."
       why={<Why />}
       command={plan?.command ?? `plumb preview ${project.choices.settings} marks.toml`}
       stage={
@@ -52,15 +58,12 @@ export function Measure() {
         </>
       }
     >
+      {advice && <Advised advice={advice} chosen={id} take={take} />}
       <Layouts
         layouts={layouts}
         chosen={id}
         count={id === "own" || saved.length === 0 ? places.length : saved.length}
-        choose={(layout) => {
-          setMoved(undefined);
-          const planned = layout === "own" && saved.length === 0 ? places : saved;
-          void choose({ layout, planned, proposed: "" });
-        }}
+        choose={take}
       />
       {(trouble || plan?.trouble) && (
         <p class="trouble" role="alert">
@@ -84,13 +87,30 @@ export function Measure() {
   );
 }
 
+interface AdvisedParts {
+  advice: Layout.Advice;
+  chosen: Layout.Id;
+  take: (layout: Layout.Id) => void;
+}
+
+function Advised({ advice, chosen, take }: AdvisedParts) {
+  return (
+    <p class="advised">
+      <strong>Recommended.</strong> {advice.sentence}{" "}
+      {chosen !== advice.layout && (
+        <button type="button" onClick={() => take(advice.layout)}>
+          Take these
+        </button>
+      )}
+    </p>
+  );
+}
+
 function Sum({ plan, looking }: { plan: Layout.Plan; looking: boolean }) {
-  const seen = plan.effects.filter((effect) => effect.is_seen).length;
-  const apart = plan.effects.filter((effect) => effect.is_seen && effect.is_distinct).length;
   return (
     <p class="sum" role="status" aria-busy={looking}>
-      <strong>About {Math.round(plan.minutes)} minutes.</strong> Of {plan.effects.length} effects in
-      their usual size, {seen} would show and {apart} of these could be named.
+      <strong>About {Math.round(plan.minutes)} minutes.</strong> Of {plan.effects.length} causes in
+      their usual size, {plan.seen} would show and {plan.named} could be named.
       {looking && " Working …"}
     </p>
   );

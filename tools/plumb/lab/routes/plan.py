@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from functools import lru_cache
 from threading import Lock
 
@@ -34,7 +34,7 @@ from plumb.model.reach import Give, Pull, Survey, conclusion_of, percent, survey
 from plumb.plan.preview import APART, PlanAddition, Preview, preview
 from plumb.settings.machine import MachineSettings
 from plumb.text.errors import InputError
-from plumb.text.values import shown_in
+from plumb.text.values import shown_in, worded
 
 router = APIRouter(tags=["plan"])
 MOST_MARKS = 400
@@ -51,6 +51,13 @@ class LayoutAnswer(BaseModel):
     minutes: float
     places: list[tuple[float, float]]  # [mm] machine frame
     spans: list[tuple[int, int]]  # distances between marks, by their place in the list
+
+
+class AdviceAnswer(BaseModel):
+    """The layout to take, and what it gains."""
+
+    layout: Layout
+    sentence: str
 
 
 class PlanRequest(BaseModel):
@@ -79,8 +86,9 @@ class PlanAnswer(BaseModel):
     minutes: float
     sigma: float  # [mm] of a reading
     effects: list[PlannedEffect]
-    pairs: int  # cells that count, of all
-    apart: float  # sigmas from which a cell counts
+    seen: int  # effects that would show in their usual size
+    named: int  # effects that could be named in their usual size
+    apart: float  # sigmas by which two effects are distinguished
     trouble: str  # why the sled cannot take this way; empty if it can
     command: str
 
@@ -132,6 +140,39 @@ def _layout(settings: MachineSettings, layout: Layout) -> LayoutAnswer:
     )
 
 
+@router.get("/layouts/advice")
+def layout_advice(project: TheProject) -> AdviceAnswer:
+    """Return the layout by which most causes could be named, or most would show; of several the
+    quickest.
+    """
+    settings, choices = opened(project), project.choices
+    previews = {
+        layout: _looked(settings, choices, PlanRequest(layout=layout), is_quick=True)
+        for layout in TITLES
+    }
+    minutes = {layout: planned(settings, layout, ()).minutes for layout in TITLES}
+    worth = {layout: (each.named, each.seen, -minutes[layout]) for layout, each in previews.items()}
+    best = max(TITLES, key=lambda layout: worth[layout])
+    with shown_in(choices.units):
+        return AdviceAnswer(layout=best, sentence=_advice(previews, best, minutes[best]))
+
+
+def _advice(previews: Mapping[Layout, Preview], best: Layout, minutes: float) -> str:
+    first, taken = next(iter(TITLES)), previews[best]
+    if not taken.seen:
+        return (
+            f"With a tape that reads to {worded(taken.sigma)} no plan here would show a cause of "
+            "its usual size. Any of them shows causes that move marks further."
+        )
+    said = (
+        f"{TITLES[best]}, about {minutes:.0f} minutes: of {len(taken.effects)} causes in their "
+        f"usual size {taken.seen} would show and {taken.named} could be named"
+    )
+    few = previews[first]
+    instead = f", instead of {few.seen} and {few.named} with {TITLES[first].lower()}"
+    return f"{said}{instead if best != first else ''}."
+
+
 class Desk:
     """Looks at one plan at a time; who waits while a newer plan comes is sent away."""
 
@@ -149,10 +190,15 @@ class Desk:
         with self._lock:
             if mine != self._newest:
                 raise InputError("another plan came meanwhile")
-            priors = tuple(sorted(planned_priors(possible(choices, settings)).items()))
-            places = tuple(request.places)
-            sigma = tape_sigma(choices.fineness)
-            return _look(_Same(settings), request.layout, places, sigma, priors, is_quick)
+            return _looked(settings, choices, request, is_quick=is_quick)
+
+
+def _looked(
+    settings: MachineSettings, choices: Choices, request: PlanRequest, *, is_quick: bool
+) -> Preview:
+    priors = tuple(sorted(planned_priors(possible(choices, settings)).items()))
+    places, sigma = tuple(request.places), tape_sigma(choices.fineness)
+    return _look(_Same(settings), request.layout, places, sigma, priors, is_quick)
 
 
 class _Same:
@@ -199,7 +245,8 @@ def preview_plan(request: PlanRequest, project: TheProject) -> PlanAnswer:
         minutes=plan.minutes,
         sigma=outlook.sigma,
         effects=_effects(outlook),
-        pairs=outlook.pairs,
+        seen=outlook.seen,
+        named=outlook.named,
         apart=APART,
         trouble=_trouble(settings, request),
         command=_command(project, possible(choices, settings), plan, outlook.sigma),
@@ -272,8 +319,8 @@ def _effects(outlook: Preview) -> list[PlannedEffect]:
         PlannedEffect(
             name=outline.effect,
             noun=noun_of(outline.effect),
-            is_seen=outline.smallest is not None and outline.smallest <= 1,
-            is_distinct=bool((outlook.matrix[i] >= APART).all()),
+            is_seen=outline.is_seen,
+            is_distinct=outline.is_distinct,
             alike=[noun_of(name) for name in outline.alike],
             sigmas=[round(float(value), 1) for value in outlook.matrix[i]],
         )

@@ -32,8 +32,8 @@ export function Additions({ plan, layout, places }: AdditionsParts) {
       <ol>
         {additions.map((addition) => (
           <li key={addition.title}>
-            <b>{addition.title}</b>: {Math.round(addition.minutes)} min, {plan.pairs} →{" "}
-            {addition.pairs_told_apart} cells told apart. {addition.do.join(" ")}
+            <b>{addition.title}</b>: about {Math.round(addition.minutes)} min, {plan.named} →{" "}
+            {addition.named} causes could be named. {addition.do.join(" ")}
           </li>
         ))}
       </ol>

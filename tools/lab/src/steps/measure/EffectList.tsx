@@ -5,16 +5,19 @@ type Effect = Layout.Plan["effects"][number];
 
 export function EffectList({ plan }: { plan: Layout.Plan }) {
   return (
-    <ul class="effects" aria-label="What these marks could tell">
-      {plan.effects.map((effect) => (
-        <li key={effect.name} class={tone(effect)}>
-          <b>
-            <span aria-hidden="true">{SIGN[tone(effect)]}</span> {effect.noun}
-          </b>
-          <small>{words(effect)}</small>
-        </li>
-      ))}
-    </ul>
+    <details>
+      <summary>Each cause by itself</summary>
+      <ul class="effects" aria-label="What these marks could tell">
+        {plan.effects.map((effect) => (
+          <li key={effect.name} class={tone(effect)}>
+            <b>
+              <span aria-hidden="true">{SIGN[tone(effect)]}</span> {effect.noun}
+            </b>
+            <small>{words(effect)}</small>
+          </li>
+        ))}
+      </ul>
+    </details>
   );
 }
 

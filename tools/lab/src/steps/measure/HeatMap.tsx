@@ -1,14 +1,12 @@
-// Effect against effect: how clearly the row stands out once the column is allowed too.
+// Cause against cause: how clearly the row stands out once the column is allowed too.
 import type { Layout } from "./plan";
 
 export function HeatMap({ plan }: { plan: Layout.Plan }) {
   return (
     <details class="heat">
-      <summary>
-        Effect against effect: {plan.pairs} of {plan.effects.length ** 2} cells tell them apart
-      </summary>
+      <summary>Each cause against each other</summary>
       {/* biome-ignore lint/a11y/noNoninteractiveTabindex: a wide table is scrolled by keys too */}
-      <section class="scroll" tabIndex={0} aria-label="Effect against effect">
+      <section class="scroll" tabIndex={0} aria-label="Each cause against each other">
         <table>
           <thead>
             <tr>
