@@ -130,11 +130,20 @@ bool Machine::moveInMode(const Words& words) {
   moves_.takeFeed(words);
   const uint8_t mode = modal_.motion;
   const bool is_arc = mode == 2 || mode == 3;
-  const bool turns = is_arc && (words.has('I') || words.has('J') || words.has('R'));
+  const bool turns =
+      is_arc && (words.has('I') || words.has('J') || words.has('K') || words.has('R'));
   if (!words.hasPlace() && !turns) return true;
-  if (mode == gcode::kNoMotion)
-    return answers_.refuseMotion(FLASH("no motion is in force after G80; say G0 or G1"));
+  if (mode == gcode::kNoMotion) return riseAfterCycle(words);
   return mode > gcode::kNoMotion ? drilling_.drill(words) : moves_.move(mode, words);
+}
+
+/// After G80 no motion is in force. Programs go on with z alone to lift the bit, and that is safe
+/// whichever motion they mean.
+bool Machine::riseAfterCycle(const Words& words) {
+  const Place target = moves_.targetOf(words);
+  if (goesAcross(words) || target.z < program_.aim().z)
+    return answers_.refuseMotion(FLASH("no motion is in force after G80; say G0 or G1"));
+  return moves_.moveStraight(target, false, moves_.feedOf(0));
 }
 
 bool Machine::setTool(const Words& words) {

@@ -96,6 +96,7 @@ class Machine : private Waiting, private Dispatch {
   bool runCode(const char* text);
   bool runPiece(const gcode::Piece& piece);
   bool moveInMode(const gcode::Words& words);
+  bool riseAfterCycle(const gcode::Words& words);
   bool setTool(const gcode::Words& words);
   bool runQuestion(const char* line) override;
   bool runSetting(const char* line);

@@ -6,8 +6,28 @@ namespace {
 
 using gcode::Words;
 
-const float kLeastFeed = 1;      // [mm/min]
-const float kInTheWork = 0.05f;  // [mm] below the surface: nobody lets go of a bit there
+const float kLeastFeed = 1;        // [mm/min]
+const float kInTheWork = 0.05f;    // [mm] below the surface: nobody lets go of a bit there
+const float kMostCutOff = 0.005f;  // [mm] between a chord and its arc
+const uint8_t kMostPieces = 5;     // of a line that four edges cut
+
+/// The axes of a plane, 0 to 2: an arc turns from the first to the second, and goes evenly along
+/// the third.
+struct Plane {
+  uint8_t first, second, along;
+};
+
+Plane planeOf(const gcode::Modal& modal) {
+  const uint8_t first = modal.plane == 17 ? 0 : modal.plane == 18 ? kZAxis : 1;
+  return {first, uint8_t((first + 1) % kPlaceAxes), uint8_t((first + 2) % kPlaceAxes)};
+}
+
+/// The letter of an arc's centre along an axis.
+char centreLetter(uint8_t axis) { return char('I' + axis); }
+
+motion::Point<float> inPlane(const Plane& plane, Place& place) {
+  return {part(place, plane.first), part(place, plane.second)};
+}
 
 }  // namespace
 
@@ -22,6 +42,13 @@ void Moves::takeFeed(const Words& words) {
 }
 
 Place Moves::targetOf(const Words& words) const {
+  Place target = placeOf(words);
+  target.z = z_.within(target.z);
+  return target;
+}
+
+/// The place of a line's words, whatever the limits of z are.
+Place Moves::placeOf(const Words& words) const {
   Place target = program_.counted();
   for (uint8_t axis = 0; axis < kPlaceAxes; ++axis) {
     if (!words.has(kAxisLetters[axis])) continue;
@@ -29,7 +56,6 @@ Place Moves::targetOf(const Words& words) const {
     coordinate =
         modal_.targetOf(coordinate, words.value(kAxisLetters[axis]), coordinates_.begin(axis));
   }
-  target.z = z_.within(target.z);
   return target;
 }
 
@@ -48,10 +74,12 @@ bool Moves::move(uint8_t kind, const Words& words) {
     return answers_.refuseMotion(FLASH("with G93 each line needs its F"));
   const float feed = feedOf(kind);
   if (kind < 2) return moveStraight(target, goesAcross(words), feed);
+  const bool turns_z = modal_.plane != 17;
+  // A limit of z cuts such an arc short, and must not move its end.
+  if (turns_z) target = placeOf(words);
   if (!mayTurn(words) || !isNear(target) || !coordinates_.mayCrossSheet()) return false;
-  const Place from = program_.counted();
-  if (!z_.hasMotor()) target.z = from.z;
-  return moveRound(kind == 2, {from.x, from.y}, target, words, feed);
+  if (!turns_z && !z_.hasMotor()) target.z = program_.aim().z;
+  return moveRound(kind, target, words, feed);
 }
 
 bool Moves::isNear(const Place& target) {
@@ -61,12 +89,18 @@ bool Moves::isNear(const Place& target) {
 }
 
 bool Moves::mayTurn(const Words& words) {
-  if (modal_.plane != 17)
-    return answers_.refuseMotion(FLASH("arcs are cut in the plane of G17 only"));
+  const Plane plane = planeOf(modal_);
+  const bool has_first = words.has(centreLetter(plane.first));
+  const bool has_second = words.has(centreLetter(plane.second));
+  if (modal_.plane != 17 && !z_.hasMotor())
+    return answers_.refuseMotion(FLASH("an arc after G18 or G19 needs a motor for z"));
+  const bool has_centre = words.has('R') || has_first || has_second;
+  if (modal_.plane != 17 && words.hasPlace() && !has_centre)
+    return answers_.refuseMotion(FLASH("an arc needs R, or a centre in its plane (G17 to G19)"));
   if (modal_.machine_coordinates)
     return answers_.refuseMotion(FLASH("G53 goes with G0 and G1 only"));
-  if (modal_.absolute_centres && !words.has('R') && !(words.has('I') && words.has('J')))
-    return answers_.refuseMotion(FLASH("with G90.1 an arc needs I and J"));
+  if (modal_.absolute_centres && !words.has('R') && !(has_first && has_second))
+    return answers_.refuseMotion(FLASH("with G90.1 an arc needs both letters of its centre"));
   if (words.has('P') && words.value('P') != 1)
     return answers_.refuseMotion(
         FLASH("an arc goes round once; P is left to the program that sends"));
@@ -113,19 +147,28 @@ bool Moves::goSafely(const Place& target, bool across) {
   return moveStraight(next, false, feed);
 }
 
-/// An arc's centre by I and J, seen from its start [mm].
-motion::Point<float> Moves::centreAhead(const Words& words, motion::Point<float> from) const {
-  const motion::Point<float> centre = {modal_.toMm(words.value('I')),
-                                       modal_.toMm(words.value('J'))};
+/// How far the centre of an arc is from its start along an axis, by I, J or K [mm].
+float Moves::centreAhead(const Words& words, uint8_t axis) const {
+  const float centre = modal_.toMm(words.value(centreLetter(axis)));
   if (!modal_.absolute_centres) return centre;
-  return {coordinates_.begin(0) + centre.x - from.x, coordinates_.begin(1) + centre.y - from.y};
+  Place from = program_.counted();
+  return coordinates_.begin(axis) + centre - part(from, axis);
 }
 
-bool Moves::moveRound(bool clockwise, motion::Point<float> from, const Place& target,
-                      const Words& words, float feed) {
-  const motion::Point<float> to = {target.x, target.y};
+bool Moves::moveRound(uint8_t kind, const Place& target, const Words& words, float feed) {
+  motion::Path<float> path;
+  if (!drawRound(kind, target, words, path)) return false;
+  return modal_.plane == 17 ? queue(path, target, feed) : queueChords(path, target, feed);
+}
+
+/// The path of an arc in its plane; false, with a refusal, if there is none.
+bool Moves::drawRound(uint8_t kind, Place target, const Words& words, motion::Path<float>& path) {
+  const bool clockwise = kind == 2;
+  const Plane plane = planeOf(modal_);
+  Place start = program_.counted();
+  const motion::Point<float> from = inPlane(plane, start), to = inPlane(plane, target);
   const float radius = modal_.toMm(words.value('R'));
-  motion::Point<float> ahead = centreAhead(words, from);
+  motion::Point<float> ahead = {centreAhead(words, plane.first), centreAhead(words, plane.second)};
   float digit = modal_.inches ? motion::kInchDigit : motion::kMillimetreDigit;
   if (radius != 0) {
     const gcode::ArcCentre seen =
@@ -135,22 +178,58 @@ bool Moves::moveRound(bool clockwise, motion::Point<float> from, const Place& ta
       return answers_.refuseMotion(FLASH("an arc of that radius does not reach its end"));
     ahead = {seen.x, seen.y};
     digit = 0;  // the radius's sign says whether the arc is the long way round
-  } else if (!words.has('I') && !words.has('J')) {
+  } else if (!words.has(centreLetter(plane.first)) && !words.has(centreLetter(plane.second))) {
     // An arc without centre is a line, as in the published firmware.
-    return queue(motion::line(from, to), target, feed);
+    path = motion::line(from, to);
+    return true;
   }
   const motion::Turn turn = clockwise ? motion::Turn::kClockwise : motion::Turn::kCounterclockwise;
-  const motion::Path<float> path =
-      motion::arc(from, to, {from.x + ahead.x, from.y + ahead.y}, turn, digit);
-  if (path.drawn == motion::Drawn::kEndOffArc)
-    return answers_.refuseMotion(FLASH("the arc does not end on its circle"));
-  return queue(path, target, feed);
+  path = motion::arc(from, to, {from.x + ahead.x, from.y + ahead.y}, turn, digit);
+  return path.drawn != motion::Drawn::kEndOffArc ||
+         answers_.refuseMotion(FLASH("the arc does not end on its circle"));
 }
 
-/// The feed for a move that G93 times: `times` [1/min] is 1 / its time.
-float Moves::fittingFeed(const motion::Path<float>& path, const Place& target, float times) const {
-  const float rise = target.z - program_.aim().z, most = values_.at(kGreatestFeed);
-  const float feed = times * float(sqrt(path.length * path.length + rise * rise));
+/// Queues an arc that turns z, as chords: `path` is the arc in its plane.
+bool Moves::queueChords(const motion::Path<float>& path, const Place& target, float feed) {
+  Place place = program_.counted(), end = target;
+  const uint8_t along = planeOf(modal_).along;
+  const float start = part(place, along), way = part(end, along) - start;
+  if (feed < 0) feed = fittingFeed(path.length, way, -feed);
+  // A chord of the angle a is farthest from its arc in the middle: by radius * a^2 / 8.
+  const float turn = float(fabs(path.sweep));
+  const uint16_t chords = uint16_t(turn * float(sqrt(path.radius / (8 * kMostCutOff)))) + 1;
+  // The wait is here, where little stands on the stack: with room for what edges make of a chord.
+  const auto isNearlyFull = [&] {
+    return planner_.queue().count() + kMostPieces > motion::MoveQueue::kMost;
+  };
+  for (uint16_t chord = 1; chord <= chords; ++chord) {
+    if (!waiting_.waitWhile(isNearlyFull)) return false;
+    if (!queueChord(path, float(chord) / float(chords), start, way, feed)) return false;
+  }
+  return true;
+}
+
+/// Queues a chord to a share [1] of the arc, from where the program counts.
+bool Moves::queueChord(const motion::Path<float>& path, float share, float start, float way,
+                       float feed) {
+  const Plane plane = planeOf(modal_);
+  const motion::Point<float> at = motion::placeOn(path, share);
+  const Place from = program_.counted();
+  Place to;
+  part(to, plane.first) = at.x;
+  part(to, plane.second) = at.y;
+  part(to, plane.along) = share == 1 ? start + way : start + way * share;
+  if (!isNear(to)) return false;
+  to.z = z_.within(to.z);
+  cutter_.aim(modal_.motion);
+  return queue(motion::line<float>({from.x, from.y}, {to.x, to.y}), to, feed);
+}
+
+/// The feed for a move that G93 times: `times` [1/min] is 1 / its time, `length` and `rise` [mm]
+/// its ways in a plane and off the plane.
+float Moves::fittingFeed(float length, float rise, float times) const {
+  const float most = values_.at(kGreatestFeed);
+  const float feed = times * float(sqrt(length * length + rise * rise));
   return feed > most ? most : feed;
 }
 
@@ -164,7 +243,7 @@ bool Moves::queue(const motion::Path<float>& path, const Place& target, float fe
   if (!goes && target.z == aim.z) return true;
   if (target.z != aim.z && !door_.doesZFollow()) return false;
   if (goes && !door_.doChainsFollow()) return false;
-  if (feed < 0) feed = fittingFeed(path, target, -feed);
+  if (feed < 0) feed = fittingFeed(path.length, target.z - aim.z, -feed);
   // Nearly every path is on the sheet; to look for its cuts would cost a tenth of a short line.
   const bool queued = goes && geometry_.holds(path)
                           ? queuePiece(path, motion::Space::kSheet, target.z, feed, beam)

@@ -50,12 +50,18 @@ class Moves {
   bool goSafely(const Place& target, bool across);
   bool isNear(const Place& target);
   bool mayTurn(const gcode::Words& words);
-  motion::Point<float> centreAhead(const gcode::Words& words, motion::Point<float> from) const;
-  // Not inline: else a line would wait for room with the stack of an arc, 260 bytes more.
-  __attribute__((noinline)) bool moveRound(bool clockwise, motion::Point<float> from,
-                                           const Place& target, const gcode::Words& words,
-                                           float feed);
-  float fittingFeed(const motion::Path<float>& path, const Place& target, float times) const;
+  Place placeOf(const gcode::Words& words) const;
+  float centreAhead(const gcode::Words& words, uint8_t axis) const;
+  // Not inline: else every line would wait for room with the stack of an arc, and an arc with the
+  // stack of what draws it.
+  __attribute__((noinline)) bool moveRound(uint8_t kind, const Place& target,
+                                           const gcode::Words& words, float feed);
+  __attribute__((noinline)) bool drawRound(uint8_t kind, Place target, const gcode::Words& words,
+                                           motion::Path<float>& path);
+  bool queueChords(const motion::Path<float>& path, const Place& target, float feed);
+  __attribute__((noinline)) bool queueChord(const motion::Path<float>& path, float share,
+                                            float start, float way, float feed);
+  float fittingFeed(float length, float rise, float times) const;
   bool queue(const motion::Path<float>& path, const Place& target, float feed);
   __attribute__((noinline)) bool mayGo(const motion::Path<float>& path, const Area& area);
   // Not inline: else every line would wait for room with the stack of the cuts.

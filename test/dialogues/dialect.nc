@@ -39,8 +39,8 @@
 <- ok
 -> G1 X3 Y3
 <- ok
--> G2 X5 Y5 I2 J0
-<- error: arcs are cut in the plane of G17 only
+-> G2 X5 Y5 J2
+<- error: an arc needs R, or a centre in its plane (G17 to G19)
 -> G17
 <- ok
 ; Centres as places.
@@ -49,7 +49,7 @@
 -> G90.1 G2 X0 Y-10 I0 J0 F800
 <- ok
 -> G3 X10 Y0 I0
-<- error: with G90.1 an arc needs I and J
+<- error: with G90.1 an arc needs both letters of its centre
 -> G91.1 G3 X10 Y0 I0 J10
 <- ok
 -> G4 P0

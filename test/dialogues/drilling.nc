@@ -31,9 +31,17 @@
 <* ok
 ~~ wait 0.5
 ~~ status <Idle,MPos:30.00,0.00,3.00,WPos:0.000,0.000,0.000> within 0.02
-; After G80 a bare place is no motion any more.
+; After G80 a bare place is no motion any more; a bare z that lifts the bit is a rapid move.
 -> G54 G80
 <- ok
+-> Z4
+<- ok
+-> G80 Z5.5
+<- ok
+-> G4 P0
+<* ok
+~~ wait 0.5
+~~ status <Idle,MPos:30.00,0.00,5.50,WPos:0.000,0.000,0.000> within 0.02
 -> X5
 <- ALARM: Halted at X5: no motion is in force after G80*
 >> !
@@ -44,6 +52,12 @@
 -> G0 X0 Y0
 <- ok
 -> $70=1
+<- ok
+-> G80 Z5
+<- error: no motion is in force after G80*
+-> X1 Z9
+<- error: no motion is in force after G80*
+-> G0 Z3
 <- ok
 -> G81 X5 Z-1
 <- error: a hole needs R and Z

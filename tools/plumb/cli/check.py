@@ -22,12 +22,14 @@ from plumb.cli.arguments import (
 )
 from plumb.cli.inputs import inputs_of, picture_form
 from plumb.cli.output import refuse_twins, write_outputs
-from plumb.cli.screen import bar, headline, next_step, print_json, sentences, table
+from plumb.cli.screen import bar, free_name, headline, next_step, print_json, sentences, table
 from plumb.fit.inputs import settings_in
 from plumb.job.bits import INCH, Tools
 from plumb.job.check import Checked, Error, Part, check_job
-from plumb.job.dry_run import outline_of, program_in
+from plumb.job.dry_run import comment_of, outline_of, program_in
 from plumb.job.findings import HALTS, IGNORED, SINKS, WAITS, Finding, Hanging, Slower, Times
+from plumb.job.fixes import Change, fixed, has_habit
+from plumb.job.resume import Machine
 from plumb.job.wood import Piece
 from plumb.model.predict import USABLE
 from plumb.pictures.job import Drawn, draw_job
@@ -44,6 +46,7 @@ class CheckAnswer:
 
     checked: Internal[Checked]
     written: list[str]
+    changed: tuple[Change, ...]  # by --fix
 
     good = part("checked.is_good", bool)
     halted_at = part("checked.done.halted_at", int | None, "A line.")
@@ -69,12 +72,41 @@ class CheckAnswer:
 
 def run(arguments: argparse.Namespace) -> int:
     """Check, draw, print, and return the exit code."""
-    refuse_twins(arguments.picture, arguments.outline)
+    refuse_twins(arguments.picture, arguments.outline, arguments.fix)
     form = picture_form(arguments.picture) if arguments.picture else ""
     settings = settings_in(arguments.settings)
     arguments.controller = None
     lines = program_in(arguments.job)
-    checked = check_job(
+    checked = _checked(arguments, settings, lines)
+    files, changes = {}, tuple[Change, ...]()
+    if arguments.fix:
+        machine = Machine(settings, (*arguments.start, 0.0), dict(arguments.set))
+        mended = fixed(machine, lines, checked.findings, source=arguments.job)
+        changes = mended.changes
+        # In front of the first line, so that each line keeps its number.
+        title = f"(plumb: {comment_of(Path(arguments.job).name)} as this machine runs it) "
+        files[arguments.fix] = (title + "\n".join([*mended.lines, ""])).encode()
+        checked = _checked(arguments, settings, mended.lines) if changes else checked
+    if arguments.picture:
+        files[arguments.picture] = draw_job(_drawn(checked, settings, arguments.job), form=form)
+    if arguments.outline:
+        over_sheet = checked.done.moves.only(checked.done.moves.over_sheet)
+        outline = outline_of(over_sheet, checked.samples, name=Path(arguments.job).name)
+        files[arguments.outline] = outline.encode()
+    write_outputs(files, inputs=[arguments.job, arguments.settings, *arguments.marks])
+    if arguments.json:
+        print_json(CheckAnswer(checked, list(files), changes))
+    else:
+        if arguments.fix:
+            print(f"{_changed(changes, arguments)}\n")
+        print(as_text(checked, arguments))
+    return 0 if checked.is_good else 1
+
+
+def _checked(
+    arguments: argparse.Namespace, settings: MachineSettings, lines: Sequence[str]
+) -> Checked:
+    return check_job(
         settings,
         lines,
         inputs=inputs_of(arguments) if arguments.marks else None,
@@ -88,19 +120,6 @@ def run(arguments: argparse.Namespace) -> int:
         start=(*arguments.start, 0.0),
         progress=bar("running the program dry"),
     )
-    files = {}
-    if arguments.picture:
-        files[arguments.picture] = draw_job(_drawn(checked, settings, arguments.job), form=form)
-    if arguments.outline:
-        over_sheet = checked.done.moves.only(checked.done.moves.over_sheet)
-        outline = outline_of(over_sheet, checked.samples, name=Path(arguments.job).name)
-        files[arguments.outline] = outline.encode()
-    write_outputs(files, inputs=[arguments.job, arguments.settings, *arguments.marks])
-    if arguments.json:
-        print_json(CheckAnswer(checked, list(files)))
-    else:
-        print(as_text(checked, arguments))
-    return 0 if checked.is_good else 1
 
 
 def _drawn(checked: Checked, settings: MachineSettings, name: str) -> Drawn:
@@ -165,6 +184,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="FILE",
         help="write a program that goes round the job, slowly, with the bit above the sheet",
     )
+    parser.add_argument(
+        "--fix",
+        metavar="FILE",
+        help="write an equal program that this machine runs, and list what was changed; refused "
+        "where none is known",
+    )
     add_force(parser)
     add_units(parser)
     add_json(parser)
@@ -179,7 +204,8 @@ CUT = 10.0  # [N] the side force of a light cut
 
 def as_text(checked: Checked, arguments: argparse.Namespace) -> str:
     """Return the check for people: what is wrong, the job, its parts, what to do next."""
-    paragraphs = [headline(_verdict(checked, Path(arguments.job).name), is_good=checked.is_good)]
+    name = Path(arguments.fix or arguments.job).name
+    paragraphs = [headline(_verdict(checked, name), is_good=checked.is_good)]
     wrong = _wrong(checked)
     if wrong:
         paragraphs.append(sentences(wrong))
@@ -189,10 +215,33 @@ def as_text(checked: Checked, arguments: argparse.Namespace) -> str:
     notes = _notes(checked)
     if notes:
         paragraphs.append(sentences(notes))
+    if has_habit(checked.findings):
+        words = "To write an equal program that this machine runs:"
+        name = free_name("mended", ".nc")
+        fix = ["check", arguments.job, arguments.settings, "--fix", name]
+        paragraphs.append(next_step(words, fix))
     if arguments.outline:
         words = "See where it will cut, with the bit above the sheet:"
         paragraphs.append(next_step(words, ["send", arguments.outline]))
     return "\n\n".join(filter(None, paragraphs))
+
+
+def _changed(changes: Sequence[Change], arguments: argparse.Namespace) -> str:
+    """Return what was changed: each pair of lines once, with its first line."""
+    name = Path(arguments.fix).name
+    if not changes:
+        return f"Nothing in {Path(arguments.job).name} had to change; {name} holds the same."
+    alike: dict[tuple[str, str], list[Change]] = {}
+    for each in changes:
+        alike.setdefault((each.before, each.after), []).append(each)
+    said = []
+    for (before, after), those in alike.items():
+        lines = _lines([each.line for each in those])
+        said.append(f"line {lines}: {before} -> {after or 'nothing'} ({those[0].why})")
+    more = len(said) - SHOWN
+    said = said[:SHOWN] + ([f"and {more} more; --json has all"] if more > 0 else [])
+    head = f"{name} cuts the same, with {_count(len(changes), 'line')} changed:"
+    return f"{head}\n{sentences(said)}"
 
 
 def _verdict(checked: Checked, name: str) -> str:

@@ -1,0 +1,260 @@
+"""An equal program that this machine runs: places that it does not have, motions that are left out.
+
+Three habits of CAM programs halt this machine, or send its bit into the wood: a retract to the home
+of another machine (`G28 G91 Z0`), a place near the top of another machine's z (`G53 G0 Z-5`), and a
+place behind G80 without G0. Each is written as this machine reads it, line for line. Then the dry
+run must cut the same as the program itself on machines that have a home, wherever that home is.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from plumb.job.bits import INCH
+from plumb.job.dry_run import CLEAR, Moves, pieces
+from plumb.job.findings import GOUGES, HALTS, Finding, findings_of
+from plumb.job.resume import Machine, Place
+from plumb.job.wood import FOREIGN
+from plumb.model.predict import Array
+from plumb.text.answers import Internal
+from plumb.text.errors import InputError
+
+HOME, MACHINE, CANCEL, NO_MOTION = (28.0, 30.0), 53.0, 80.0, 80
+NO_PLACE, NO_MODE = "nobody has set that place", "no motion is in force after G80"
+AXES = "XYZ"
+HOMES = ((0.0, 0.0, 0.0), (37.0, -23.0, 7.0))  # [mm] x, y, and z above all the program
+SAME = 2e-3  # [mm] between two cuts that are the same
+REMEDY = "change it where the program was made"
+Word = tuple[str, float, dict[str, float]]
+
+
+@dataclass(frozen=True)
+class Change:
+    """A line that was changed."""
+
+    line: int
+    before: str
+    after: str
+    why: str
+    goes_home: Internal[bool] = False  # a machine that has a home does the line as it is
+
+
+@dataclass(frozen=True)
+class Fixed:
+    """A program that the machine runs."""
+
+    lines: tuple[str, ...]
+    changes: tuple[Change, ...]
+
+
+def fixed(
+    machine: Machine, lines: Sequence[str], findings: Sequence[Finding], *, source: str
+) -> Fixed:
+    """Return an equal program; InputError at the first line for which none is known. `findings` of
+    the program as it is, `source` its name.
+    """
+    moves = machine.after(lines).finish().moves
+    top = max(CLEAR, float(moves["z_to"][moves.over_sheet].max(initial=0.0)))
+    changes = tuple(_changes(lines, findings, top))
+    if not changes and not _halts(findings):
+        return Fixed(tuple(lines), ())
+    written = _with(lines, {each.line: each.after for each in changes})
+    after = machine.after(written).finish()
+    with _naming(source):
+        _refuse_halts(lines, findings_of(after))
+        _refuse_cuts_of(changes, after.moves)
+        others = {each.line: each.after for each in changes if not each.goes_home}
+        mended = _at_home(machine, written, HOMES[0], top)
+        for home in HOMES:
+            _refuse_other_cuts(_at_home(machine, _with(lines, others), home, top), mended)
+    return Fixed(tuple(written), changes)
+
+
+def has_habit(findings: Sequence[Finding]) -> bool:
+    """Return whether fixed() knows a habit that is among the findings."""
+    known = any(each.says.startswith((NO_PLACE, NO_MODE)) for each in _halts(findings))
+    return known or _means_top(findings)
+
+
+def _means_top(findings: Sequence[Finding]) -> bool:
+    return any(each.kind == GOUGES and "Carbide Create" in each.says for each in findings)
+
+
+class _UnknownError(Exception):
+    """A line for which no equal line is known; says which, and why."""
+
+    def __init__(self, line: int, why: str) -> None:
+        super().__init__(line, why)
+        self.line, self.why = line, why
+
+
+@contextmanager
+def _naming(source: str) -> Iterator[None]:
+    try:
+        yield
+    except _UnknownError as error:
+        why = f"cannot be fixed: {error.why}"
+        raise InputError(source, why, place=f"line {error.line}", remedy=REMEDY) from None
+
+
+def _halts(findings: Sequence[Finding]) -> list[Finding]:
+    return [each for each in findings if each.kind == HALTS]
+
+
+def _with(lines: Sequence[str], others: dict[int, str]) -> list[str]:
+    return [others.get(number, line) for number, line in enumerate(lines, start=1)]
+
+
+# Which lines change, and to what.
+
+
+@dataclass
+class _Modes:
+    """What is in force between two lines of a program."""
+
+    motion: int = 0
+    before_cycle: int = 0
+    inches: bool = False
+    relative: bool = False
+    _units: dict[float, bool] = field(default_factory=lambda: {20.0: True, 21.0: False})
+
+    def take(self, words: Sequence[Word]) -> None:
+        for letter, code, _ in words:
+            if letter == "M" and code in (2, 30) and self.motion >= NO_MOTION:
+                self.motion = 0
+            if letter != "G":
+                continue
+            self.inches = self._units.get(code, self.inches)
+            self.relative = code == 91 if code in (90, 91) else self.relative
+            if code in (81, 82, 83) and self.motion < NO_MOTION:
+                self.before_cycle = self.motion
+            if code in (0, 1, 2, 3, 80, 81, 82, 83):
+                self.motion = int(code)
+
+
+def _changes(lines: Sequence[str], findings: Sequence[Finding], top: float) -> Iterator[Change]:
+    """Yield the lines to change, `top` [mm] the highest z of the program."""
+    halting = {line: each.says for each in _halts(findings) for line in each.lines}
+    means_top = _means_top(findings)
+    modes = _Modes()
+    for number, line in enumerate(lines, start=1):
+        words = pieces(line)
+        modes.take(words)
+        says = halting.get(number, "")
+        change = None
+        if says.startswith(NO_PLACE):
+            change = _homeless(number, line, words, modes, top)
+        elif means_top and FOREIGN.search(line):
+            change = _from_top(number, line, words, modes, top)
+        elif says.startswith(NO_MODE) and modes.motion == NO_MOTION:
+            change = _after_cycle(number, line, words, modes)
+        if change:
+            yield change
+
+
+def _after_cycle(number: int, line: str, words: Sequence[Word], modes: _Modes) -> Change | None:
+    """Return the line as a rapid move, if that was in force before the holes."""
+    if modes.before_cycle != 0 or any(code == CANCEL for _, code, _ in words):
+        return None
+    modes.motion = 0
+    why = "behind G80 this machine wants the code of a motion; before the holes it was G0"
+    return Change(number, line.strip(), f"G0 {line.strip()}", why)
+
+
+def _homeless(
+    number: int, line: str, words: Sequence[Word], modes: _Modes, top: float
+) -> Change | None:
+    """Return a retract in place of the way home; None where the way there may cut."""
+    axes = {axis: value for _, code, each in words for axis, value in each.items() if axis in AXES}
+    if modes.motion > NO_MOTION or (not modes.relative and axes.get("Z", 0.0) < 0):
+        return None
+    homed = "".join(axes) or AXES
+    kept = _codes(words, HOME)
+    why = "this machine has no home: "
+    if "Z" not in homed:
+        return Change(number, line.strip(), kept, why + "the sled stays", goes_home=True)
+    after = " ".join(filter(None, [kept, _rise(modes, top)]))
+    return Change(number, line.strip(), after, why + "the bit goes up instead", goes_home=True)
+
+
+def _from_top(
+    number: int, line: str, words: Sequence[Word], modes: _Modes, top: float
+) -> Change | None:
+    axes = {axis: value for _, _, each in words for axis, value in each.items() if axis in AXES}
+    if modes.motion != 0 or set(axes) != {"Z"} or axes["Z"] >= 0:
+        return None
+    kept = _codes(words, (MACHINE, 0.0))
+    why = "the top of another machine's z; here z is 0 at the face of the sheet"
+    after = " ".join(filter(None, [kept, _rise(modes, top)]))
+    return Change(number, line.strip(), after, why)
+
+
+def _rise(modes: _Modes, top: float) -> str:
+    """Return words that lift the bit, and leave the motion in force as it was."""
+    height = f"{top / INCH:.4f}" if modes.inches else f"{top:.3f}"
+    # Behind G2 and G3 a place without a centre is a straight way, as in G1.
+    back = {0: "", NO_MOTION: f" G{NO_MOTION}"}.get(modes.motion, " G1")
+    return f"G53 G0 Z{height}{back}"
+
+
+def _codes(words: Sequence[Word], without: Sequence[float]) -> str:
+    """Return a line's codes and words without some codes, and without its place."""
+    kept = []
+    for letter, code, each in words:
+        if letter and not (letter == "G" and code in without):
+            kept.append(f"{letter}{code:g}")
+        kept += [f"{name}{value:g}" for name, value in each.items() if name in "FST"]
+    return " ".join(kept)
+
+
+# That the same is cut.
+
+
+def _refuse_halts(lines: Sequence[str], findings: Sequence[Finding]) -> None:
+    for each in _halts(findings):
+        raise _UnknownError(each.line, f"{lines[each.line - 1].strip()} ({each.says})")
+
+
+def _refuse_cuts_of(changes: Sequence[Change], moves: Moves) -> None:
+    """_UnknownError if a changed line cuts."""
+    numbers = [each.line for each in changes]
+    rises = (moves["length"] == 0) & (moves["z_to"] > moves["z_from"])
+    wrong = moves.cut & ~rises & np.isin(moves["line"], numbers)
+    if wrong.any():
+        raise _UnknownError(int(moves["line"][wrong][0]), "the bit is in the wood there")
+
+
+def _at_home(machine: Machine, lines: Sequence[str], home: Place, top: float) -> Moves:
+    """Return the moves of a program on a machine whose home is there."""
+    x, y, z = home
+    begin_x, begin_y, begin_z = machine.start
+    place = [f"G0 Z{top + z:.3f}", f"G0 X{x:.3f} Y{y:.3f}", "G28.1", "G30.1"]
+    back = [f"G0 X{begin_x:.4f} Y{begin_y:.4f}", f"G0 Z{begin_z:.4f}"]
+    run = machine.after([])
+    run.send([*place, *back], first=-len(place + back))
+    run.send(lines)
+    moves = run.finish().moves
+    return moves.only(moves["line"] > 0)
+
+
+def _refuse_other_cuts(before: Moves, after: Moves) -> None:
+    """_UnknownError at the first line that cuts elsewhere than it did."""
+    these, those = _cuts(before), _cuts(after)
+    count = min(len(these), len(those))
+    differs = (np.abs(these[:count] - those[:count]) > SAME).any(axis=1)
+    if differs.any() or len(these) != len(those):
+        longer = these if len(these) > count else those
+        line = int((these[differs.argmax()] if differs.any() else longer[count])[0])
+        raise _UnknownError(line, "it would cut elsewhere than on the machine that is meant")
+
+
+def _cuts(moves: Moves) -> Array:
+    """Return what cuts (n, 10): line, ends, centre, turn, and depths below the face."""
+    cuts = moves.only(moves.cut)
+    names = ("line", "from_x", "from_y", "to_x", "to_y", "centre_x", "centre_y", "sweep")
+    depths = [np.minimum(cuts[name], 0.0) for name in ("z_from", "z_to")]
+    return np.column_stack([*(cuts[name] for name in names), *depths])

@@ -1,0 +1,147 @@
+"""`plumb check --fix`: an equal program that this machine runs."""
+
+import numpy as np
+import pytest
+from plumb.bench.causes import MAKER
+from plumb.cli.main import main
+from plumb.job.bits import Tools
+from plumb.job.check import check_job
+from plumb.job.fixes import fixed
+from plumb.job.resume import Machine
+from plumb.settings.toml import write_machine_toml
+from plumb.text.errors import InputError
+from workshop import NAMES, lines_of
+
+MACHINE = Machine(MAKER, (0.0, 0.0, 0.0), {})
+FUSION = """G90 G94
+G17
+G21
+G28 G91 Z0.
+G90
+S12000 M3
+G54
+G0 X-50 Y10
+Z15.
+Z5.
+G98 G81 X-50 Y10 Z-4. R2. F300
+X-40
+G80
+Z15.
+X0 Y0
+Z5
+G1 Z0 F300
+G18 G2 X1 Z-1 I1 K0 F1000
+G17
+G1 X20
+N5 G28 G91 Z0.
+G90
+G28 G91 X0. Y0.
+G90
+M5
+M30""".splitlines()
+# What it says to a machine that has a home and reads G80 as Fusion does, written by hand.
+MEANT = [*FUSION]
+MEANT[3], MEANT[20], MEANT[22] = "G91 G53 G0 Z15", "G91 G53 G0 Z15", "G91"
+MEANT[14] = "G0 X0 Y0"
+
+
+def fix(lines):
+    findings = check_job(MAKER, lines, tools=Tools.of(lines)).findings
+    return fixed(MACHINE, lines, findings, source="job.nc")
+
+
+def cut(lines):
+    """The finished piece, and the places of each cut."""
+    checked = check_job(MAKER, lines, tools=Tools.of(lines))
+    moves = checked.done.moves
+    return checked, moves.only(moves.cut).sampled(0.5)
+
+
+def assert_cuts_the_same(lines, others):
+    (these, places), (those, other_places) = cut(lines), cut(others)
+    assert these.done.halted_at is None and these.is_good, these.findings
+    np.testing.assert_array_equal(these.piece.heights, those.piece.heights)
+    np.testing.assert_allclose(places.places, other_places.places, atol=1e-3)
+    np.testing.assert_allclose(np.minimum(places.z, 0), np.minimum(other_places.z, 0), atol=1e-3)
+    assert these.piece.removed > 100
+
+
+def test_a_program_of_fusion_runs_and_cuts_what_it_means():
+    mended = fix(FUSION)
+    assert [each.line for each in mended.changes] == [4, 15, 21, 23]
+    assert len(mended.lines) == len(FUSION)
+    assert mended.lines[3] == "G91 G53 G0 Z15.000" and mended.lines[20] == "G91 G53 G0 Z15.000 G1"
+    assert mended.lines[14] == "G0 X0 Y0"
+    assert mended.lines[22] == "G91"
+    assert_cuts_the_same(mended.lines, MEANT)
+    assert fix(mended.lines) == type(mended)(mended.lines, ())
+
+
+def test_behind_an_arc_a_place_is_still_cut_at_the_feed():
+    lines = ["G0 Z5", "G1 Z-1 F300", "G2 X10 I5 J0", "G28 G91 Z0", "G90", "G0 X30", "G1 Z-1", "X40"]
+    mended = fix(lines)
+    assert mended.lines[3] == "G91 G53 G0 Z5.000 G1"
+    assert_cuts_the_same(mended.lines, [*lines[:3], "G0 Z5", *lines[5:]])
+
+
+def test_in_inches_the_bit_rises_as_high():
+    lines = ["G20 G90", "G0 Z0.5", "G0 X1 Y1", "G1 Z-0.1 F20", "X2", "G91 G28 Z0", "G90 M5"]
+    mended = fix(lines)
+    assert mended.lines[5] == "G91 G53 G0 Z0.5000 G1"
+    assert_cuts_the_same(mended.lines, [*lines[:5], "G0 Z0.5", "M5"])
+
+
+def test_the_top_of_another_machine_is_a_retract():
+    lines = ["G90", "G53G0Z-5.000", "M3S18000", "G0X9Y9", "G1Z-2F300", "X40", "G53G0Z-5.000"]
+    lines += ["M5", "G0X60Y9", "M3", "G1Z-1", "Y40", "G0Z6"]
+    mended = fix(lines)
+    # In G1 the line drives down at the feed; here the code of the line itself says G0.
+    assert [each.line for each in mended.changes] == [2, 7]
+    assert "G53 G0 Z6.000" in mended.lines[1]
+    assert_cuts_the_same(mended.lines, [each.replace("G53G0Z-5.000", "G0 Z6") for each in lines])
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_a_program_that_runs_stays(name):
+    assert fix(lines_of(name)).changes == ()
+
+
+@pytest.mark.parametrize(
+    ("says", "lines"),
+    [
+        # What is no habit that is known.
+        ("line 2: cannot be fixed: G41 D1", ["G0 Z5", "G41 D1", "G1 Z-1 F200", "X5", "G0 Z5"]),
+        # The program counts on from a home that nobody knows.
+        ("line 4", ["G0 Z5", "G28 X0 Y0", "G91", "G1 X5 Y5 Z-7 F300", "G90 G0 Z5"]),
+        ("line 3", ["G0 Z5", "G91 G28 Z0", "G1 Z-12 F300", "X9", "G90 G0 Z5"]),
+        ("line 4", ["G0 Z5", "G28 G91 X0 Y0", "G90 X5", "G1 Z-2 F300", "X9", "G0 Z5"]),
+        # The way home would lead through the wood.
+        ("line 3", ["G0 X9", "G1 Z-3 F300", "G28 X0 Y0", "G0 Z5"]),
+        # Behind G80 a place in the wood, and one of which nobody knows how it moves.
+        ("line 3", ["G81 X9 Z-3 R2 F200", "G80", "Z-4", "G0 Z5"]),
+        ("line 4", ["G1 Z3 F300", "G81 X9 Z-3 R2 F200", "G80", "X20", "G0 Z5"]),
+    ],
+)
+def test_what_has_no_equal_is_refused_in_a_line(says, lines):
+    with pytest.raises(InputError) as refused:
+        fix(lines)
+    assert says in str(refused.value) and "\n" not in str(refused.value)
+    assert str(refused.value).startswith("job.nc, line")
+
+
+def test_the_command_writes_it_lists_it_and_refuses_without_writing(tmp_path, capsys, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    write_machine_toml("machine.toml", MAKER)
+    (tmp_path / "job.nc").write_text("\n".join(FUSION))
+    assert main(["check", "job.nc", "machine.toml"]) == 1
+    assert "plumb check job.nc machine.toml --fix mended.nc" in capsys.readouterr().out
+    for _ in range(2):  # the second time it replaces what it wrote
+        assert main(["check", "job.nc", "machine.toml", "--fix", "out.nc"]) == 0
+        said = capsys.readouterr().out
+        assert said.startswith("out.nc cuts the same, with 4 lines changed:\n- line 4:")
+        assert "Nothing is wrong with out.nc." in said
+    assert len((tmp_path / "out.nc").read_text().splitlines()) == len(FUSION)
+    (tmp_path / "job.nc").write_text("G0 Z5\nG41 D1\nG1 Z-1 F200\n")
+    assert main(["check", "job.nc", "machine.toml", "--fix", "other.nc"]) == 2
+    assert not (tmp_path / "other.nc").exists()
+    assert capsys.readouterr().err.count("\n") == 1
