@@ -80,7 +80,7 @@ bool Coordinates::keepGoal(const gcode::Piece& piece) {
 const float* Coordinates::goal(const gcode::Piece& piece) {
   const float* const kept = values_.from(goalRow(piece));
   if (*kept != kNoPlace) return kept;
-  answers_.refuseMotion(FLASH("nobody has set that place; go there and say G28.1 or G30.1"));
+  answers_.refuseMotion(FLASH("no place is kept for it; go there first and send G28.1 or G30.1"));
   return nullptr;
 }
 

@@ -2,7 +2,7 @@
 ~~ include setup.inc
 ; Nobody said where to, so nothing moves.
 -> G28
-<- ALARM: Halted at G28: nobody has set that place*
+<- ALARM: Halted at G28: no place is kept for it*
 >> !
 <- ok
 <* position loaded at:

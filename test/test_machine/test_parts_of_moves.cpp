@@ -83,7 +83,7 @@ TEST_F(MovesAlone, TakeTheTimeThatInverseTimeAsksFor) {
 
 TEST_F(MovesAlone, GoToAKeptPlaceFirstUpThenAcross) {
   EXPECT_FALSE(moves.goToKept(piece("G28")));
-  expectSaid("nobody has set that place");
+  expectSaid("no place is kept for it");
   EXPECT_TRUE(moves.move(0, words("G0 X30 Y10 Z2")) && waiting.drain());
   EXPECT_TRUE(coordinates.keepGoal(piece("G28.1")));
   EXPECT_TRUE(moves.move(0, words("G0 X0 Y0 Z-1")) && waiting.drain());

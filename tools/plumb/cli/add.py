@@ -8,7 +8,16 @@ from pathlib import Path
 
 from pydantic import computed_field
 
+from plumb.cli.addition import (
+    as_text,
+    auto_text,
+    auto_verdict,
+    numbers_text,
+    short_auto_text,
+    verdict_of,
+)
 from plumb.cli.arguments import (
+    add_details,
     add_force,
     add_json,
     add_marks,
@@ -28,26 +37,23 @@ from plumb.cli.screen import (
     print_json,
     same_inputs,
     second_round,
-    sentences,
-    table,
     usual_client,
 )
 from plumb.cli.settings import Written, add_client, add_firmware, client_files_of, client_text
 from plumb.cure.add import Addition, add
 from plumb.cure.auto import AutoAddition, add_auto
 from plumb.cure.live_board import refuse_other_origin
-from plumb.cure.machine_file import PATCH_WARNING, record_of, toml_of, turn_sentences
+from plumb.cure.machine_file import record_of, toml_of
 from plumb.diary.file import FIT, fit_entry, keep
 from plumb.firmware.client_files import ClientFiles
 from plumb.fit.compare import Comparison
 from plumb.fit.covariates import PATCH
 from plumb.fit.inputs import Inputs
 from plumb.model.catalogue import is_sketch
-from plumb.model.plain import noun_of, plain_before, plain_size
+from plumb.model.plain import noun_of
 from plumb.pictures.fingerprints import Stair, draw_staircase
 from plumb.pictures.scale import Panel
 from plumb.text.errors import InputError
-from plumb.text.values import bare, unit, worded
 
 NONE = "none"  # as an effect: the frame alone
 
@@ -106,7 +112,8 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.json:
         print_json(NamedAnswer(**vars(result), written=tuple(files), client=client))
     else:
-        print(as_text(result, asked_patch=arguments.patch))
+        shown = as_text(result, asked_patch=arguments.patch)
+        _print(shown if arguments.details else numbers_text(result), verdict_of(result))
         _print_written(files, client, arguments)
     return int(not result.pays and arguments.effect != [NONE])
 
@@ -126,7 +133,10 @@ def _run_auto(arguments: argparse.Namespace, inputs: Inputs) -> int:
         added = result.addition
         print_json(AutoAnswer(**vars(added), **vars(why)) if added else why)
     else:
-        print(auto_text(result))
+        _print(
+            auto_text(result) if arguments.details else short_auto_text(result),
+            auto_verdict(result),
+        )
         same = same_inputs(arguments)
         if result.addition:
             _print_written(files, client, arguments)
@@ -136,6 +146,10 @@ def _run_auto(arguments: argparse.Namespace, inputs: Inputs) -> int:
         else:
             print(f"\n{next_step('What to measure next:', ['next', *same])}")
     return int(not result.done)
+
+
+def _print(facts: str, verdict: str) -> None:
+    print(f"{facts}\n\n{verdict}")
 
 
 def written(
@@ -246,100 +260,6 @@ def _noun(effect: str) -> str:
     return "patch" if effect == PATCH else noun_of(effect)
 
 
-# What `plumb add` says to people.
-
-
-def auto_text(result: AutoAddition) -> str:
-    """Return the diagnosis and the choice for people, then the addition."""
-    said = [sentences([result.diagnosis.sentence], mark="")]
-    if result.diagnosis.outliers:
-        said.append(sentences([slip.sentence for slip in result.diagnosis.outliers]))
-    said += [sentences([each], mark="") for each in result.said]
-    if result.settled_by:
-        said.append("To be sure which it is:\n" + sentences(result.settled_by))
-    if result.offer:
-        added = result.addition is not None and PATCH in result.addition.effects_added
-        said.append(sentences([_offer_sentence(*result.offer, added=added)], mark=""))
-    if result.addition:
-        said.append(as_text(result.addition))
-    return "\n\n".join(said)
-
-
-def _offer_sentence(without: float, with_patch: float, *, added: bool) -> str:
-    """Return what a residual patch would buy, or has bought."""
-    if with_patch >= without:
-        return f"A residual patch would buy nothing ({worded(without)} on marks not used)."
-    bought = f"{bare(without)} to {worded(with_patch)} on marks not used"
-    if added:
-        return f"The residual patch bought {bought}."
-    return f"A residual patch (--patch) would buy {bought}. {PATCH_WARNING}"
-
-
-# What the columns of the tables of errors mean, one family of words for all commands.
-COLUMNS = (
-    "Noise: what reading errors alone would leave of that RMS. Checked: on marks not used, each "
-    "predicted by a fit without it."
-)
-
-
-def as_text(result: Addition, *, asked_patch: bool = False) -> str:
-    """Return the addition for people, its conclusion first."""
-    raw, before, after = result.raw, result.before, result.after
-    verdict = "better" if result.pays else "NOT better"
-    first = f"From {bare(raw.rms)} to {worded(after.fit_rms)} RMS"
-    if result.by_effect:
-        first += (
-            f"; checked on marks not used, it is {verdict} with the effects "
-            f"({bare(before.left_out_rms)} to {worded(after.left_out_rms)})"
-        )
-    first += "."
-    parts = [sentences([first], mark=""), quality_table(result), parameter_table(result)]
-    if result.benchmark_after:
-        parts.insert(1, _benchmark_sentence(result))
-    parts.append(sentences([f"{COLUMNS} {result.intervals_said}"], mark=""))
-    said = [*turn_sentences(result), *result.cures, *result.warnings]
-    if PATCH in result.effects_added:
-        said.append(PATCH_WARNING)
-    elif asked_patch:
-        said.append("a residual patch would predict marks not used no better, so none was added")
-    parts += [sentences(said)] if said else []
-    return "\n\n".join(parts)
-
-
-def _benchmark_sentence(result: Addition) -> str:
-    """Return the community's score before, and what to expect of the next cut."""
-    said = (
-        f"Calibration Benchmark Score: {result.raw.benchmark} as cut; {result.benchmark_after} to "
-        "expect when it is cut again with the new settings, if nothing else changes."
-    )
-    return sentences([said], mark="")
-
-
-def quality_table(result: Addition) -> str:
-    raw = result.raw
-    start = (raw.rms, None, None, raw.worst, raw.shape_rms)
-    rows = [["raw: the settings as they are", *map(bare, start)]]
-    named = [("fitted: the frame", result.before)]
-    named += [(f"fitted: + {noun_of(step.effect)}", step) for step in result.by_effect]
-    for name, q in named:
-        errors = (q.fit_rms, q.noise_rms, q.left_out_rms, q.worst, q.shape_rms)
-        rows.append([name, *map(bare, errors)])
-    return table([f"error in {unit()}", "RMS", "noise", "checked", "worst", "shape"], rows)
-
-
-def parameter_table(result: Addition) -> str:
-    rows = [
-        [
-            plain_size(each.name, each.value, each.low, each.high),
-            plain_before(each.name, each.before, each.low, each.high),
-            "" if each.possible else "impossible",
-        ]
-        for each in result.parameters
-        if not each.of_patch
-    ]
-    return table(["fitted, with its 95 % interval", "before", ""], rows, words=[-1])
-
-
 # The arguments of `plumb add`.
 
 EXAMPLES = (
@@ -388,6 +308,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_firmware(parser)
     add_stated(parser, sigma="tape_sigma_mm of MARKS and their scatter")
     add_picture(parser, "draw how the error falls")
+    add_details(parser, "how the error falls, and all that is to be known of the numbers")
     add_force(parser)
     add_units(parser)
     add_json(parser)

@@ -30,6 +30,7 @@ from plumb.cli.read import MachineNumbers
 from plumb.cli.recheck import RecheckAnswer
 from plumb.cli.report import ReportAnswer
 from plumb.cli.resume import ResumeAnswer
+from plumb.cli.send import SendAnswer
 from plumb.cli.settings import SettingLines
 from plumb.cli.slip import SlipAnswer
 from plumb.cli.telemetry import WatchedTelemetry
@@ -74,6 +75,7 @@ ANSWERS: dict[str, Any] = {
     "recheck": RecheckAnswer,
     "report": ReportAnswer,
     "resume": ResumeAnswer,
+    "send": SendAnswer,
     "settings": SettingLines,
     "slip": SlipAnswer,
     "telemetry": WatchedTelemetry,

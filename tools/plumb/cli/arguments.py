@@ -107,6 +107,11 @@ def add_json(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--json", action="store_true", help="print a JSON object and nothing else")
 
 
+def add_details(parser: argparse.ArgumentParser, what: str) -> None:
+    """Add the option --details; `what` says what it shows."""
+    parser.add_argument("--details", action="store_true", help=f"also show {what}")
+
+
 def add_force(parser: argparse.ArgumentParser) -> None:
     """Add the option --force."""
     parser.add_argument(

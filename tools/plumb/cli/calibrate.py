@@ -8,19 +8,23 @@ from dataclasses import dataclass, replace
 from pydantic import computed_field
 
 from plumb.cli import add as add_command
-from plumb.cli.add import COLUMNS, parameter_table, quality_table
+from plumb.cli.addition import COLUMNS, parameter_table, quality_table
 from plumb.cli.arguments import (
+    add_details,
     add_force,
     add_json,
     add_marks,
     add_units,
     add_without,
 )
-from plumb.cli.compare import conclusion, outside_sentence
+from plumb.cli.compare import conclusion, outside_sentence, pose_sentence
 from plumb.cli.diagnose import explanation_table
 from plumb.cli.inputs import add_stated, stated_inputs
-from plumb.cli.next import after, first_proposal
+from plumb.cli.next import after, first_proposal, to_read
 from plumb.cli.screen import (
+    BAD,
+    GOOD,
+    OPEN,
     auto_words,
     bar,
     free_name,
@@ -37,7 +41,7 @@ from plumb.cure.add import Addition
 from plumb.cure.auto import AutoAddition, add_auto
 from plumb.cure.live_board import refuse_other_origin
 from plumb.cure.machine_file import turn_sentences
-from plumb.diagnosis.answer import Diagnosis
+from plumb.diagnosis.answer import MOST_NAMED, Diagnosis
 from plumb.firmware.client_files import ClientFiles
 from plumb.fit.compare import Comparison, compare
 from plumb.fit.inputs import Inputs
@@ -117,7 +121,9 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.json:
         print_json(CalibrateAnswer(**vars(this), written=tuple(files), client=client))
     else:
-        print(as_text(this, arguments, files, client, inputs))
+        facts = details(this, inputs) if arguments.details else size_now(this)
+        ending = _ending(this, arguments, files, client, inputs)
+        print("\n\n".join([*facts, *ending]))
     return int(not this.done)
 
 
@@ -137,12 +143,13 @@ def _written(
     addition = this.result.addition
     if not this.done or addition is None:
         return [], None
-    client = usual_client(arguments)[1]
+    _, client, *original = usual_client(arguments)
     asked = {
         **vars(arguments),
         "output": arguments.output or free_name("machine", ".toml"),
         # Without a client's file there is no telling what sends to the machine.
         "client": client if arguments.client or client != "none" else None,
+        "original": original[-1] if original else None,
         "picture": None,
     }
     return add_command.written(argparse.Namespace(**asked), inputs, addition)
@@ -174,25 +181,47 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_firmware(parser)
     add_stated(parser, sigma="as plumb diagnose takes it")
     add_units(parser)
+    add_details(parser, "what the marks say, and what was fitted")
     add_force(parser)
     add_json(parser)
 
 
-# What `plumb calibrate` says to people: what the marks show, a sentence, and the next command.
+# What `plumb calibrate` says to people: the size of the error, a verdict, and what to do.
 
 
-def as_text(
-    this: Round,
-    arguments: argparse.Namespace,
-    files: list[str],
-    client: ClientFiles | None,
-    inputs: Inputs,
-) -> str:
-    """Return the whole round for people: what is, what is missing, what was done, what
-    comes next.
-    """
+def size_now(this: Round) -> list[str]:
+    """Return the error before and after, unless the verdict says it; slips in whole sentences."""
+    diagnosis = this.result.diagnosis
+    if diagnosis.outliers:
+        return [sentences([slip.sentence for slip in diagnosis.outliers][:SLIPS])]
+    if this.done and this.result.addition:
+        odd = [*this.result.addition.cures, *this.result.addition.warnings]
+        return [sentences(odd[:1])] if odd else []
+    if this.result.addition is None:
+        return [sentences(this.result.said[:1], mark="")]
+    best = diagnosis.explanations[0] if diagnosis.explanations else None
+    left, effects = (best.rms_after, best.effects) if best else (diagnosis.rms_before, ())
+    cause = plainly(effects) if len(effects) <= MOST_NAMED else f"{len(effects)} causes at once"
+    said = (
+        f"The error is {worded(this.comparison.rms)} RMS as set; {cause} would explain all but "
+        f"{worded(left)}."
+        if effects
+        else f"The error is {worded(this.comparison.rms)} RMS as set, {worded(left)} with the "
+        "frame fitted."
+    )
+    outside = outside_sentence(this.comparison.promised) if this.comparison.promised else ""
+    return [sentences([f"{said} {outside}".strip()], mark="")]
+
+
+SLIPS = 2  # sentences of a short answer
+
+
+def details(this: Round, inputs: Inputs) -> list[str]:
+    """Return all that is known after this round."""
     diagnosis, addition = this.result.diagnosis, this.result.addition
-    parts = [conclusion(this.comparison, inputs.settings.sheet_width, inputs.measurements.typed)]
+    sheet_width, typed = inputs.settings.sheet_width, inputs.measurements.typed
+    moved = pose_sentence(this.comparison, sheet_width, typed)
+    parts = [sentences([conclusion(this.comparison)] + ([moved] if moved else []), mark="")]
     outside = outside_sentence(this.comparison.promised) if this.comparison.promised else ""
     if outside:
         parts.append(sentences([f"{outside} The diagnosis asks for that again."], mark=""))
@@ -212,13 +241,32 @@ def as_text(
             parts.append(sentences(this.result.said[1:], mark=""))
     if addition is None and not diagnosis.outliers:
         parts.append(sentences(this.result.said, mark=""))
-    parts.append(headline(this.sentence))
+    return parts
+
+
+def _ending(
+    this: Round,
+    arguments: argparse.Namespace,
+    files: list[str],
+    client: ClientFiles | None,
+    inputs: Inputs,
+) -> list[str]:
+    """Return the verdict, and what the owner does now."""
+    slips, best = this.result.diagnosis.outliers, this.best
+    verdict = headline(this.sentence, GOOD if this.done else BAD if slips else OPEN)
     if this.done:
-        parts.append(_written_text(files, client))
-        parts.append(second_round(arguments, files))
-    else:
-        parts += _first_measure(this, arguments)
-    return "\n\n".join(parts)
+        return [verdict, _written_text(files, client), second_round(arguments, files)]
+    if slips:
+        return [verdict, _read_again(this, arguments)]
+    if best is None:
+        return [verdict]
+    if not arguments.details:
+        steps = to_read(best, best.option.do, inputs.settings)
+        return [f"{verdict}\n{steps}\n{after(best, arguments, inputs.settings)}"]
+    parts = [verdict, *first_proposal(best, arguments, inputs.settings)]
+    if this.result.chosen:
+        parts.append(next_step("Or take the most likely one untested:", auto_words(arguments)))
+    return parts
 
 
 def _written_text(files: list[str], client: ClientFiles | None) -> str:
@@ -226,19 +274,11 @@ def _written_text(files: list[str], client: ClientFiles | None) -> str:
     return f"{written}\n{client_text(client)}" if client else written
 
 
-def _first_measure(this: Round, arguments: argparse.Namespace) -> list[str]:
-    """Return what has to be done before anything is written."""
+def _read_again(this: Round, arguments: argparse.Namespace) -> str:
+    """Return what follows from readings that are wrong."""
     same = same_inputs(arguments)
-    if this.result.diagnosis.outliers:
-        names = dict.fromkeys(slip.name for slip in this.result.diagnosis.outliers)
-        without = [word for name in names for word in ("--without", name)]
-        corrected = next_step("When the file is corrected:", ["calibrate", *same])
-        left = next_step("If it cannot be read again:", ["calibrate", *same, *without])
-        return [f"{corrected}\n{left}"]
-    best = this.best
-    if best is None:
-        return []
-    parts = [first_proposal(best), after(best, arguments)]
-    if this.result.chosen:
-        parts.append(next_step("Or take the most likely one untested:", auto_words(arguments)))
-    return parts
+    names = dict.fromkeys(slip.name for slip in this.result.diagnosis.outliers)
+    without = [word for name in names for word in ("--without", name)]
+    corrected = next_step("When the file is corrected:", ["calibrate", *same])
+    left = next_step("If it cannot be read again:", ["calibrate", *same, *without])
+    return f"{corrected}\n{left}"

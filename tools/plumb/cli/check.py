@@ -22,7 +22,17 @@ from plumb.cli.arguments import (
 )
 from plumb.cli.inputs import inputs_of, picture_form
 from plumb.cli.output import refuse_twins, write_outputs
-from plumb.cli.screen import bar, free_name, headline, next_step, print_json, sentences, table
+from plumb.cli.screen import (
+    BAD,
+    GOOD,
+    bar,
+    free_name,
+    headline,
+    next_step,
+    print_json,
+    sentences,
+    table,
+)
 from plumb.fit.inputs import settings_in
 from plumb.job.bits import INCH, Tools
 from plumb.job.check import Checked, Error, Part, check_job
@@ -31,9 +41,9 @@ from plumb.job.findings import HALTS, IGNORED, SINKS, WAITS, Finding, Hanging, S
 from plumb.job.fixes import Change, fixed, has_habit
 from plumb.job.resume import Machine
 from plumb.job.wood import Piece
-from plumb.model.predict import USABLE
+from plumb.model.predict import CANNOT_HANG, REACH_WORDS, USABLE
 from plumb.pictures.job import Drawn, draw_job
-from plumb.settings.machine import MachineSettings
+from plumb.settings.machine import GRAVITY, MachineSettings
 from plumb.text.answers import Internal, part
 from plumb.text.values import bare, brief, signed, unit, worded
 
@@ -199,13 +209,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 SHOWN = 12  # lines of a kind
 PARTS = 12  # parts in the table
-CUT = 10.0  # [N] the side force of a light cut
 
 
 def as_text(checked: Checked, arguments: argparse.Namespace) -> str:
     """Return the check for people: what is wrong, the job, its parts, what to do next."""
     name = Path(arguments.fix or arguments.job).name
-    paragraphs = [headline(_verdict(checked, name), is_good=checked.is_good)]
+    paragraphs = [headline(_verdict(checked, name), GOOD if checked.is_good else BAD)]
     wrong = _wrong(checked)
     if wrong:
         paragraphs.append(sentences(wrong))
@@ -263,9 +272,10 @@ def _wrong(checked: Checked) -> list[str]:
     if checked.done.halted_at is not None:
         said.append(f"behind line {checked.done.halted_at} nothing was looked at")
     for bad in checked.hanging.bad if checked.hanging else ():
+        who = "the sled" if bad.verdict == REACH_WORDS[CANNOT_HANG] else "a chain is"
         said.append(
-            f"{_count(bad.lines, 'line')} from line {bad.first} on cut where the sled is "
-            f"{bad.verdict}: {100 * bad.share:.1f} % of the cuts"
+            f"from line {bad.first} on, {100 * bad.share:.1f} % of the cuts lie where {who} "
+            f"{bad.verdict}"
         )
     return said
 
@@ -313,7 +323,10 @@ def _bits(piece: Piece) -> str:
 
 
 def _give(hanging: Hanging) -> str:
-    return f"{CUT:g} N move the bit {worded(CUT * hanging.give)} at line {hanging.give_line}"
+    return (
+        f"a push of 1 kg moves the bit {worded(GRAVITY * hanging.give)}, most at line "
+        f"{hanging.give_line}"
+    )
 
 
 def _parts(checked: Checked) -> str:

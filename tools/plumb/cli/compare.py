@@ -6,11 +6,32 @@ import argparse
 
 import numpy as np
 
-from plumb.cli.arguments import add_force, add_json, add_marks, add_picture, add_units, length
+from plumb.cli.arguments import (
+    add_details,
+    add_force,
+    add_json,
+    add_marks,
+    add_picture,
+    add_units,
+    length,
+)
 from plumb.cli.inputs import inputs_of, picture_form
 from plumb.cli.output import write_outputs
-from plumb.cli.screen import about, next_step, print_json, same_inputs, sentences, table
-from plumb.fit.compare import Comparison, compare
+from plumb.cli.screen import (
+    BAD,
+    GOOD,
+    OPEN,
+    about,
+    headline,
+    next_step,
+    print_json,
+    same_inputs,
+    sentences,
+    table,
+)
+from plumb.fit.compare import ComparedDistance, ComparedMark, Comparison, compare
+from plumb.fit.inputs import Inputs
+from plumb.fit.problem import USUAL_SIGMA
 from plumb.marks.benchmark import Score
 from plumb.marks.model import Typed
 from plumb.model.plain import plain_size, ranked
@@ -20,7 +41,6 @@ from plumb.settings.toml import FitRecord
 from plumb.text.errors import InputError
 from plumb.text.values import bare, signed, unit, worded
 
-MACHINE = Typed()  # places count from the middle of the sheet
 FRAMES = (
     "from the sheet's top left corner, x right, y down",
     "from the middle of the sheet, x right, y up",
@@ -42,10 +62,24 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.json:
         print_json(comparison)
     else:
-        sheet_width, typed = inputs.settings.sheet_width, inputs.measurements.typed
-        print(as_text(comparison, sheet_width=sheet_width, typed=typed))
-        print(f"\n{next_step('What is missing:', ['calibrate', *same_inputs(arguments)])}")
+        facts = details(comparison, inputs) if arguments.details else worst_rows(comparison, inputs)
+        kind = kind_of(comparison, inputs, limit=arguments.limit)
+        verdict = headline(conclusion(comparison), kind)
+        following = next_step("What is missing:", ["calibrate", *same_inputs(arguments)])
+        print("\n\n".join([*facts, verdict, following]))
     return int(arguments.limit is not None and comparison.rms > arguments.limit)
+
+
+NOISY = 1.5  # times the error of a reading, up to which an RMS may be reading alone
+
+
+def kind_of(comparison: Comparison, inputs: Inputs, *, limit: float | None) -> str:
+    """Return whether the RMS keeps the limit [mm], or else whether it may be reading alone."""
+    if limit is not None:
+        return BAD if comparison.rms > limit else GOOD
+    sigma = inputs.stated.sigma if inputs.stated else USUAL_SIGMA
+    read = sigma * np.sqrt(2.0) if comparison.marks else sigma
+    return GOOD if comparison.rms <= NOISY * read else OPEN
 
 
 def panel_of(
@@ -63,9 +97,35 @@ def panel_of(
     )
 
 
-def as_text(comparison: Comparison, *, sheet_width: float, typed: Typed = MACHINE) -> str:
-    """Return the comparison for people, its conclusion first."""
-    parts = [conclusion(comparison, sheet_width, typed)]
+WORST, NOTES = 8, 2  # rows and sentences of a short answer
+MARKS = ["mark", "target x", "y", "measured x", "y", "error x", "y", "length"]
+DISTANCES = ["distance", "predicted", "measured", "error"]
+
+
+def worst_rows(comparison: Comparison, inputs: Inputs) -> list[str]:
+    """Return what was compared in a few rows, the worst last."""
+    typed = inputs.measurements.typed
+    if comparison.marks:
+        marks = ranked(comparison.marks, lambda mark: -mark.length)[:WORST]
+        rows = table(MARKS, [_mark_row(mark, typed) for mark in reversed(marks)])
+        left_out = len(comparison.marks) - len(marks)
+        said = f"All in {unit()}, {FRAMES[typed.sheet is None]}."
+    else:
+        distances = ranked(comparison.distances, lambda distance: -abs(distance.error))[:WORST]
+        rows = table(DISTANCES, [_distance_row(distance) for distance in reversed(distances)])
+        left_out = len(comparison.distances) - len(distances)
+        said = f"All in {unit()}."
+    more = f" {left_out} more are off by less; --details shows them." if left_out else ""
+    parts = [f"{rows}\n{sentences([f'{said}{more}'], mark='')}"]
+    outside = outside_sentence(comparison.promised) if comparison.promised else ""
+    notes = [*([outside] if outside else []), *comparison.warnings][:NOTES]
+    return [*parts, sentences(notes)] if notes else parts
+
+
+def details(comparison: Comparison, inputs: Inputs) -> list[str]:
+    """Return all that was compared."""
+    parts = []
+    sheet_width, typed = inputs.settings.sheet_width, inputs.measurements.typed
     if comparison.promised:
         parts.append(sentences([promised_sentence(comparison.promised, sheet_width)], mark=""))
     if comparison.benchmark:
@@ -76,24 +136,38 @@ def as_text(comparison: Comparison, *, sheet_width: float, typed: Typed = MACHIN
     if comparison.rounds:
         parts.append(_rounds_table(comparison))
     if comparison.marks:
-        parts.append(_marks_table(comparison, typed))
+        rows = [
+            [
+                *_mark_row(mark, typed),
+                signed(mark.left_chain_residual),
+                signed(mark.right_chain_residual),
+            ]
+            for mark in comparison.marks
+        ]
+        parts.append(table([*MARKS, "left chain", "right"], rows))
         note = (
             "Error: measured - predicted. Chains: how much more of each the measured place needs "
             f"than was paid out. All in {unit()}; {FRAMES[typed.sheet is None]}."
         )
         parts.append(sentences([note], mark=""))
     if comparison.distances:
-        rows = [
-            [
-                " - ".join(distance.between),
-                bare(distance.predicted),
-                bare(distance.measured),
-                signed(distance.error),
-            ]
-            for distance in comparison.distances
-        ]
-        parts.append(table(["distance", "predicted", "measured", "error"], rows))
-    return "\n\n".join(parts)
+        parts.append(table(DISTANCES, list(map(_distance_row, comparison.distances))))
+    moved = pose_sentence(comparison, sheet_width, typed)
+    return [*parts, sentences([moved], mark="")] if moved else parts
+
+
+def _mark_row(mark: ComparedMark, typed: Typed) -> list[str]:
+    return [
+        mark.name,
+        *(bare(value, 1) for value in (*typed.place(mark.target), *typed.place(mark.measured))),
+        *(signed(value) for value in typed.shift(mark.error)),
+        bare(mark.length),
+    ]
+
+
+def _distance_row(distance: ComparedDistance) -> list[str]:
+    sizes = [bare(distance.predicted), bare(distance.measured), signed(distance.error)]
+    return [" - ".join(distance.between), *sizes]
 
 
 def promised_sentence(record: FitRecord, sheet_width: float) -> str:
@@ -136,30 +210,38 @@ def benchmark_sentence(score: Score, left: Score | None) -> str:
     )
 
 
-def conclusion(comparison: Comparison, sheet_width: float, typed: Typed = MACHINE) -> str:
+def conclusion(comparison: Comparison) -> str:
+    """Return how far off it is, in at most forty words."""
     if not comparison.marks:
         farthest = ranked(comparison.distances, lambda distance: -abs(distance.error))[0]
         return (
-            f"The distances are {worded(comparison.rms)} RMS from what the settings predict, "
-            f"worst {worded(comparison.worst)} ({' - '.join(farthest.between)})."
+            f"The distances are {worded(comparison.rms)} RMS off. "
+            f"The worst is {' - '.join(farthest.between)}: {worded(comparison.worst)}."
         )
     worst = ranked(comparison.marks, lambda mark: -mark.length)[0]
-    said = [
-        f"The marks lie {worded(comparison.rms)} RMS from where the settings predict them, "
-        f"worst {worded(comparison.worst)} (mark {worst.name})."
-    ]
-    shape, shift, rotation = comparison.shape_rms, comparison.shift, comparison.rotation
-    if shape is not None and shift is not None and rotation is not None:
-        rise = np.tan(rotation) * sheet_width
-        across, up = typed.shift(shift)
-        said.append(
-            f"{worded(shape)} RMS of that is shape: it stays when all marks together are "
-            f"shifted (x {signed(across)}, y {signed(up)} {unit()}) and turned "
-            f"({signed(rise)} {unit()} over the sheet's width)."
-        )
+    said = (
+        f"The marks lie {worded(comparison.rms)} RMS from where the settings put them. "
+        f"The worst is mark {worst.name}: {worded(comparison.worst)}."
+    )
     if comparison.distance_rms is not None:
-        said.append(f"The distances between marks are {worded(comparison.distance_rms)} RMS off.")
-    return sentences(said, mark="")
+        said += f" The distances are {worded(comparison.distance_rms)} RMS off."
+    if comparison.shape_rms is not None:
+        said += f" Moving the whole sheet would leave {worded(comparison.shape_rms)}."
+    return said
+
+
+def pose_sentence(comparison: Comparison, sheet_width: float, typed: Typed) -> str:
+    """Return how the whole sheet would have to move to fit best; "" without marks."""
+    shift, rotation = comparison.shift, comparison.rotation
+    if comparison.shape_rms is None or shift is None or rotation is None:
+        return ""
+    across, up = typed.shift(shift)
+    rise = np.tan(rotation) * sheet_width
+    return (
+        f"The sheet fits best when it is shifted by x {signed(across)}, y {signed(up)} {unit()}, "
+        f"and turned by {signed(rise)} {unit()} over its width: {worded(comparison.shape_rms)} "
+        "RMS is left then."
+    )
 
 
 def _rounds_table(comparison: Comparison) -> str:
@@ -168,22 +250,6 @@ def _rounds_table(comparison: Comparison) -> str:
         for cut in comparison.rounds
     ]
     return table(["file", "readings", "marks, RMS", "distances, RMS", "date"], rows)
-
-
-def _marks_table(comparison: Comparison, typed: Typed) -> str:
-    rows = [
-        [
-            mark.name,
-            *(bare(value, 1) for value in (*typed.place(mark.target), *typed.place(mark.measured))),
-            *(signed(value) for value in typed.shift(mark.error)),
-            bare(mark.length),
-            signed(mark.left_chain_residual),
-            signed(mark.right_chain_residual),
-        ]
-        for mark in comparison.marks
-    ]
-    header = ["mark", "target x", "y", "measured x", "y", "error x", "y", "length"]
-    return table([*header, "left chain", "right"], rows)
 
 
 # The arguments of `plumb compare`.
@@ -206,5 +272,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--names", action="store_true", help="write the marks' names into the picture"
     )
+    add_details(parser, "every mark, the chains, and how the sheet would have to move")
     add_force(parser)
     add_json(parser)

@@ -11,7 +11,8 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from plumb.cli.add import COLUMNS, fall_of, heading_of, stairs_of
+from plumb.cli.add import fall_of, heading_of, stairs_of
+from plumb.cli.addition import COLUMNS
 from plumb.cli.calibrate import round_of
 from plumb.cli.compare import panel_of
 from plumb.cli.main import Parser

@@ -6,10 +6,14 @@ import argparse
 from dataclasses import dataclass
 from operator import itemgetter
 
-from plumb.cli.arguments import add_json, add_marks, add_units
+from plumb.cli.arguments import add_details, add_json, add_marks, add_units
 from plumb.cli.inputs import add_stated, stated_inputs
 from plumb.cli.screen import (
+    BAD,
+    GOOD,
+    OPEN,
     auto_words,
+    headline,
     next_step,
     print_json,
     same_inputs,
@@ -18,28 +22,26 @@ from plumb.cli.screen import (
 )
 from plumb.diagnosis import Diagnosis, diagnose
 from plumb.diagnosis.answer import SHOWN, Together, odds_words
-from plumb.model.catalogue import every_effect, label
-from plumb.model.plain import named, noun_of, nouns_of, plain_size, plainly, ranked
+from plumb.model.catalogue import every_effect
+from plumb.model.plain import noun_of, plain_size, plainly, ranked
 from plumb.plan import Proposal, propose
 from plumb.text.values import worded
 
 HIDING = (
-    "An effect may act although these marks do not show it. Up to: how far it may move the marks, "
-    "RMS. In the frame: how much of that a fitted frame takes up, so that no mark shows it."
+    "These causes may act too, unseen by these marks. Up to: by how much each may move the marks, "
+    "RMS. Taken up: the share of it that other numbers of the motors would make up for."
 )
 COLUMNS = (
-    "Odds: against all others together. Leaves: the RMS error of the marks once it is added. "
-    "Noise: what reading errors alone would leave of that."
+    "Odds: that this is right, against all else. Leaves: the RMS error once it is added. Noise: "
+    "what reading errors alone would leave."
 )
+KINDS = {"one_suspect": GOOD, "nothing_provable": GOOD, "cannot_tell": OPEN}  # of verdicts
 MOST_REASONS = 3
 BAD_NEWS = ("slip", "not_in_library")
 UNKNOWN_ADVICE = (
-    "is it such a machine? The library is that of a sled on a ring or linkage; on two brackets "
-    "(quadrilateral) it leans and draws another pattern",
-    "were these settings in force when the marks were cut? If not, name those by --cut-with, or as "
-    "cut_with in the marks.toml",
-    "does y run the way the file says, and are all numbers of the same kind? Measure a mark again",
-    "if all that is so, look where the errors are: plumb compare ... --picture errors.png",
+    "Does the sled hang on a ring or linkage? On two brackets it leans and errs in another way.",
+    "Were the marks cut with these settings? If not, name the others with --cut-with.",
+    "Does y run the way the file says? Measure a mark again.",
 )
 
 
@@ -58,7 +60,10 @@ def run(arguments: argparse.Namespace) -> int:
         proposals = propose(diagnosis, inputs).proposals
         print_json(DiagnosisAnswer(**vars(diagnosis), next=proposals))
     else:
-        print(f"{as_text(diagnosis)}\n\n{_next(diagnosis, arguments)}")
+        facts = details(diagnosis) if arguments.details else likeliest(diagnosis)
+        kind = OPEN if diagnosis.left_open.is_too_much else KINDS.get(diagnosis.verdict, BAD)
+        verdict = headline(diagnosis.sentence, kind)
+        print("\n\n".join([*facts, verdict, _next(diagnosis, arguments)]))
     return int(diagnosis.verdict in BAD_NEWS)
 
 
@@ -77,9 +82,34 @@ def _next(diagnosis: Diagnosis, arguments: argparse.Namespace) -> str:
     return next_step("What to measure next:", ["next", *same_inputs(arguments)])
 
 
-def as_text(diagnosis: Diagnosis) -> str:
-    """Return the diagnosis for people, its verdict first."""
-    parts = [sentences([diagnosis.sentence], mark="")]
+FEW, SIZES, NOTES = 3, 4, 2  # accounts, sizes and sentences of a short answer
+HEADER = ["cause", "odds", "leaves", "noise"]
+
+
+def likeliest(diagnosis: Diagnosis) -> list[str]:
+    """Return the likeliest accounts in a few rows, the sizes of the first, and what is odd."""
+    parts = []
+    if diagnosis.explanations:
+        first, *_ = shown = diagnosis.explanations[:FEW]
+        rows = [[plainly(each.effects), *_numbers_of(each)] for each in shown]
+        sizes = [
+            plain_size(f"{name}.{size.name}", size.value, size.low, size.high)
+            for name in first.effects
+            for size in first.sizes[name]
+        ]
+        parts.append(table(HEADER, rows))
+        parts += [sentences(sizes, mark="  ")] if 0 < len(sizes) <= SIZES else []
+    odd = [slip.sentence for slip in diagnosis.outliers] or list(diagnosis.disagreements)
+    if not odd and diagnosis.verdict == "not_in_library":
+        odd = list(UNKNOWN_ADVICE)
+    else:
+        odd = [*odd, *diagnosis.warnings][:NOTES]
+    return [*parts, sentences(odd)] if odd else parts
+
+
+def details(diagnosis: Diagnosis) -> list[str]:
+    """Return all that the marks say."""
+    parts = []
     if diagnosis.outliers:
         parts.append(sentences([slip.sentence for slip in diagnosis.outliers]))
     if diagnosis.disagreements:
@@ -87,8 +117,6 @@ def as_text(diagnosis: Diagnosis) -> str:
     elif diagnosis.verdict == "not_in_library":
         parts.append(sentences(UNKNOWN_ADVICE))
     if diagnosis.explanations:
-        if diagnosis.verdict == "not_in_library":
-            parts.append(sentences(["These may act as well:"], mark=""))
         parts += [explanation_table(diagnosis), sentences([COLUMNS], mark="")]
         if diagnosis.verdict == "cannot_tell":
             parts.append(_reasons(diagnosis))
@@ -97,25 +125,17 @@ def as_text(diagnosis: Diagnosis) -> str:
     parts.append(_hiding(diagnosis))
     if diagnosis.warnings:
         parts.append(sentences(diagnosis.warnings))
-    return "\n\n".join(parts)
+    return [part for part in parts if part]
 
 
 def explanation_table(diagnosis: Diagnosis) -> str:
     """Return the accounts of the marks, the likeliest first, with the sizes of their effects."""
     rows: list[list[str]] = []
-    for explanation in diagnosis.explanations[:SHOWN]:
-        rows += [["or", *EMPTY]] if rows else []
-        numbers = _numbers_of(explanation)
-        if not explanation.effects:
-            rows.append([plainly(()), *numbers])
+    for number, explanation in enumerate(diagnosis.explanations[:SHOWN], 1):
+        rows.append([f"{number}. {plainly(explanation.effects)}", *_numbers_of(explanation)])
         for name in explanation.effects:
-            is_first = name == explanation.effects[0]
-            rows.append(
-                [f"{'' if is_first else '+ '}{named(name)}", *(numbers if is_first else EMPTY)]
-            )
             rows += _size_rows(explanation, name)
-    header = ["suspect, with its 95 % interval", "odds", "leaves", "noise"]
-    return table(header, rows)
+    return table(["cause, with its 95 % interval", *HEADER[1:]], rows)
 
 
 EMPTY = ["", "", ""]
@@ -138,15 +158,15 @@ def _size_rows(explanation: Together, name: str) -> list[list[str]]:
 
 
 def _reasons(diagnosis: Diagnosis) -> str:
-    """Return which suspects cannot be distinguished, for their arrows hardly differ."""
+    """Return which accounts hardly differ in their arrows."""
     said: list[str] = []
     for (i, j), apart in ranked(diagnosis.differences.items(), itemgetter(1)):
-        first, second = (diagnosis.explanations[k] for k in (i, j))
-        if j >= SHOWN or len(said) == MOST_REASONS or apart > first.noise_rms:
+        if j >= SHOWN or len(said) == MOST_REASONS:
+            continue
+        if apart > diagnosis.explanations[i].noise_rms:
             continue
         said.append(
-            f"{plainly(first.effects)}, or {plainly(second.effects)}: their arrows on these marks "
-            f"differ by only {worded(apart)} RMS"
+            f"{i + 1} and {j + 1} look alike: they move these marks alike to {worded(apart)} RMS"
         )
     return sentences(said)
 
@@ -154,7 +174,7 @@ def _reasons(diagnosis: Diagnosis) -> str:
 def _remedies(diagnosis: Diagnosis) -> str:
     words = {effect["name"]: effect for effect in every_effect()}
     said = [
-        f"{label(name)}: {words[name]['summary']}. To be sure: {words[name]['remedy']}"
+        f"{noun_of(name)}: {words[name]['summary']}. To be sure: {words[name]['remedy']}"
         for name in diagnosis.suspects[:SHOWN]
     ]
     return sentences(said)
@@ -178,9 +198,9 @@ def _hiding(diagnosis: Diagnosis) -> str:
     parts = []
     if rows:
         parts.append(sentences([HIDING], mark=""))
-        parts.append(table(["could still hide", "up to", "in the frame"], rows))
+        parts.append(table(["may act too", "up to", "taken up"], rows))
     if blind:
-        parts.append(sentences([f"these marks say nothing of {nouns_of(blind)}"]))
+        parts.append(sentences([f"these marks say nothing of {plainly(blind)}"]))
     return "\n".join(parts)
 
 
@@ -206,4 +226,5 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_marks(parser)
     add_stated(parser, sigma="tape_sigma_mm of MARKS and their scatter")
     add_units(parser)
+    add_details(parser, "all accounts with their sizes, and what these marks cannot show")
     add_json(parser)

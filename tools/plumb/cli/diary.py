@@ -11,7 +11,7 @@ from plumb.cli.output import write_outputs
 from plumb.cli.screen import headline, print_json, sentences, table
 from plumb.diary.file import Diary, Entry, has_diary, noted, read_diary
 from plumb.diary.history import Course, DiaryFit, History, history_of
-from plumb.model.plain import named, plain_name, plain_size
+from plumb.model.plain import noun_of, plain_name, plain_size
 from plumb.pictures.reach import Run, draw_diary
 from plumb.text.errors import InputError
 from plumb.text.values import bare, unit, worded
@@ -97,7 +97,7 @@ def _fits(history: History) -> str:
             bare(fit.before),
             bare(fit.rms),
             bare(fit.left_out),
-            ", ".join(map(named, fit.effects)) or "frame only",
+            ", ".join(map(noun_of, fit.effects)) or "frame only",
         ]
         for fit in history.fits
     ]

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import math
 import re
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import replace
@@ -12,14 +11,16 @@ from typing import NamedTuple
 
 from plumb.cli.arguments import add_prior, add_sigma, named_number
 from plumb.diagnosis import Checked
+from plumb.fit.by_hand import UNITS, number_read
 from plumb.fit.expected import refuse_absurd
 from plumb.fit.inputs import Inputs, read_inputs
 from plumb.fit.problem import PRIORS, priors_with
 from plumb.marks.read import without_marks
 from plumb.model.catalogue import parameter_words
 from plumb.pictures.sheet import FORMATS
-from plumb.text.errors import InputError
-from plumb.text.values import show_in
+from plumb.settings.machine import MachineSettings
+from plumb.text.errors import InputError, naming
+from plumb.text.values import length_in, number_in, show_in
 
 
 def inputs_of(arguments: argparse.Namespace) -> Inputs:
@@ -43,12 +44,14 @@ def stated_inputs(arguments: argparse.Namespace) -> Inputs:
     """Return the same with all numbers that the command line states."""
     inputs = inputs_of(arguments)
     priors = priors_with(arguments.prior)
-    checks = usable_checks(arguments.checked, priors)
+    checks = usable_checks(arguments.checked, priors, inputs.settings)
     refuse_absurd(checks, inputs.settings)
     return replace(inputs, priors=priors, sigma=arguments.sigma, checked=checks)
 
 
-def usable_checks(said: Sequence[Measured], priors: Mapping[str, float]) -> list[Checked]:
+def usable_checks(
+    said: Sequence[Measured], priors: Mapping[str, float], settings: MachineSettings
+) -> list[Checked]:
     """Return the checks, if each is of a number that is fitted here."""
     known = [*parameter_words(), *(name for name, sigma in priors.items() if sigma > 0)]
     for check in said:
@@ -60,7 +63,15 @@ def usable_checks(said: Sequence[Measured], priors: Mapping[str, float]) -> list
             )
     if len({check.name for check in said}) < len(said):
         raise InputError("--checked: a number is given twice; give the mean of both")
-    return [Checked(*check) for check in said]
+    return [Checked(check.name, *_number_of(check, settings)) for check in said]
+
+
+def _number_of(check: Measured, settings: MachineSettings) -> tuple[float, float]:
+    """Return the number and its error [its unit], of a reading too."""
+    if not check.unit:
+        return float(check.value), float(check.sigma)
+    with naming("--checked", check.name):
+        return number_read(check.name, check.value, check.sigma, check.unit, settings)
 
 
 def refuse_unfitted(
@@ -89,8 +100,12 @@ class Measured(NamedTuple):
     """What --checked says; whether such a number is fitted comes out when the model is loaded."""
 
     name: str
-    value: float  # [its unit]
-    sigma: float  # [its unit]
+    value: str  # in the unit, or without one in that of the number
+    sigma: str
+    unit: str  # of the rule or scale; empty: none
+
+    def __str__(self) -> str:
+        return f"{self.name}={self.value}+-{self.sigma}{self.unit}"
 
 
 def add_stated(parser: argparse.ArgumentParser, *, sigma: str) -> None:
@@ -104,27 +119,30 @@ def add_stated(parser: argparse.ArgumentParser, *, sigma: str) -> None:
         type=checked,
         default=[],
         help="a number of the machine that you measured directly, like "
-        f"{EXAMPLE} (1 sigma); see plumb next and plumb effects",
+        f"{EXAMPLE} (1 sigma), or with a unit what the rule or scale shows, like "
+        "motor_gap=117-1/4+-1/16in; see plumb next and plumb effects",
     )
 
 
 def checked(text: str) -> Measured:
-    """Read NAME=VALUE+-SIGMA."""
+    """Read NAME=VALUE+-SIGMA, with a unit behind it or without."""
     name, _, numbers = text.partition("=")
-    value, _, sigma = re.sub("±", "+-", numbers).partition("+-")
     if "VALUE" in numbers:
         raise argparse.ArgumentTypeError(f"'{text}': put your number in place of VALUE")
     if "," in numbers:
         raise argparse.ArgumentTypeError(f"'{text}': write a point, not a comma")
+    numbers = re.sub("±", "+-", numbers).strip()
+    unit = next((unit for unit in UNITS if re.search(rf"[\d. ]{unit}$", numbers)), "")
+    value, _, sigma = numbers.removesuffix(unit).partition("+-")
+    value = value.strip().removesuffix(unit)
     try:
-        check = Measured(name.strip(), float(value), float(sigma))
+        sizes = [length_in(part) if unit else number_in(part) for part in (value, sigma)]
     except ValueError:
-        check = Measured(name, math.nan, math.nan)
-    if not (math.isfinite(check.value) and math.isfinite(check.sigma)):
-        raise argparse.ArgumentTypeError(f"'{text}' is not like motor_gap=2978.4+-1")
-    if check.sigma <= 0:
+        said = f"'{text}' is not like motor_gap=2978.4+-1"
+        raise argparse.ArgumentTypeError(said) from None
+    if sizes[1] <= 0:
         raise argparse.ArgumentTypeError(f"'{text}': a sigma is above zero")
-    return check
+    return Measured(name.strip(), value.strip(), sigma.strip(), unit)
 
 
 def picture_form(path: str, *, option: str = "--picture") -> str:

@@ -3,15 +3,26 @@
 from __future__ import annotations
 
 import argparse
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
-from plumb.cli.arguments import add_force, add_json, add_marks, add_picture, add_units
+from plumb.cli.arguments import add_details, add_force, add_json, add_marks, add_picture, add_units
 from plumb.cli.inputs import add_stated, picture_form, stated_inputs
 from plumb.cli.output import refuse_twins, write_outputs
-from plumb.cli.screen import bar, free_name, next_step, print_json, same_inputs, sentences, table
+from plumb.cli.screen import (
+    bar,
+    free_name,
+    headline,
+    next_step,
+    print_json,
+    same_inputs,
+    sentences,
+    table,
+)
 from plumb.diagnosis import Diagnosis, diagnose
+from plumb.fit.by_hand import to_fill_in, what_to_type
 from plumb.fit.inputs import Inputs, settings_in
 from plumb.pictures.plan import draw_plan
 from plumb.plan import Next, Proposal, propose
@@ -29,10 +40,12 @@ from plumb.plan.proposal import (
     promise_of,
     steps_of,
 )
+from plumb.settings.machine import MachineSettings
 from plumb.text.answers import Internal, part
 from plumb.text.errors import InputError
 
-SHOWN, SPOKEN = 8, 3  # proposals in the table, and in whole sentences; --json has all
+SHOWN, SPOKEN = 8, 3  # proposals of --details in the table, and in sentences; --json has all
+FEW = 5  # proposals of a short answer
 HEADS = {
     SETTLE: "chance to settle",
     CONFIRM: "chance to confirm",
@@ -40,6 +53,7 @@ HEADS = {
     REREAD: "chance to show it",
     EXPLORE: "",
 }
+WORDED = {question: [3] if question == FIND else [] for question in HEADS}  # columns of words
 
 
 @dataclass(frozen=True)
@@ -67,9 +81,9 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.json:
         print_json(NextAnswer(**vars(advice), diagnosis=diagnosis, written=tuple(files)))
     else:
-        print(as_text(diagnosis, advice))
-        if advice.proposals:
-            print(f"\n{after(advice.proposals[0], arguments)}")
+        facts = details(diagnosis, advice) if arguments.details else other_ways(advice)
+        best = advice.proposals[0] if advice.proposals else None
+        print("\n\n".join([*facts, *first_proposal(best, arguments, inputs.settings)]))
     return 0
 
 
@@ -139,13 +153,24 @@ def _chosen(advice: Next, wanted: int | None, *, is_cut: bool) -> tuple[int, Pro
     return place, advice.proposals[place - 1]
 
 
-def as_text(diagnosis: Diagnosis, advice: Next) -> str:
-    """Return the proposals for people, the best first."""
+def other_ways(advice: Next) -> list[str]:
+    """Return the next best proposals in a few rows, without what the first is in whole."""
+    others = advice.proposals[1:FEW]
+    if not others:
+        return []
+    question = others[0].question
+    rows = [
+        [f"{i}", each.option.title, f"{each.option.minutes:.0f}", promise_of(each)]
+        for i, each in enumerate(others, 2)
+    ]
+    return [
+        table(["", "other ways", "minutes", HEADS[question]], rows, left=2, words=WORDED[question])
+    ]
+
+
+def details(diagnosis: Diagnosis, advice: Next) -> list[str]:
+    """Return what the marks say, all proposals, and how their order comes about."""
     parts = [sentences([diagnosis.sentence], mark="")]
-    if not advice.proposals:
-        parts.append("Nothing that can be proposed would tell more.")
-        return "\n\n".join(parts)
-    parts.append(first_proposal(advice.proposals[0]))
     if len(advice.proposals) > 1:
         parts.append(_table(advice))
         steps = [
@@ -153,19 +178,34 @@ def as_text(diagnosis: Diagnosis, advice: Next) -> str:
             for place, proposal in enumerate(advice.proposals[1:SPOKEN], 2)
         ]
         parts.append(sentences(steps, mark=""))
-    parts.append(sentences([_how(advice)], mark=""))
-    if diagnosis.warnings:
-        parts.append(sentences(diagnosis.warnings))
-    return "\n\n".join(parts)
+    if advice.proposals:
+        parts.append(sentences([_how(advice)], mark=""))
+    return [*parts, sentences(diagnosis.warnings)] if diagnosis.warnings else parts
 
 
-def after(best: Proposal, arguments: argparse.Namespace) -> str:
+def first_proposal(
+    best: Proposal | None, arguments: argparse.Namespace, settings: MachineSettings
+) -> list[str]:
+    """Return what to measure, how, and the commands after it."""
+    if best is None:
+        return [headline("Nothing that can be proposed would tell more.")]
+    first = f"{headline(f'Next: {headline_of(best)}.')}\n{to_read(best, steps_of(best), settings)}"
+    return [first, after(best, arguments, settings)]
+
+
+def to_read(best: Proposal, steps: Sequence[str], settings: MachineSettings) -> str:
+    """Return the steps of a measurement, and what is typed for VALUE."""
+    typed = what_to_type([check.name for check in best.option.checks], settings)
+    return sentences([*steps, typed] if typed else steps, mark="  ")
+
+
+def after(best: Proposal, arguments: argparse.Namespace, settings: MachineSettings) -> str:
     """Return the commands after the measurement."""
     if best.option.checks or not len(best.option.visits):
         checks = [
             word
             for check in best.option.checks
-            for word in ("--checked", f"{check.name}=VALUE+-{check.sigma:g}")
+            for word in ("--checked", to_fill_in(check.name, check.sigma, settings))
         ]
         again = ["calibrate", *same_inputs(arguments), *checks]
         return next_step("When that is measured:", again)
@@ -180,12 +220,6 @@ def after(best: Proposal, arguments: argparse.Namespace) -> str:
     return f"{next_step('Cut them by a program, and fill in a form:', asked)}\n{said}"
 
 
-def first_proposal(best: Proposal) -> str:
-    """Return the best proposal in sentences."""
-    first = sentences([f"Next: {headline_of(best)}."], mark="")
-    return f"{first}\n{sentences(steps_of(best), mark='  ')}"
-
-
 def _table(advice: Next) -> str:
     question = advice.proposals[0].question
     header = ["", "other ways" if question != EXPLORE else "", "minutes", HEADS[question]]
@@ -198,8 +232,7 @@ def _table(advice: Next) -> str:
     if counted:
         header += ["suspects left", "tells apart"]
     header[1] = "what"
-    said = [header.index(HEADS[FIND])] if question == FIND else []  # sizes of effects in words
-    return table(header, rows, left=2, words=said)
+    return table(header, rows, left=2, words=WORDED[question])
 
 
 def _row(place: str, proposal: Proposal, counted: bool) -> list[str]:
@@ -218,8 +251,8 @@ def _how(advice: Next) -> str:
     question = advice.proposals[0].question
     again = f"{AGAIN:.0f} minutes added for another round"
     simulated = (
-        "Chances are simulated: each cause is taken for the truth as often as it is likely, new "
-        "readings are drawn with their noise, and the diagnosis is repeated."
+        "A chance says how often the lab ended with a single cause when it played the measurement "
+        "through: each likely cause in turn was the true one, and readings were off as yours are."
     )
     if question == SETTLE:
         return f"{simulated} The order is chance per minute, {again}."
@@ -272,6 +305,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="the settings that the machine has now, if they are not those of MARKS; the form "
         "names them",
     )
+    add_details(parser, "all proposals, and how their order comes about")
     add_force(parser)
     add_units(parser)
     add_json(parser)

@@ -18,7 +18,7 @@ from plumb.cli.arguments import (
 from plumb.cli.home import add_touch, asked_signs, touches_of
 from plumb.cli.inputs import add_stated, stated_inputs
 from plumb.cli.output import say_failure
-from plumb.cli.screen import headline, print_json, sentences, table
+from plumb.cli.screen import BAD, GOOD, headline, print_json, sentences, table
 from plumb.cure.check_marks import check_marks, check_sentence
 from plumb.diary.file import RECHECK, keep, read_diary
 from plumb.diary.recheck import LEFT, RIGHT, SHEET_X, SHEET_Y, Change, Recheck, recheck
@@ -134,7 +134,9 @@ def sentence(checked: Recheck) -> str:
     worst = worded(float(np.hypot(*checked.errors.T).max()))
     of_date = f"the fit of {checked.fit.at:%Y-%m-%d}"
     if checked.holds:
-        return f"The machine is still within its interval: errors up to {worst} fit {of_date}."
+        return (
+            f"The machine is as {of_date} left it: errors up to {worst} are within what it allows."
+        )
     best = checked.changes[0]
     if not best.explains:
         return (
@@ -153,7 +155,7 @@ def _text(answer: RecheckAnswer, asked: list[str]) -> str:
         ]
         for mark in answer.marks
     ]
-    parts = [headline(answer.sentence, is_good=answer.holds)]
+    parts = [headline(answer.sentence, GOOD if answer.holds else BAD)]
     parts.append(table(["mark", f"at [{unit()}]", "error", "expected up to"], rows))
     if answer.changes and not answer.holds:
         changes = [

@@ -28,7 +28,9 @@ from plumb.text.answers import json_of
 WIDEST = 80  # [characters]
 PATIENCE = 2.0  # [s] before a bar shows how far the work is
 UNIT = re.compile(r"(?<=\d) (?=(?:%|mm|N)(?!\w))")  # a number and its unit stay together
-BAD = ("impossible", "NOT ", "missed")  # how cells begin that nobody should overlook
+WARNED = ("impossible", "NOT ", "missed")  # how cells begin that nobody should overlook
+GOOD, OPEN, BAD = "good", "open", "bad"  # kinds of verdicts
+COLOURS = {GOOD: "bold green", OPEN: "bold yellow", BAD: "bold red"}
 
 
 def console() -> Console:
@@ -59,7 +61,7 @@ def table(
         justify: Literal["left", "right"] = "left" if place in spoken else "right"
         grid.add_column(Text(head), justify=justify, min_width=narrowest)
     for row in rows:
-        grid.add_row(*(Text(cell, style="red" if cell.startswith(BAD) else "") for cell in row))
+        grid.add_row(*(Text(cell, style="red" if cell.startswith(WARNED) else "") for cell in row))
     screen = console()
     with screen.capture() as captured:
         screen.print(grid, crop=False)
@@ -81,11 +83,11 @@ def sentences(lines: Sequence[str], *, mark: str = "- ") -> str:
     ).replace("\0", " ")
 
 
-def headline(sentence: str, *, is_good: bool | None = None) -> str:
-    """Return the sentence that matters most, where the screen has colours in that of its verdict;
-    None: it is no verdict.
+def headline(sentence: str, kind: str = "") -> str:
+    """Return the sentence that matters most, where the screen has colours in that of its kind of
+    verdict; "": it is no verdict.
     """
-    style = "bold" if is_good is None else f"bold {'green' if is_good else 'red'}"
+    style = COLOURS.get(kind, "bold")
     screen = console()
     with screen.capture() as captured:
         for line in sentences([sentence], mark="").splitlines():
@@ -210,17 +212,24 @@ def same_inputs(
     for check in getattr(arguments, "checked", None) or ():
         effect = check.name.rpartition(".")[0]
         if not effect or effect in effects or AUTO in effects:
-            words += ["--checked", f"{check.name}={check.value:.12g}+-{check.sigma:.12g}"]
+            words += ["--checked", str(check)]
     return words
 
 
 def usual_client(arguments: argparse.Namespace) -> list[str]:
-    """Return the client as it was named, or as the name of the settings file tells it."""
+    """Return the client as it was named, or as the settings file tells it: by its name, or by the
+    client's file that was written with it.
+    """
     client = getattr(arguments, "client", None)
-    if client is None:
-        client = CLIENT_OF.get(Path(arguments.settings).suffix.lower())
-    words = ["--client", client or "none"]
     original = getattr(arguments, "original", None)
+    settings = Path(arguments.settings)
+    for ending, name in CLIENT_OF.items():
+        kept = settings.with_name(f"{settings.stem}-{name}{ending}")
+        if client is None and settings.suffix.lower() == ending:
+            client = name
+        elif client in (None, name) and original is None and kept.is_file():
+            client, original = name, str(kept)
+    words = ["--client", client or "none"]
     return [*words, "--original", original] if original else words
 
 
@@ -245,11 +254,9 @@ def second_round(arguments: argparse.Namespace, files: Sequence[str]) -> str:
     machine = files[0]
     marks, program = free_name("marks", ".toml"), free_name("grid", ".nc")
     grid = ["grid", "--settings", machine, "--marks", marks, "--output", program]
-    again = ["calibrate", machine, marks, *usual_client(arguments)]
-    kept = [path for path in files if Path(path).suffix in CLIENT_OF]
-    if kept:
-        client = CLIENT_OF[Path(kept[0]).suffix]
-        again = ["calibrate", machine, marks, "--client", client, "--original", kept[0]]
+    again = ["calibrate", machine, marks]
+    if not any(Path(path).suffix in CLIENT_OF for path in files):
+        again += usual_client(arguments)
     cut = next_step("See that it holds on new marks, cut with the new settings:", grid)
     return f"{cut}\n{next_step('and when they are measured:', again)}"
 

@@ -5,13 +5,17 @@ from __future__ import annotations
 import argparse
 import os
 import signal
-from collections.abc import Sequence
+import sys
+from collections.abc import Callable, Sequence
+from contextlib import nullcontext, redirect_stdout
+from dataclasses import dataclass, field
 from pathlib import Path
 from threading import Event, Thread
+from typing import Annotated
 
-from plumb.cli.arguments import add_port
+from plumb.cli.arguments import add_json, add_port
 from plumb.cli.output import say_failure
-from plumb.cli.screen import Bar, free_name, next_step, sentences
+from plumb.cli.screen import Bar, free_name, next_step, print_json, sentences
 from plumb.diary.file import PROGRAM, keep, program_entry, write_and_keep
 from plumb.firmware.settings import refuse_other_numbers, refuse_other_origin
 from plumb.grid.cut_with import form_of
@@ -24,6 +28,7 @@ from plumb.marks.form import read_form
 from plumb.model.predict import known_effects
 from plumb.settings.files import read_settings
 from plumb.settings.machine import MachineSettings
+from plumb.text.answers import meant
 from plumb.text.errors import InputError
 from plumb.text.files import read_text
 
@@ -36,15 +41,47 @@ SETTINGS = (
 SHOWN = 20  # changed numbers in the answer
 
 
+@dataclass
+class SendAnswer:
+    """What was sent, and what came of it."""
+
+    lines: Annotated[int, meant("Of the program, or numbers, without comments.")] = 0
+    stopped_at: Annotated[
+        int | None, meant("First line of the file that is not done; null: all was done.")
+    ] = None
+    said: Annotated[list[str], meant("What the machine said by itself.")] = field(
+        default_factory=list
+    )
+    changed: Annotated[
+        dict[int, tuple[float, float]], meant("Numbers before and after, by $-number.")
+    ] = field(default_factory=dict)
+    kept: Annotated[str | None, meant("The file of the numbers before.")] = None
+
+
 def run(arguments: argparse.Namespace) -> int:
     """Send it, print what the machine says, and return the exit code."""
+    answer = SendAnswer()
+    with redirect_stdout(sys.stderr) if arguments.json else nullcontext():
+        is_done = _send(arguments, answer)
+    if arguments.json:
+        print_json(answer)
+    return int(not is_done)
+
+
+def _send(arguments: argparse.Namespace, answer: SendAnswer) -> bool:
+    """Send it and note what comes of it; whether all was done."""
     what = arguments.what
+
+    def hear(line: str) -> None:
+        answer.said.append(line)
+        _say(line)
+
     numbers = _numbers(what, back=arguments.undo)
     text = _program(what) if numbers is None else []
     marks_of = None if arguments.force else _cut_with(what, text)
     port = SerialPort(port_for(arguments.port))
     try:
-        sender = Sender(port, said=_say)
+        sender = Sender(port, said=hear)
         sender.await_start()
         if marks_of:
             name = marks_of.file.name if marks_of.file else what
@@ -52,11 +89,15 @@ def run(arguments: argparse.Namespace) -> int:
         if numbers is not None:
             if not (arguments.undo or arguments.force):
                 refuse_other_origin(read_settings(what), read_numbers(sender), file=what)
-            written = _write(sender, what, numbers, back=arguments.undo)
-            _print_written(arguments, written)
-            return 0
+            written, kept = _write(sender, what, numbers, back=arguments.undo)
+            answer.lines, answer.kept = len(numbers), kept
+            answer.changed = dict(written.changed)
+            _print_written(arguments, (written, kept))
+            return True
         sender.ask(NUMBERS)
-        return _stream_and_note(sender, arguments, text)
+        answer.lines = sum(1 for _ in cleaned(text))
+        answer.stopped_at = _stream_and_note(sender, arguments, text, hear)
+        return answer.stopped_at is None
     finally:
         port.close()
 
@@ -144,9 +185,14 @@ def _print_resume(arguments: argparse.Namespace, reached: Reached) -> None:
 class _Attendant:
     """Attends to a program: Ctrl-C holds it, and a program that waits is asked about."""
 
-    def __init__(self, bar: Bar, text: Sequence[str], reached: Reached) -> None:
-        """`text`: the program with its comments, which say what its pauses are for."""
+    def __init__(
+        self, bar: Bar, text: Sequence[str], reached: Reached, said: Callable[[str], None]
+    ) -> None:
+        """`text`: the program with its comments, which say what its pauses are for; `said`: called
+        with what the machine says.
+        """
         self._reached = reached
+        self._said = said
         self.pressed = Event()  # Ctrl-C
         self._bar = bar
         self._waits = {wait.lines: wait.do for wait in waits_in(text)}
@@ -166,7 +212,7 @@ class _Attendant:
         if line == SAID_PAUSED:
             self._waits_now = True
         else:
-            _say(line)
+            self._said(line)
 
     def attend(self, sender: Sender) -> None:
         """Hold, ask, and do what is answered; called again and again."""
@@ -196,26 +242,41 @@ class _Attendant:
         sender.go_on()
 
 
-def _stream_and_note(sender: Sender, arguments: argparse.Namespace, text: Sequence[str]) -> int:
-    """Stream a program; that goes into the diary of the program's folder, if there is such."""
-    code, what = 1, arguments.what
+def _stream_and_note(
+    sender: Sender,
+    arguments: argparse.Namespace,
+    text: Sequence[str],
+    said: Callable[[str], None],
+) -> int | None:
+    """Stream a program; that goes into the diary of the program's folder, if there is such. The
+    line where it stopped; None: it did not.
+    """
+    is_whole, what = False, arguments.what
     try:
-        code = _stream(sender, arguments, text)
+        stopped_at = _stream(sender, arguments, text, said)
+        is_whole = stopped_at is None
     finally:
         is_file = Path(what).is_file()
         entry = program_entry(
-            Path(what).name if is_file else what, list(cleaned(text)), whole=code == 0
+            Path(what).name if is_file else what, list(cleaned(text)), whole=is_whole
         )
         say_failure(keep(what if is_file else ".", PROGRAM, entry, begin=False))
-    return code
+    return stopped_at
 
 
-def _stream(sender: Sender, arguments: argparse.Namespace, text: Sequence[str]) -> int:
-    """Stream a program, and wait until the place is kept; Ctrl-C holds the machine where it is."""
+def _stream(
+    sender: Sender,
+    arguments: argparse.Namespace,
+    text: Sequence[str],
+    said: Callable[[str], None],
+) -> int | None:
+    """Stream a program, and wait until the place is kept; Ctrl-C holds the machine where it is.
+    The line where it stopped; None: it did not.
+    """
     bar = Bar("sending", patience=0.5)
     lines = list(cleaned(text))
     reached = Reached(sender, text)
-    attendant = _Attendant(bar, text, reached)
+    attendant = _Attendant(bar, text, reached, said)
     sender.attend, sender.said = attendant.attend, attendant.hear
     before = signal.signal(signal.SIGINT, lambda *_: attendant.pressed.set())
     try:
@@ -224,7 +285,7 @@ def _stream(sender: Sender, arguments: argparse.Namespace, text: Sequence[str]) 
     except StoppedError:
         print("The machine has stopped. It knows where it is; the rest was not sent.")
         _print_resume(arguments, reached)
-        return 1
+        return reached.line
     except RefusedError:
         reached.end()
         sender.brake()
@@ -239,7 +300,7 @@ def _stream(sender: Sender, arguments: argparse.Namespace, text: Sequence[str]) 
         signal.signal(signal.SIGINT, before)
     if len(lines) > 1:
         print(f"{len(lines)} lines were sent, and the machine took each.")
-    return 0
+    return None
 
 
 # The arguments of `plumb send`.
@@ -271,6 +332,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="send marks, or numbers, though the machine holds others than those that they were "
         "made for",
     )
+    add_json(parser)
 
 
 # A question in the terminal; whoever asks goes on working, and looks for the answer meanwhile.

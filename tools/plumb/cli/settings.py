@@ -10,9 +10,9 @@ from typing import Annotated
 
 from pydantic import computed_field
 
-from plumb.cli.arguments import add_force, add_json, add_settings, file
+from plumb.cli.arguments import add_details, add_force, add_json, add_settings, file
 from plumb.cli.output import write_outputs
-from plumb.cli.screen import next_step, print_json, sentences, table
+from plumb.cli.screen import headline, next_step, print_json, sentences, table
 from plumb.firmware.client_files import CLIENT_FILES, ClientFiles, client_files, gcode
 from plumb.firmware.settings import Number, firmware_numbers
 from plumb.fit.inputs import settings_in
@@ -43,7 +43,9 @@ def run(arguments: argparse.Namespace) -> int:
         )
     numbers = firmware_numbers(settings)
     _refuse_lines_alone(arguments)
-    content = gcode(numbers) if arguments.to == "gcode" else _table(numbers).encode()
+    # A file has all numbers.
+    shown = numbers if arguments.details or arguments.output else _at_work(numbers)[:MOST]
+    content = gcode(numbers) if arguments.to == "gcode" else _table(shown).encode()
     printed = arguments.client == "none" and not arguments.output
     client = None if printed else client_files_of(arguments, settings, lines=arguments.output)
     files = client.files if client else {}
@@ -59,8 +61,23 @@ def run(arguments: argparse.Namespace) -> int:
     else:
         print(content.decode(), end="")
         if arguments.to == "table":
+            print(f"\n{headline(_verdict(numbers, shown))}")
             print(f"\n{next_step('For the machine:', _to_gcode(arguments.settings))}")
     return 0
+
+
+MOST = 16  # rows of a short answer
+
+
+def _at_work(numbers: tuple[Number, ...]) -> tuple[Number, ...]:
+    """Return the numbers that are not 0."""
+    return tuple(row for row in numbers if float(row.text) != 0)
+
+
+def _verdict(numbers: tuple[Number, ...], shown: tuple[Number, ...]) -> str:
+    count = len(_at_work(numbers))
+    said = f"{count} numbers make this machine, {len(numbers) - count} are 0."
+    return said if len(shown) == len(numbers) else f"{said} --details shows all."
 
 
 def _to_gcode(machine: str) -> list[str]:
@@ -105,6 +122,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "-o", "--output", metavar="FILE", help="write to this file, not to the screen"
     )
+    add_details(parser, "the numbers that are 0")
     add_force(parser)
     add_json(parser)
 

@@ -11,7 +11,7 @@ import numpy as np
 from plumb.cli.arguments import add_force, add_json, add_settings, add_sigma, add_units
 from plumb.cli.home import add_touch, asked_signs, touches_of
 from plumb.cli.output import STDOUT, say_failure, write_outputs
-from plumb.cli.screen import headline, next_step, print_json, sentences, table
+from plumb.cli.screen import BAD, GOOD, OPEN, headline, next_step, print_json, sentences, table
 from plumb.diary.file import SLIP as SLIP_ENTRY
 from plumb.diary.file import keep
 from plumb.fit.inputs import settings_in
@@ -120,8 +120,9 @@ def _written(arguments: argparse.Namespace, lines: Sequence[str]) -> list[str]:
 
 
 def _text(answer: SlipAnswer, arguments: argparse.Namespace) -> str:
-    is_good = None if answer.verdict == CANNOT_TELL else answer.verdict in (NOTHING, SHEET)
-    parts = [headline(answer.sentence, is_good=is_good), _touch_table(answer), _odds(answer)]
+    good = GOOD if answer.verdict in (NOTHING, SHEET) else BAD
+    kind = OPEN if answer.verdict == CANNOT_TELL else good
+    parts = [headline(answer.sentence, kind), _touch_table(answer), _odds(answer)]
     if lines := answer.lines:
         there = answer.touches[-1]
         said = (

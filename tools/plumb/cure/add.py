@@ -28,7 +28,7 @@ from plumb.model.catalogue import (
     parameter_words,
 )
 from plumb.model.lab_effects import LAB_EFFECTS
-from plumb.model.plain import named, plain_name, plain_range, plain_size
+from plumb.model.plain import noun_of, plain_name, plain_range, plain_size
 from plumb.model.predict import frame_words
 from plumb.model.sketches import SKETCHES
 from plumb.settings.machine import MachineSettings
@@ -278,8 +278,8 @@ def _cure(name: str, parameters: Mapping[str, float]) -> str:
         for parameter in effect.parameters
     )
     if is_sketch(name):
-        return f"{sizes} ({name}): a sketch, which no firmware has until it is written in C++"
-    return f"{sizes} ({name}): {NO_FIRMWARE}, and no setting holds it: {effect.remedy}"
+        return f"{sizes}: a sketch, which no firmware has until it is written in C++"
+    return f"{sizes}: {NO_FIRMWARE}. {effect.remedy[0].upper()}{effect.remedy[1:]}"
 
 
 def _parameter(estimate: Estimate) -> Parameter:
@@ -299,12 +299,11 @@ def _parameter(estimate: Estimate) -> Parameter:
 
 def _unfelt(fitted: Fit) -> list[str]:
     """Return a sentence on what the measured numbers cannot tell at all."""
-    names = [each.name for each in fitted.estimates if not each.felt]
+    names = [plain_name(each.name) for each in fitted.estimates if not each.felt]
     if not names:
         return []
-    listed = " and ".join(filter(None, [", ".join(names[:-1]), names[-1]]))
-    stays = "it stays as it was" if len(names) == 1 else "they stay as they were"
-    return [f"no measured number depends on {listed}: {stays}"]
+    stays = "this, so it stays as it was" if len(names) == 1 else "these, so they stay as they were"
+    return [f"nothing that was measured tells {stays}: {', '.join(names)}"]
 
 
 def _unsettled(fitted: Fit) -> list[str]:
@@ -326,11 +325,11 @@ def _surprises(parameters: Sequence[Parameter], known: Collection[str]) -> list[
         moved = parameter.value - parameter.before
         trusted = parameter.prior_sigma
         if trusted and not parameter.of_patch and abs(moved) > FAR * trusted:
+            now, apart = (_finely(size, parameter.unit) for size in (parameter.value, abs(moved)))
             said.append(
-                f"{plain_name(parameter.name)} moved by {'+' if moved > 0 else ''}"
-                f"{_finely(moved, parameter.unit)} from the "
-                f"stated {_finely(parameter.before, parameter.unit)}, more than twice the "
-                f"{_finely(trusted, parameter.unit)} it was trusted to: measure it again"
+                f"{plain_name(parameter.name)}: the marks say {now}, {apart} "
+                f"{'more' if moved > 0 else 'less'} than your settings. That is much for a misread "
+                "tape: measure it again"
             )
     return said
 
@@ -393,7 +392,7 @@ def _bad_bargains(before: Quality, after: Quality, steps: Sequence[Step]) -> lis
             "noise, do not keep them"
         ]
     return [
-        f"with {named(step.effect)} only the fit got better; marks not used are predicted worse "
+        f"with {noun_of(step.effect)} only the fit got better; marks not used are predicted worse "
         f"({worded(step.left_out_rms)}): it may follow the noise"
         for step in steps
         if step.only_fit

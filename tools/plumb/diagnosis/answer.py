@@ -163,7 +163,7 @@ def _outlier(diagnosis: Diagnosis) -> str:
 
 def _nothing_provable(diagnosis: Diagnosis) -> str:
     said = (
-        "The marks show no cause."
+        "The marks show no cause: all that is wrong may be the frame's numbers."
         if diagnosis.nothing_chance > LIKELIER
         else "Something may act, but the marks do not show what."
     )
@@ -221,23 +221,22 @@ def _cannot_tell(diagnosis: Diagnosis) -> str:
     if sure:
         causes = "One cause is" if len(sure) == 1 else "Two causes are"
         causes = causes if len(sure) <= MOST_NAMED else "The causes are"
-        said = f"{causes} most likely {_named(sure)}. What else acts is open: "
+        said = f"{causes} most likely {_named(sure)}. Besides: "
     else:
         said = "The marks cannot tell yet. Most likely it is "
-    said += _with_odds(first, sure)
+    said += f"{_open(first, sure)}, at odds of {odds_words(first.share)}"
     if len({*first.effects, *second.effects} - {*sure}) <= MOST_NAMED:
-        said += f", or {_with_odds(second, sure)}"
+        said += f", or {_open(second, sure)}, at {odds_words(second.share)}"
     else:
         others = [second, *others]
     are = "is" if len(others) == 1 else "are"
     return f"{said}. {len(others)} more {are} possible." if others else f"{said}."
 
 
-def _with_odds(together: Together, sure: Sequence[str]) -> str:
-    """Return an account but for what is sure, with its odds."""
-    open_effects = [name for name in together.effects if name not in sure]
-    noun = _named(open_effects) if open_effects or not sure else "nothing else"
-    return f"{noun}, {odds_words(together.share)}"
+def _open(together: Together, sure: Sequence[str]) -> str:
+    """Return an account but for what is sure."""
+    effects = [name for name in together.effects if name not in sure]
+    return _named(effects) if effects or not sure else "nothing else"
 
 
 MOST_ODDS = 100.0  # beyond which nobody checked them
@@ -261,7 +260,7 @@ def odds_words(share: float) -> str:
 
 def _named(effects: Sequence[str]) -> str:
     """Effects by their nouns; by their number where there are many."""
-    return plainly(effects) if len(effects) <= MOST_NAMED else f"{len(effects)} effects at once"
+    return plainly(effects) if len(effects) <= MOST_NAMED else f"{len(effects)} causes at once"
 
 
 _SENTENCES = {

@@ -151,7 +151,7 @@ class RivalError:
     @property
     def sentence(self) -> str:
         """By how much and where, for people."""
-        return f"On the sheet they differ by {worded(self.mm, 1)} in {self.where}."
+        return f"On the sheet the likely causes differ by {worded(self.mm, 1)} in {self.where}."
 
 
 def rival_error(explanations: Sequence[Explanation], noise: float) -> RivalError | None:

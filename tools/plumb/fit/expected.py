@@ -231,8 +231,8 @@ def _why(check: Checked, settings: MachineSettings) -> str:
             "number, its unit (mm, N), and that the settings are those of this machine"
         )
     unit, met = parameter_words()[check.name]["unit"], plausible_range(check.name)
-    meant = "a share of the whole: 0.1 mm per metre is 0.0001" if unit == "1" else f"in {unit}"
-    return f"real machines have {met.low:g} to {met.high:g}; VALUE is {meant}"
+    meant = "as a share of the whole: 0.1 mm per metre is 0.0001" if unit == "1" else f"in {unit}"
+    return f"real machines have {met.low:g} to {met.high:g}; write it {meant}"
 
 
 def _said(check: Checked) -> str:

@@ -14,7 +14,6 @@ from numpy.typing import ArrayLike, NDArray
 
 from plumb.model.catalogue import every_effect, parameter_words
 from plumb.model.predict import frame_words
-from plumb.text.errors import to_do
 from plumb.text.values import in_unit, unit
 
 if TYPE_CHECKING:
@@ -35,7 +34,8 @@ SHEET: dict[str, PlainWords] = {
 
 def plain_name(name: str) -> str:
     """Return a number of the frame in a maker's words; `effect.parameter` stays as it is."""
-    return next((words["noun"] for words in frame_words() if words["name"] == name), name)
+    nouns = {words["name"]: words["noun"] for words in frame_words()}
+    return {**nouns, "sheet_rotation": "turn of the sheet"}.get(name, name)
 
 
 def noun_of(effect: str) -> str:
@@ -43,25 +43,9 @@ def noun_of(effect: str) -> str:
     return next((words["noun"] for words in every_effect() if words["name"] == effect), effect)
 
 
-def named(effect: str) -> str:
-    """Return the effect in a maker's words; on a command line with the name that commands take."""
-    noun = noun_of(effect)
-    return noun if noun == effect else to_do(f"{noun} ({effect})", page=noun)
-
-
-def nouns_of(effects: Iterable[str]) -> str:
-    """Effects that act together in a maker's words, with their names."""
-    return _listed(map(named, effects))
-
-
 def plainly(effects: Iterable[str]) -> str:
-    """Effects that act together in a maker's words, without their names."""
-    return _listed(map(noun_of, effects))
-
-
-def _listed(nouns: Iterable[str]) -> str:
-    """Nouns as a list; an explanation may have no effect."""
-    *others, final = [*nouns] or ["the frame alone"]
+    """Effects that act together in a maker's words; an explanation may have no effect."""
+    *others, final = [noun_of(effect) for effect in effects] or ["the frame alone"]
     return f"{', '.join(others)} and {final}" if others else final
 
 

@@ -19,7 +19,6 @@ from plumb.model.predict import (
     USABLE,
     Array,
     Reached,
-    library,
     reach,
     usual_parameters,
     with_parameters,
@@ -86,16 +85,9 @@ def with_soft_chains(settings: MachineSettings) -> tuple[MachineSettings, tuple[
         for name, size in usual_parameters(settings).items()
         if settings.effect(*name.split(".")) <= 0
     }
-    units = {
-        f"{effect['name']}.{parameter['name']}": parameter["unit"]
-        for effect in library()
-        for parameter in effect["parameters"]
-    }
     assumed = tuple(
-        f"The settings have {_too_little(settings, name)}: this takes the usual {size:.3g} "
-        f"{units[name]}, for {settings.sled_weight:.1f} N of sled and "
-        f"{settings.chain_weight * 1e3:.2f} N per m of chain."
-        for name, size in missing.items()
+        f"Your settings have {_too_little(settings, name)}. A usual chain is taken instead."
+        for name in missing
     )
     return with_parameters(settings, missing), assumed
 

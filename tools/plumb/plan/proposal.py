@@ -241,17 +241,18 @@ def headline_of(best: Proposal) -> str:
     return f"{best.option.title}; about {best.option.minutes:.0f} minutes{_hope(best)}"
 
 
-def steps_of(best: Proposal, *, is_converted: bool = False) -> list[str]:
-    """Return what to do, and what it tells, in sentences; how a number follows from what is
-    measured, unless `is_converted`: whoever asks works it out.
-    """
-    said = [*best.option.do]
-    if best.parts:
-        pairs = [f"{_nouns(a)} from {_nouns(b)}" for a, b in best.parts]
-        said.append(f"It tells {'; '.join(pairs)}.")
-    if best.option.checks and not is_converted:
-        said.append(f"VALUE: {best.option.value}.")
-    return said
+def steps_of(best: Proposal) -> list[str]:
+    """Return what to do, and what it tells, in sentences."""
+    return [*best.option.do, *dict.fromkeys(_difference(*pair) for pair in best.parts)]
+
+
+def _difference(first: str, second: str) -> str:
+    """Return which effects are tried by a measurement that separates two explanations."""
+    names = [side.split(" + ") if side else [] for side in (first, second)]
+    left, right = ([name for name in names[i] if name not in names[1 - i]] for i in (0, 1))
+    if left and right:
+        return f"It tells {plainly(left)} from {plainly(right)}."
+    return f"It shows whether {plainly(left or right)} acts too."
 
 
 def promise_of(proposal: Proposal) -> str:
@@ -284,11 +285,6 @@ def _hope(best: Proposal) -> str:
         return ""
     verb = VERBS.get(best.question, "")
     return f", chance to {verb} {percent(best.chance)}" if verb else ""
-
-
-def _nouns(explanation: str) -> str:
-    """Return an explanation, `effect + effect`, in a maker's words."""
-    return plainly(filter(None, explanation.split(" + ")))
 
 
 # What to measure where no effect is in question: readings that disagree, marks nobody explains.

@@ -15,6 +15,7 @@ from plumb.diagnosis.expected_error import ExpectedError, expected_error
 from plumb.diagnosis.explanation import Explanation, measured_board
 from plumb.diagnosis.suspect_curves import SuspectCurves, suspect_curves, view_by
 from plumb.diary.history import DiaryFit
+from plumb.fit.by_hand import to_fill_in, what_to_type
 from plumb.fit.compare import ChainView, Comparison, compare
 from plumb.fit.covariates import PATCH, Covariate, covariates
 from plumb.fit.fit import Fit
@@ -135,12 +136,15 @@ def asked_for(findings: Findings, command: Wording) -> list[Command]:
     best = findings.advice.proposals[0] if findings.advice.proposals else None
     checks = best.option.checks if best else ()
     if checks:
+        settings = findings.inputs.settings
         said = [
             word
             for check in checks
-            for word in ("--checked", f"{check.name}=VALUE+-{check.sigma:g}")
+            for word in ("--checked", to_fill_in(check.name, check.sigma, settings))
         ]
-        return [Command("When that is measured:", command("calibrate", (), said))]
+        typed = what_to_type([check.name for check in checks], settings)
+        words = f"When that is measured: {typed}" if typed else "When that is measured:"
+        return [Command(words, command("calibrate", (), said))]
     form = "more.toml"
     return [
         Command("A form for the new marks:", command("next", (), ("--marks", form))),

@@ -158,7 +158,8 @@ def history_sentence(findings: Findings) -> str:
         return "The settings were fitted to these same readings."
     return (
         f"The last fit promised {worded(record.left_out_rms)} RMS on marks not used; these lie "
-        f"{worded(comparison.rms)} off, and {worded(comparison.shape_rms)} of that is shape."
+        f"{worded(comparison.rms)} off; moving the whole sheet would leave "
+        f"{worded(comparison.shape_rms)}."
         if comparison.shape_rms is not None
         else f"The last fit promised {worded(record.left_out_rms)} RMS on marks not used; these "
         f"lie {worded(comparison.rms)} off."

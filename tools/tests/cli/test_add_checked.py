@@ -37,12 +37,12 @@ def test_auto_takes_what_was_checked_into_its_verdict(ask, run):
 def test_whether_the_choice_matters_is_said_where_it_is_made(run, ask):
     apart = ask("add", *BOARD, "--effect", "auto")[1]["auto"]["apart"]
     assert apart["mm"] == pytest.approx(2.1, abs=0.1)
-    for words in (("add", *BOARD, "--effect", "auto"), ("calibrate", *BOARD)):
+    for words in (("add", *BOARD, "--effect", "auto"), ("calibrate", *BOARD, "--details")):
         assert apart["sentence"] in " ".join(run(*words)[1].split())
     # Rivals that cut alike are no reason to wait.
     alike = ("add", *BOARD, "--effect", "auto", *checked("tape_scale.strain", "motor_gap"))
     assert ask(*alike)[1]["auto"]["apart"] is None and ask(*alike)[1]["auto"]["rivals"]
-    said = " ".join(run(*alike)[1].split())
+    said = " ".join(run(*alike, "--details")[1].split())
     assert "A choice: the likeliest is chains too long or too short and chain stretch, but" in said
     assert "For cutting it hardly matters" in said and "(chain_" not in said[: said.index("To be")]
 
@@ -56,7 +56,7 @@ def test_what_every_machine_has_is_added_with_a_word_and_no_doubt(run, ask, tmp_
     sag = {"chain_sag": {"weight_ratio_squared": 8.2e-12}}
     write_machine_toml(settings, replace(BELIEVED, effects=sag))
     words = ("add", settings, clean, "--effect", "auto")
-    said = " ".join(run(*words)[1].split())
+    said = " ".join(run(*words, "--details")[1].split())
     assert "Every machine has chain stretch, and these settings leave it out." in said
     assert "may as well be zero" not in said and "do not keep it" not in said
     _, answer = ask(*words)
@@ -74,10 +74,13 @@ def test_what_every_machine_has_is_added_with_a_word_and_no_doubt(run, ask, tmp_
         (["motor_gap=2980+-1", "--checked", "motor_gap=2981+-1"], "twice"),
         (["tape_scale.strain=0.1+-0.0001"], "0.1 mm per metre is 0.0001"),
         (["tape_scale.strain=-0.0096+-0.0001"], "real machines have -0.003 to 0.003"),
-        (["frame_flex.inward=8+-0.1"], "VALUE is in mm/N"),
+        (["frame_flex.inward=8+-0.1"], "write it in mm/N"),
         (["motor_gap=298+-1"], "far from the 2978.4 of the settings"),
         (["motor_gap=29784+-1"], "far from the 2978.4 of the settings"),
         (["tape_scale.strain=0,0001+-0.0001"], "write a point, not a comma"),
+        (["motor_gap=5+-1kg"], "it is read in mm, not in kg"),
+        (["motor_height=1069.6+-1mm"], "far from the 1072.6 of the settings"),
+        (["frame_lean.tangent_squared=1/0+-1in"], "not like"),
         (["motor_gap=VALUE+-1"], "put your number in place of VALUE"),
         (["chain_pitch.left=0.002+-0.001", "--hold", "chain_pitch.left=0.002"], "--hold keeps it"),
     ],
@@ -116,7 +119,7 @@ def test_diagnose_hands_its_checks_to_the_command_that_adds(run):
 
 
 def test_the_most_likely_is_added_with_what_was_checked(run):
-    said = run("calibrate", *BOARD, "--checked", "motor_gap=2978.4+-1")[1]
+    said = run("calibrate", *BOARD, "--checked", "motor_gap=2978.4+-1", "--details")[1]
     words = next_command(said)
     assert words[words.index("--effect") + 1] == "auto"
     assert words[words.index("--checked") + 1] == "motor_gap=2978.4+-1"

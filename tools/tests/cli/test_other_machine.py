@@ -1,5 +1,6 @@
 """Commands refuse to mix marks of a machine with numbers of another, and say both values."""
 
+import json
 import shutil
 from dataclasses import replace
 from pathlib import Path
@@ -90,7 +91,13 @@ def test_a_fit_is_written_into_its_machine_and_into_a_machine_that_holds_it(run,
     settings = fitted("fit.toml", BELIEVED)
     assert run("send", "--port", "USB", "fit.toml")[0] == 0
     assert board.numbers[2] == pytest.approx(settings.motor_gap, rel=1e-6)
-    assert run("send", "--port", "USB", "fit.toml")[0] == 0
+    code, said, beside = run("send", "--port", "USB", "fit.toml", "--json")
+    answer = json.loads(said)
+    assert code == 0 and answer["changed"] == {} and answer["stopped_at"] is None
+    assert answer["lines"] > 10 and "each was read back" in beside and Path(answer["kept"]).exists()
+    board.numbers[2] -= 1
+    answer = json.loads(run("send", "--port", "USB", "fit.toml", "--force", "--json")[1])
+    assert answer["changed"]["2"] == pytest.approx([settings.motor_gap - 1, settings.motor_gap])
 
 
 @pytest.mark.parametrize("command", [["calibrate"], ["add", "--effect", "auto"]])

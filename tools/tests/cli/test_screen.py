@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 from plumb.cli import screen
-from plumb.cli.screen import Bar, headline, sentences, table
+from plumb.cli.screen import BAD, GOOD, OPEN, Bar, headline, sentences, table
 
 EXAMPLE = Path(__file__).resolve().parents[3] / "docs/example"
 INI, MARKS = EXAMPLE / "groundcontrol.ini", EXAMPLE / "marks.toml"
@@ -78,10 +78,11 @@ def test_colour_only_where_it_is_wanted(variables, coloured, monkeypatch):
     assert bool(COLOUR.search(said)) == coloured
     assert len(COLOUR.findall(said)) in (0, 1)
     assert ("\x1b" in headline("All is well.")) == bool(variables)
-    for is_good, green, red in ((True, True, False), (False, False, True), (None, False, False)):
-        said = headline("All is well.", is_good=is_good)
-        # 32 is green and 31 red; with NO_COLOR a verdict is bold.
-        assert (";32m" in said, ";31m" in said) == (green and coloured, red and coloured)
+    for kind, colour in ((GOOD, ";32m"), (OPEN, ";33m"), (BAD, ";31m"), ("", "")):
+        said = headline("All is well.", kind)
+        # With NO_COLOR a verdict is bold.
+        shown = [each for each in (";31m", ";32m", ";33m") if each in said]
+        assert shown == ([colour] if colour and coloured else [])
 
 
 class Terminal:

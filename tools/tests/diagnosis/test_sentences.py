@@ -37,14 +37,14 @@ def test_one_suspect_is_named_with_odds_the_fall_and_the_noise():
     assert said_of("one_suspect", account(*PAIR)).startswith(
         "The causes are most likely chains that are not parallel to the sheet and chains that "
     )
-    assert "3 effects at once" in said_of("one_suspect", account(*LONG))
+    assert "3 causes at once" in said_of("one_suspect", account(*LONG))
 
 
 def test_of_several_the_two_likeliest_are_named():
     rivals = account("chain_sag", share=0.6), account(share=0.3), account("tape_scale", share=0.05)
     assert said_of("cannot_tell", *rivals[:2]) == (
-        "The marks cannot tell yet. Most likely it is chain sag, 3 to 2, or the frame alone, 1 to "
-        "2."
+        "The marks cannot tell yet. Most likely it is chain sag, at odds of 3 to 2, or the frame "
+        "alone, at 1 to 2."
     )
     assert said_of("cannot_tell", *rivals).endswith("1 to 2. 1 more is possible.")
     assert said_of("cannot_tell", *rivals, rivals[2]).endswith("2 more are possible.")
@@ -54,11 +54,11 @@ def test_what_all_explanations_have_is_said_once():
     sure = "motor_level"
     either = account(sure, "chain_sag", share=0.8), account(sure, "tape_scale", share=0.2)
     assert said_of("cannot_tell", *either) == (
-        "One cause is most likely motors that are not level. What else acts is open: chain "
-        "sag, 4 to 1, or a tape that reads wrong, 1 to 4."
+        "One cause is most likely motors that are not level. Besides: chain sag, at odds "
+        "of 4 to 1, or a tape that reads wrong, at 1 to 4."
     )
     assert said_of("cannot_tell", either[0], account(sure, share=0.2)).endswith(
-        "chain sag, 4 to 1, or nothing else, 1 to 4."
+        "chain sag, at odds of 4 to 1, or nothing else, at 1 to 4."
     )
 
 
@@ -73,8 +73,8 @@ def test_no_first_sentence_names_more_than_two_causes(sure):
 
 def test_no_cause_is_said_as_surely_as_it_is_known():
     assert said_of("nothing_provable", nothing=0.6) == (
-        "The marks show no cause. With the frame fitted 2.00 mm RMS is left; noise alone "
-        "leaves 0.42 mm."
+        "The marks show no cause: all that is wrong may be the frame's numbers. With the frame "
+        "fitted 2.00 mm RMS is left; noise alone leaves 0.42 mm."
     )
     assert said_of("nothing_provable", nothing=0.4).startswith(
         "Something may act, but the marks do not show what. With the frame"

@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from plumb.cli.add import as_text
+from plumb.cli.addition import as_text
 from plumb.cure.add import add
 from plumb.cure.machine_file import toml_of
 from plumb.fit.fit import fit
@@ -82,7 +82,7 @@ def test_a_lab_effect_is_told_with_its_cure_and_pays():
     assert len(result.cures) == 1
     for said in (result.cures[0], as_text(result), toml_of(result, source="marks.toml").decode()):
         said = " ".join(said.replace("#", " ").split())
-        assert "% too long (tape_scale): " in said and "no firmware can cure this" in said
+        assert "% too long: " in said and "no firmware can cure this" in said
         assert "a length that you trust" in said
     answer = json_of(result)
     assert set(answer["lab_effects"]) == {"tape_scale"} and "tape_scale" not in answer["effects"]

@@ -2,7 +2,7 @@
 
 import pytest
 from folder import choose, with_marks
-from plumb.lab.known import readings
+from plumb.fit.by_hand import readings
 from plumb.settings.machine import GRAVITY
 from synthetic import BELIEVED
 

@@ -5,7 +5,7 @@ import math
 import pytest
 from folder import choose, got
 from plumb.bench.causes import MAKER
-from plumb.lab.known import readings
+from plumb.fit.by_hand import readings
 from plumb.plan.separation import FRAME_CHECKS, effect_checks
 from plumb.vm.owner import true_value
 

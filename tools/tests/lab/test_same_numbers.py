@@ -45,9 +45,9 @@ class Said:
 
     def __init__(self, folder, files):
         words = [str(folder / name) for name in files]
-        self.compare, self.compared = terminal("compare", *words)
-        self.diagnose, self.diagnosed = terminal("diagnose", *words)
-        self.add, self.added = terminal("add", *words, "--effect", "auto")
+        self.compare, self.compared = terminal("compare", *words, "--details")
+        self.diagnose, self.diagnosed = terminal("diagnose", *words, "--details")
+        self.add, self.added = terminal("add", *words, "--effect", "auto", "--details")
         _, self.reported = terminal("report", *words, "-o", str(folder / "r.html"), "--force")
         page = (folder / "r.html").read_text("utf-8")
         self.report = words_of(page)
@@ -115,7 +115,7 @@ def test_error_as_set_is_the_same(said):
         match_in(rf"The marks lie {LENGTH} RMS", said.compare),
         said.compared["rms_mm"],
         said.added["raw"]["rms_mm"],
-        match_in(r"From ([\d.]+) to", said.add),
+        match_in(r"goes from ([\d.]+) to", said.add),
         row("raw: the settings as they are", said.add)[0],
         said.reported["comparison"]["rms_mm"],
         said.figure("as set, RMS"),
@@ -131,8 +131,10 @@ def test_error_as_set_is_the_same(said):
 def test_worst_error_and_shape_are_the_same(said):
     raw = row("raw: the settings as they are", said.add)
     worst, shape = said.compared["worst_mm"], said.compared["shape_rms_mm"]
-    assert_same(match_in(rf"worst {LENGTH}", said.compare), worst, raw[1])
-    assert_same(match_in(rf"{LENGTH} RMS of that is shape", said.compare), shape, raw[2])
+    assert_same(match_in(rf"The worst is mark \S+ {LENGTH}", said.compare), worst, raw[1])
+    assert_same(
+        match_in(rf"Moving the whole sheet would leave {LENGTH}", said.compare), shape, raw[2]
+    )
 
 
 def test_distances_have_a_number_by_themselves(said):
@@ -140,7 +142,7 @@ def test_distances_have_a_number_by_themselves(said):
     if rms is None:
         assert "distances" not in said.parts["verdict"] + said.compare
     else:
-        stated = match_in(rf"distances between marks are {LENGTH} RMS off", said.compare)
+        stated = match_in(rf"The distances are {LENGTH} RMS off", said.compare)
         distances = said.figure("their distances, as set")
         assert_same(rms, stated, distances)
         assert rms != pytest.approx(said.compared["rms_mm"], abs=0.1)
@@ -188,7 +190,7 @@ def test_error_of_what_is_added_is_the_same(said):
         together["rms_after_mm"],
         card["rms_after"],
         said.added["after"]["fit_rms_mm"],
-        match_in(rf"From [\d.]+ to {LENGTH} RMS", said.add),
+        match_in(rf"goes from [\d.]+ to {LENGTH} RMS", said.add),
         said.figure("effects fitted"),
         match_in(rf"With .*?: {LENGTH} RMS", said.parts["maps"].split("As set:")[1]),
         match_in(rf"With the new settings {LENGTH}", said.parts["history"]),
@@ -204,7 +206,7 @@ def test_error_of_what_is_added_is_the_same(said):
 
 def test_error_on_marks_not_used_is_the_same(said):
     assert_same(
-        match_in(rf"\([\d.]+ to {LENGTH}\)", said.add),
+        match_in(rf"marks not used are {LENGTH} off", said.add),
         said.added["after"]["left_out_rms_mm"],
         said.figure("on marks not used"),
         re.findall(rf"checked {LENGTH}", said.parts["fall"])[-1],
@@ -225,7 +227,7 @@ def test_odds_of_explanations_are_the_same(said):
     for each, card in zip(explanations, cards, strict=True):
         row_of_report = rf"{re.escape(card['title'])} {card['odds']} {LENGTH}"
         assert_same(match_in(row_of_report, said.parts["suspects"]), each["rms_after_mm"])
-    first = f", {odds_words(explanations[0]['share'])}"
+    first = f", at odds of {odds_words(explanations[0]['share'])}"
     for sentence in (said.diagnose, said.parts["verdict"], said.verdict["sentence"]):
         assert first in sentence
 

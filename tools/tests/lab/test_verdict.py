@@ -22,7 +22,7 @@ def test_it_says_what_the_command_line_says(client, tmp_path):
     with read_on_page():
         assert verdict["sentence"] == verdict_sentence(diagnosis)
     assert "(chain_" not in verdict["sentence"]
-    assert verdict["apart"].startswith("On the sheet they differ by 2.1 mm in")
+    assert verdict["apart"].startswith("On the sheet the likely causes differ by 2.1 mm in")
     assert len(verdict["cards"]) + verdict["more_cards"] == len(diagnosis.explanations)
     first, card = diagnosis.explanations[0], verdict["cards"][0]
     assert card["rms_after"] == pytest.approx(first.rms_after)

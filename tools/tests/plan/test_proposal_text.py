@@ -7,7 +7,6 @@ import pytest
 from plumb.cli.next import _table as table_of
 from plumb.model.plain import noun_of
 from plumb.plan import Next
-from plumb.plan.case import Check
 from plumb.plan.options import Option
 from plumb.plan.planned_visits import nowhere
 from plumb.plan.proposal import (
@@ -93,16 +92,24 @@ def test_without_such_rooms_a_promise_is_a_chance():
     assert promise_of(proposal(SETTLE, rooms=ROOMS)) == "40 %"
 
 
-def test_steps_tell_what_is_parted_and_which_value_to_give():
+def test_steps_tell_what_is_parted_without_what_both_have():
     assert steps_of(proposal()) == ["Cut four."]
-    pairs = (("chain_sag", "frame_lean"), ("chain_pitch + tape_scale", "chain_sag"))
+    pairs = (
+        ("chain_sag + motor_level", "frame_lean + motor_level"),
+        ("chain_pitch + tape_scale", "chain_sag"),
+        ("chain_sag", "frame_lean"),
+        ("chain_sag", "frame_lean + chain_sag"),
+        ("", "chain_sag"),
+    )
     sag, lean, pitch, tape = map(noun_of, ("chain_sag", "frame_lean", "chain_pitch", "tape_scale"))
     said = steps_of(proposal(parts=pairs))
-    assert said == ["Cut four.", f"It tells {sag} from {lean}; {pitch} and {tape} from {sag}."]
-    check = replace(CUT, checks=(Check("motor_gap", 1.0),), value="the gap, mm")
-    by_hand = Proposal(check, SETTLE, 0.5, None)
-    assert steps_of(by_hand)[-1] == "VALUE: the gap, mm."
-    assert steps_of(by_hand, is_converted=True) == ["Cut four."]
+    assert said == [
+        "Cut four.",
+        f"It tells {sag} from {lean}.",
+        f"It tells {pitch} and {tape} from {sag}.",
+        f"It shows whether {lean} acts too.",
+        f"It shows whether {sag} acts too.",
+    ]
 
 
 def test_the_rate_is_what_is_gained_for_each_minute_with_a_round_more():

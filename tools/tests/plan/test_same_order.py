@@ -35,7 +35,7 @@ def answers(seed):
         "ranking": [each.effect for each in diagnosis.ranking],
         "explanations": [each.effects for each in diagnosis.explanations],
         "proposals": [(each.option.title, each.option.do) for each in proposals],
-        "worst mark": conclusion(compare(Inputs(BELIEVED, measurements)), BELIEVED.sheet_width),
+        "worst mark": conclusion(compare(Inputs(BELIEVED, measurements))),
     }
 
 

@@ -1,5 +1,6 @@
 """The virtual machine behind a serial port, driven by the commands that drive a board."""
 
+import json
 import os
 import re
 import shlex
@@ -113,6 +114,19 @@ def test_what_was_not_cut_is_resumed_by_the_command_that_is_printed(served, tmp_
     plumb(*read, folder=tmp_path)
     plumb(*resume, folder=tmp_path)
     assert "G1 X0 Y60 F800" in (tmp_path / "rest.nc").read_text()
+
+
+def test_programs_are_told_where_a_job_stopped(served, tmp_path):
+    served()
+    (tmp_path / "job.nc").write_text(WAITING)
+    words = ("send", "--json", "--port", "maslow", "job.nc")
+    said = plumb(*words, folder=tmp_path, code=1, typed="s\n")
+    answer, end = json.JSONDecoder().raw_decode(said)
+    assert answer["lines"] == 6 and answer["stopped_at"] <= 4
+    assert "The machine has stopped." in said[end:]
+    said = plumb("send", "--json", "--port", "maslow", "B10 L", folder=tmp_path)
+    answer, _ = json.JSONDecoder().raw_decode(said)
+    assert answer["stopped_at"] is None and any("[Measure" in line for line in answer["said"])
 
 
 def test_ctrl_c_stops_the_machine_and_it_knows_where_it_is(served, tmp_path):

@@ -6,7 +6,8 @@ from fastapi import APIRouter
 from pydantic import BaseModel
 
 from plumb.firmware.settings import Difference
-from plumb.lab.known import WEIGHED, WEIGHT, KnownNumber, known_numbers
+from plumb.fit.by_hand import WEIGHED, WEIGHT
+from plumb.lab.known import KnownNumber, known_numbers
 from plumb.lab.machine_line import TheLine, held_otherwise, is_fit_of_machine
 from plumb.lab.project import Number
 from plumb.lab.rounds import command, known_words, opened, unit_words

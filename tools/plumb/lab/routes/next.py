@@ -165,7 +165,7 @@ def _measurement(project: Project, inputs: api.Inputs, advice: Next) -> NextMeas
     visits = best.option.visits
     return NextMeasurement(
         headline=headline_of(best),
-        steps=steps_of(best, is_converted=True),
+        steps=steps_of(best),
         marks=[
             Arrow(name=name, place=tuple(place), error=(0.0, 0.0))
             for name, place in zip(visits.names, visits.targets.tolist(), strict=True)

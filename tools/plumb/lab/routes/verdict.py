@@ -23,7 +23,7 @@ from plumb.lab.project import Project
 from plumb.lab.rounds import board_words, command, inputs_of, known_words, unit_words
 from plumb.lab.routes.project import TheProject
 from plumb.model.catalogue import every_effect, label
-from plumb.model.plain import noun_of, nouns_of, plain_range, plain_size, plainly, ranked
+from plumb.model.plain import noun_of, plain_range, plain_size, plainly, ranked
 from plumb.text.values import shown_in, worded
 
 router = APIRouter(tags=["verdict"])
@@ -182,7 +182,7 @@ def verdict_of(inputs: api.Inputs, diagnosis: Diagnosis, auto: AutoAddition) -> 
         cards=[_card(diagnosis, i, *each) for i, each in enumerate(shown)],
         more_cards=max(len(diagnosis.explanations) - MOST_CARDS, 0),
         could_hide=_could_hide(diagnosis),
-        blind=f"these marks say nothing of {nouns_of(blind)}" if blind else "",
+        blind=f"these marks say nothing of {plainly(blind)}" if blind else "",
         slips=[slip.sentence for slip in diagnosis.outliers],
         notes=[*diagnosis.disagreements, *diagnosis.warnings],
     )

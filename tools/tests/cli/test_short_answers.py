@@ -1,0 +1,126 @@
+"""By default an answer fits a screen, its verdict is read last, and every word is a maker's."""
+
+import re
+import shutil
+from importlib import resources
+from pathlib import Path
+
+import pytest
+from example_machine import checked
+from plumb.model.catalogue import effect_names, parameter_words
+
+ROOT = Path(__file__).resolve().parents[3]
+BOARDS = {
+    "simple": ROOT / "docs/example",
+    "holes": resources.files("plumb") / "examples/madgrizzle-2018-09-04",
+}
+INI, MARKS = "groundcontrol.ini", "marks.toml"
+AUTO = ("add", INI, MARKS, "--effect", "auto")
+WRITTEN = (*AUTO, "-o", "machine.toml", "--client", "groundcontrol", "--original", INI)
+COMMANDS = [
+    ("compare", INI, MARKS),
+    ("diagnose", INI, MARKS),
+    ("next", INI, MARKS),
+    ("calibrate", INI, MARKS),
+    AUTO,
+    WRITTEN,
+    ("add", INI, MARKS, "--effect", "none"),
+    ("settings", "machine.toml"),
+]
+DONE = ("calibrate", INI, MARKS, *checked())  # of the simple board
+EACH = [(board, command) for board in BOARDS for command in COMMANDS] + [("simple", DONE)]
+SCREEN, TEN = 24, 10  # lines
+MOST_WORDS = 40
+# Words of the field, and riddles: no default answer has them.
+NOT_A_MAKERS = re.compile(
+    r"\b(provable|counted|of that is shape|posterior|covariate|identifiable|chi-square|suspects?"
+    r"|priors?|degrees of freedom|taken for the truth|fit the fit)\b",
+    re.IGNORECASE,
+)
+ESCAPE = re.compile(r"\x1b\[[0-9;]*m")
+BOLD = re.compile(r"^\x1b\[1(?:;3[123])?m[^\x1b]*\x1b\[0m$")
+
+
+@pytest.fixture(autouse=True)
+def _screen(tmp_path, monkeypatch):
+    """A folder for a board, and a screen with colours."""
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.delenv("NO_COLOR", raising=False)
+    for name, value in {"COLUMNS": "80", "TERM": "xterm", "FORCE_COLOR": "1"}.items():
+        monkeypatch.setenv(name, value)
+
+
+def put(board):
+    """Its files, alone in the folder."""
+    for path in Path().iterdir():
+        path.unlink()
+    for name in (INI, MARKS):
+        shutil.copy(BOARDS[board] / name, name)
+
+
+def answer(run, board, command):
+    put(board)
+    if command[0] == "settings":
+        run(*WRITTEN)
+    code, said, complaint = run(*command)
+    assert code < 2 and complaint == ""
+    return said.rstrip("\n").split("\n")
+
+
+def verdict_of(lines):
+    """Its lines: the last that are bold as a whole, and what follows them."""
+    last = max(i for i, line in enumerate(lines) if BOLD.match(line))
+    first = last
+    while BOLD.match(lines[first - 1]) and first:
+        first -= 1
+    return lines[first : last + 1], lines[last + 1 :]
+
+
+@pytest.mark.parametrize(("board", "command"), EACH)
+def test_an_answer_fits_a_screen_and_ends_with_its_verdict(board, command, run):
+    lines = answer(run, board, command)
+    plain = [ESCAPE.sub("", line) for line in lines]
+    assert len(plain) <= SCREEN and max(map(len, plain)) <= 80, "\n".join(plain)
+    if command[0] == "calibrate":
+        assert sum(bool(line) for line in plain) <= TEN + 3 * ("- " in "\n".join(plain[:3]))
+    verdict, behind = verdict_of(lines)
+    assert len(" ".join(map(lambda line: ESCAPE.sub("", line), verdict)).split()) <= MOST_WORDS
+    # Behind it stands only what to do: no table, and a command at the end.
+    assert behind[-1].startswith("  ") and len(behind) <= 11, "\n".join(plain)
+    said = "\n".join(plain)
+    assert not NOT_A_MAKERS.search(said), NOT_A_MAKERS.search(said)
+    names = "|".join(map(re.escape, [*effect_names(), *parameter_words()]))
+    assert not re.search(rf"\((?:{names})\)", said)
+
+
+@pytest.mark.parametrize(("board", "command"), EACH)
+def test_details_say_more_and_end_alike(board, command, run):
+    short, long = (answer(run, board, (*command, *more)) for more in ((), ("--details",)))
+    assert len(long) > len(short)
+    assert verdict_of(long)[1][-1] == verdict_of(short)[1][-1] or command[0] == "calibrate"
+    names = "|".join(effect_names())
+    assert not re.search(rf"\((?:{names})\)", "\n".join(long))
+
+
+@pytest.mark.parametrize("command", COMMANDS[:4], ids=lambda command: command[0])
+def test_programs_are_answered_alike_with_and_without_details(command, ask):
+    put("simple")
+    assert ask(*command) == ask(*command, "--details")
+
+
+@pytest.mark.parametrize(
+    ("command", "colour"),
+    [
+        (("compare", INI, MARKS), 33),
+        (("compare", INI, MARKS, "--limit", "99"), 32),
+        (("compare", INI, MARKS, "--limit", "0.1"), 31),
+        (("calibrate", INI, MARKS), 33),
+    ],
+)
+def test_a_verdict_has_its_colour_where_the_screen_has_colours(command, colour, run, monkeypatch):
+    verdict, _ = verdict_of(answer(run, "simple", command))
+    assert all(line.startswith(f"\x1b[1;{colour}m") for line in verdict)
+    monkeypatch.setenv("NO_COLOR", "1")
+    assert ";3" not in "".join(answer(run, "simple", command))
+    monkeypatch.delenv("FORCE_COLOR")
+    assert "\x1b" not in "".join(answer(run, "simple", command))
