@@ -33,6 +33,7 @@ from plumb.model.predict import frame_words
 from plumb.model.sketches import SKETCHES
 from plumb.settings.machine import MachineSettings
 from plumb.text.answers import Internal, Number, key, meant, part
+from plumb.text.errors import to_do
 from plumb.text.values import bare, worded
 
 Sizes = Mapping[str, Mapping[str, float]]  # of parameters, effect by effect
@@ -277,9 +278,10 @@ def _cure(name: str, parameters: Mapping[str, float]) -> str:
         plain_size(f"{name}.{parameter.name}", parameters[parameter.name])
         for parameter in effect.parameters
     )
+    said = to_do(f"{sizes} ({name})", page=sizes)
     if is_sketch(name):
-        return f"{sizes} ({name}): a sketch, which no firmware has until it is written in C++"
-    return f"{sizes} ({name}): {NO_FIRMWARE}, and no setting holds it: {effect.remedy}"
+        return f"{said}: a sketch, which no firmware has until it is written in C++"
+    return f"{said}: {NO_FIRMWARE}, and no setting holds it: {effect.remedy}"
 
 
 def _parameter(estimate: Estimate) -> Parameter:
@@ -299,8 +301,7 @@ def _parameter(estimate: Estimate) -> Parameter:
 
 def _unfelt(fitted: Fit) -> list[str]:
     """Return a sentence on what the measured numbers cannot tell at all."""
-    names = [each.name for each in fitted.estimates if not each.felt]
-    if not names:
+    if not (names := [each.name for each in fitted.estimates if not each.felt]):
         return []
     listed = " and ".join(filter(None, [", ".join(names[:-1]), names[-1]]))
     stays = "it stays as it was" if len(names) == 1 else "they stay as they were"
@@ -308,9 +309,8 @@ def _unfelt(fitted: Fit) -> list[str]:
 
 
 def _unsettled(fitted: Fit) -> list[str]:
-    if fitted.settled:
-        return []
-    return ["the fit did not come to rest: do not trust these numbers; add fewer effects at once"]
+    restless = "the fit did not come to rest: do not trust these numbers; add fewer effects at once"
+    return [] if fitted.settled else [restless]
 
 
 def _surprises(parameters: Sequence[Parameter], known: Collection[str]) -> list[str]:

@@ -65,7 +65,7 @@ function Places({ reach, sheet }: { reach: Answer; sheet: readonly [number, numb
   const { at, px } = useScale();
   const [wide, high] = [sheet[0] / reach.columns, sheet[1] / reach.rows];
   return (
-    <g class="places">
+    <g class="reached">
       {reach.verdicts.map((verdict, index) => {
         const [tone] = MEANING[verdict] ?? MEANING[0] ?? ["usable"];
         const row = Math.floor(index / reach.columns);

@@ -10,6 +10,8 @@ import { useAnswer } from "../shell/answer";
 import { useNewest } from "../shell/newest";
 import { useProject } from "../shell/project";
 import { Screen } from "../shell/Screen";
+import { Refused } from "./correct/Refused";
+import { useWriting } from "./correct/useWriting";
 import { CouldHide } from "./verdict/CouldHide";
 import { HalfTyped } from "./verdict/HalfTyped";
 import { NextStep } from "./verdict/NextStep";
@@ -29,6 +31,7 @@ export function Verdict() {
   const { project } = useProject();
   const units = project.choices.units ?? "mm";
   const { answer, refused } = useAnswer<VerdictAnswer>("verdict");
+  const writing = useWriting();
   const [isNextWanted, wantNext] = useNextWanted(project.key);
   const verdict = answer?.verdict;
   const bench = useNewest<Schemas["BenchAnswer"]>(
@@ -40,9 +43,9 @@ export function Verdict() {
   const drawn = useDrawn(card?.effects.map(({ name }) => name) ?? [], bench?.board ?? "");
   if (refused)
     return (
-      <Screen title="No verdict yet" say={refused}>
+      <Refused title="No verdict yet" refused={refused} writing={writing}>
         <HalfTyped />
-      </Screen>
+      </Refused>
     );
   if (!verdict) {
     return (
