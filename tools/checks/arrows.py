@@ -106,8 +106,9 @@ PAGE_ARROWS = {
     "shell": ("api", "controls", "sheet", "machine", "steps", "bench", "practice"),
     "machine": ("api", "controls", "sheet", "shell"),
     "readings": ("api", "controls", "sheet", "shell", "machine"),
-    "steps": ("api", "controls", "sheet", "shell", "machine", "readings"),
-    "bench": ("api", "controls", "sheet", "shell", "machine"),
+    "residuals": ("api", "controls", "sheet", "shell"),
+    "steps": ("api", "controls", "sheet", "shell", "machine", "readings", "residuals"),
+    "bench": ("api", "controls", "sheet", "shell", "machine", "residuals"),
     "practice": ("api", "controls", "sheet", "shell", "machine", "readings", "bench"),
 }
 # In the shell only the list of screens knows the screens.

@@ -307,9 +307,8 @@ def _unfelt(fitted: Fit) -> list[str]:
 
 
 def _unsettled(fitted: Fit) -> list[str]:
-    if fitted.settled:
-        return []
-    return ["the fit did not come to rest: do not trust these numbers; add fewer effects at once"]
+    restless = "the fit did not come to rest: do not trust these numbers; add fewer effects at once"
+    return [] if fitted.settled else [restless]
 
 
 def _surprises(parameters: Sequence[Parameter], known: Collection[str]) -> list[str]:

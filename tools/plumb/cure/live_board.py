@@ -197,7 +197,7 @@ def noise_of(inputs: Inputs, board: Board) -> tuple[Noise, tuple[str, ...]]:
 
 @dataclass(frozen=True)
 class Drawn:
-    """What an effect by itself adds to the frame's fit."""
+    """What effects add to the frame's fit."""
 
     moved: Array  # (k, 2) [mm] of the marks on the sheet
     curves: SuspectCurves
@@ -226,10 +226,10 @@ class BoardView:
         rows = self.board.rows
         return chain_errors(self.model, self._places, errors, rows.sled_weights[rows.mark_rows])
 
-    def drawn(self, effect: str) -> Drawn:
-        """Return what an effect draws into the marks once the frame is refitted with it."""
+    def drawn(self, *effects: str) -> Drawn:
+        """Return what effects draw into the marks once the frame is refitted with them."""
         frame, rows = self._frame, self.board.rows
-        explanation = explain(frame.board, (effect,), start=frame)
+        explanation = explain(frame.board, effects, start=frame)
         moved = seen_by(explanation, rows).read.where - seen_by(frame, rows).read.where
         curves = suspect_curves(frame, explanation, rows)
         return Drawn(np.asarray(moved[rows.mark_rows]), curves)

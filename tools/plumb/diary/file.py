@@ -37,7 +37,7 @@ Folder = str | PathLike[str]
 class Entry:
     """What was written down at a time."""
 
-    kind: str  # "fit", "numbers", "program", "recheck", "slip" or "home"
+    kind: str  # "fit", "numbers", "program", "check", "recheck", "slip" or "home"
     at: Moment  # with its offset from UTC
     content: Internal[Mapping[str, Any]]  # lists, numbers and words as JSON has them
 
@@ -159,7 +159,7 @@ def _keep_name(folder: Path) -> None:
 # What goes into the diary: a fit with its marks and numbers, numbers sent, programs sent.
 
 FIT, NUMBERS, PROGRAM = "fit", "numbers", "program"
-RECHECK, SLIP, HOME = "recheck", "slip", "home"
+CHECK, RECHECK, SLIP, HOME = "check", "recheck", "slip", "home"
 
 
 def fit_entry(
@@ -271,6 +271,8 @@ def noted(entry: Entry) -> str:
     if entry.kind == PROGRAM:
         end = "" if content["whole"] else ", not to its end"
         return f"sent {content['program']}{end}"
+    if entry.kind == CHECK:
+        return f"{content['form']}, by {content['machine']}: {content['sentence']}"
     if entry.kind == HOME:
         return f"home mark {content['mark']} {'kept' if content['kept'] else 'used'}"
     return str(content.get("sentence", entry.kind))

@@ -1,4 +1,4 @@
-"""What an error of a chain may depend on: its tension, length, angle, sprocket phase, and the way.
+"""What an error of a chain may depend on: its tension, length, angle, wrap, phase, place and way.
 
 Each covariate has a number for each visit and chain, by a model of the machine.
 """
@@ -34,7 +34,8 @@ def covariates(model: MachineSettings, rows: Observations) -> tuple[Covariate, .
     """Return all covariates of every visit of `rows` (r,), by our model of the machine.
 
     The phase counts as the effect sprocket_runout does: free length over the sprocket's radius.
-    The order is that of the file. An approach is the direction of the last move.
+    The wrap is the chain on the sprocket, from 12 o'clock to the tangent point. The order is that
+    of the file. An approach is the direction of the last move.
     """
     places = hung_places(model, rows)
     strands = strands_at(
@@ -45,13 +46,17 @@ def covariates(model: MachineSettings, rows: Observations) -> tuple[Covariate, .
         usual_weight=model.sled_weight,
     )
     turned = np.mod(strands.length / model.sprocket_radius, 2 * np.pi)
+    angle = np.arctan2(strands.down, strands.across)
+    past_noon = angle if model.feed == "top" else np.pi - angle
     order = np.arange(1.0, len(places) + 1)
     return (
         Covariate("tension", "N", strands.tension, of_chain=True),
         Covariate("length", "mm", strands.span, of_chain=True),
-        Covariate("angle", "rad", np.arctan2(strands.down, strands.across), of_chain=True),
+        Covariate("angle", "rad", angle, of_chain=True),
+        Covariate("wrap", "mm", model.sprocket_radius * past_noon, of_chain=True),
         Covariate("phase", "rad", turned, of_chain=True),
-        Covariate("height", "mm", _both(places[:, 1]), of_chain=False),
+        Covariate("x", "mm", _both(places[:, 0]), of_chain=False),
+        Covariate("y", "mm", _both(places[:, 1]), of_chain=False),
         Covariate("order", "", _both(order), of_chain=False),
         Covariate("approach", "rad", _both(_headings(rows.approaches)), of_chain=False),
     )

@@ -24,7 +24,7 @@ from plumb.text.answers import Internal
 from plumb.text.errors import InputError
 
 HOME, MACHINE, CANCEL, NO_MOTION = (28.0, 30.0), 53.0, 80.0, 80
-NO_PLACE, NO_MODE = "nobody has set that place", "no motion is in force after G80"
+NO_PLACE, NO_MODE = "no place is kept for it", "no motion is in force after G80"
 AXES = "XYZ"
 HOMES = ((0.0, 0.0, 0.0), (37.0, -23.0, 7.0))  # [mm] x, y, and z above all the program
 SAME = 2e-3  # [mm] between two cuts that are the same

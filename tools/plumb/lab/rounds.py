@@ -309,6 +309,22 @@ def inputs_of(project: Project, *, among: Sequence[str] | None = None) -> api.In
     return replace(inputs, priors=known.priors, checked=known.checked)
 
 
+def changed_since_fit(project: Project, choices: Choices, settings: MachineSettings) -> str:
+    """Return the name of a form that the opened settings were fitted to, and that has other
+    readings by now; empty if there is none.
+    """
+    for board in settings.fitted.boards if settings.fitted else ():
+        if board.marks not in choices.marks or not board.marks.endswith(".toml"):
+            continue
+        try:
+            form = read_form(project.path(board.marks), sheet=settings.sheet, known=known_effects())
+        except InputError:
+            continue  # who asks for the readings hears of it
+        if form.measurements.rounds[0].digest != board.digest:
+            return board.marks
+    return ""
+
+
 def board_words(project: Project) -> list[str]:
     """Return the opened settings and the files that have readings, as a command names them."""
     choices = project.choices

@@ -181,7 +181,7 @@ FRAME_CHECKS: Mapping[str, NumberCheck] = {
     ),
     "motor_height": NumberCheck(
         DirectCheck(
-            "the height of the motors",
+            "the motors above the top edge of the sheet",
             "Measure from the sheet's top edge up to the sprocket centres to 1 mm, on both sides.",
             "the mean of both sides and half the sheet's height, mm",
             8.0,

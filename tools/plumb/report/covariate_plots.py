@@ -27,7 +27,9 @@ TITLES = {
     "length": "free length",
     "angle": "angle below level",
     "phase": "turn of the sprocket",
-    "height": "height on the sheet",
+    "wrap": "chain on the sprocket",
+    "x": "x on the sheet",
+    "y": "y on the sheet",
     "order": "order in the file",
     "approach": "side of the approach",
 }

@@ -56,15 +56,15 @@ def test_a_curve_lies_among_what_is_drawn_at_the_marks(stretched):
         assert len(curve.at) == BINS and np.all(np.diff(curve.at) > 0)
         assert np.all(curve.low <= curve.middle) and np.all(curve.middle <= curve.high)
         assert curve.low.min() > chains.min() - 1 and curve.high.max() < chains.max() + 1
-    assert set(drawn.curves) == {"tension", "length", "angle", "phase", "height"}
+    assert set(drawn.curves) == {"tension", "length", "angle", "phase", "wrap", "x", "y"}
 
 
 def test_four_fifths_of_the_places_lie_in_the_shade(stretched):
     frame, both = stretched
     sheet = visits_all_over(model_by(frame), frame.board.rows)
     drawn = added_chains(frame, both, sheet)[:, 0]
-    heights = next(each for each in covariates(model_by(frame), sheet) if each.name == "height")
-    curve = suspect_curves(frame, both, frame.board.rows).curves["height"][0]
+    heights = next(each for each in covariates(model_by(frame), sheet) if each.name == "y")
+    curve = suspect_curves(frame, both, frame.board.rows).curves["y"][0]
     order = ascending(heights.values[:, 0])
     bins = np.array_split(order, BINS)
     inside = [
@@ -82,7 +82,7 @@ def test_a_runout_is_a_wave_against_the_phase_and_nothing_against_the_rest():
     left, right = drawn.curves["phase"]
     assert left.middle == pytest.approx(-0.4 * np.sin(left.at), abs=0.12)
     assert np.abs(right.middle).max() < 0.1
-    for name in ("tension", "length", "angle", "height"):
+    for name in ("tension", "length", "angle", "wrap", "y"):
         assert np.abs(drawn.curves[name][0].middle).max() < 0.25, name
 
 
@@ -121,4 +121,4 @@ def test_friction_is_seen_where_marks_say_how_the_sled_came():
     drawn = suspect_curves(frame, rubbing, rows)
     # Coming from below the sled stops short, so the chains seem longer.
     assert drawn.chains.min() > 0 and drawn.chains.max() > 0.05
-    assert drawn.curves["height"][0].middle.min() > 0
+    assert drawn.curves["y"][0].middle.min() > 0

@@ -123,6 +123,8 @@ def test_a_chain_leaves_its_sprocket_over_the_top_or_below(feed, side):
     down = np.arctan2(sprocket[1] - place[1], place[0] - sprocket[0])
     tangent = np.arcsin(machine.sprocket_radius / straight)
     assert angle - down == pytest.approx(side * tangent, rel=0.2)
+    whole = known(rows, machine)["wrap"].values + known(rows, machine)["length"].values
+    assert whole[0] == pytest.approx(rows.chains[0], abs=0.3)
 
 
 @pytest.mark.parametrize("pitch", [0.0, 0.004])  # of both chains: 8 mm in two metres
@@ -150,5 +152,5 @@ def test_order_and_approach_are_those_of_the_visits():
     approach = seen_there["approach"].values
     assert approach[[0, 2], 0] == pytest.approx([-np.pi / 2, np.pi])
     assert np.isnan(approach[1]).all()
-    assert seen_there["height"].values[:, 1] == pytest.approx([0, 100, 200], abs=1e-3)
-    assert [each.of_chain for each in seen_there.values()] == [True] * 4 + [False] * 3
+    assert seen_there["y"].values[:, 1] == pytest.approx([0, 100, 200], abs=1e-3)
+    assert [each.of_chain for each in seen_there.values()] == [True] * 5 + [False] * 4

@@ -29,9 +29,9 @@ def test_an_effect_is_added_and_the_error_falls(bench, lab):
     bench.get_by_role("checkbox", name="chains too long").check()
     *_, fitted = stairs(bench, 3)
     assert as_set > frame > 2 * fitted
-    arrows = bench.locator(".bench-sheet polygon")
-    marks = bench.locator("#bench-mark option").count() - 1
-    expect(arrows).to_have_count(2 * marks)  # those of now, and ghosts of the state before
+    places, ghosts = bench.locator(".sheet circle.place"), bench.locator(".sheet path.ghost")
+    expect(ghosts).to_have_count(23)  # the state before, below that of now
+    expect(places).to_have_count(23)
     slider = bench.get_by_role("slider", name="left chain too long")
     slider.press("Home")
     bench.get_by_role("button", name="Fit: left chain too long").wait_for()
@@ -55,36 +55,35 @@ def test_a_dot_lights_in_every_plot_and_on_the_sheet(bench):
     plots = bench.locator("svg.plot")
     plots.first.wait_for()
     shown = plots.count()
-    assert shown >= 6
+    assert shown >= 8
     dots = plots.first.locator("path.dots.left").get_attribute("d")
     x, y = map(float, re.match(r"M(\S+) (\S+)h0", dots).groups())
     box = plots.first.bounding_box()
-    scale = box["width"] / 320
+    scale = box["width"] / 250
     plots.first.click(position={"x": x * scale, "y": y * scale})
-    bench.locator(".bench-sheet circle.lit").wait_for()
-    expect(bench.locator(".bench-sheet circle.lit")).to_have_count(1)
+    expect(bench.locator(".sheet circle.lit")).to_have_count(1)
     for i in range(shown):
-        expect(plots.nth(i).locator("circle.lit")).to_have_count(2)  # left and right chain
-    assert bench.locator("#bench-mark").input_value() == "0"
-    lit = bench.locator(".bench-sheet circle.lit")
-    first = lit.get_attribute("cx")
-    bench.get_by_label("Mark", exact=True).select_option("5")
-    expect(lit).not_to_have_attribute("cx", first)
-    expect(bench.locator(".mark-picker")).to_contain_text("left chain")
-    expect(lit).to_have_count(1)
-    before = lit.get_attribute("cx")
-    bench.get_by_label("Mark", exact=True).select_option("6")  # by keyboard as by mouse
-    expect(lit).not_to_have_attribute("cx", before)
+        expect(plots.nth(i).locator("circle.lit")).to_have_count(2)  # left and right, or x and y
+    expect(bench.locator(".card-of-mark")).to_contain_text("Mark 1")
 
 
-def test_every_view_has_the_same_scale(bench):
-    bench.locator("svg.plot").first.wait_for()
-    ticks = bench.locator("svg.plot").first.locator(".axes").text_content()
-    for view in ("before", "difference", "drawn", "now"):
-        bench.get_by_label("Show").select_option(view)
-        bench.locator(".bench-sheet polygon").first.wait_for(state="attached")
-        assert bench.locator(".exaggeration").inner_text().startswith("Arrows longer than life")
-        assert bench.locator("svg.plot").first.locator(".axes").text_content() == ticks
-    bench.get_by_label("Show").select_option("drawn")
-    bench.get_by_label("Effect", exact=True).select_option("chain_pitch")
-    bench.locator("svg.plot .curve").first.wait_for()
+def test_every_state_has_the_same_scale_and_an_effect_lies_over_what_the_frame_leaves(bench):
+    plot = bench.locator("svg.plot").nth(2)
+    axes = plot.locator(".axes")
+    states = bench.get_by_role("group", name="What is drawn")
+    bench.get_by_role("checkbox", name="chains too long").check()
+    states.get_by_role("radio", name=re.compile("^\\+ chains too long")).wait_for(state="attached")
+    ticks = axes.text_content()
+    factor = bench.get_by_label("Arrows longer than life")
+    fitted = factor.input_value()
+    assert bench.locator("svg.plot .curve.left").count() == 0
+    bench.get_by_role("button", name="Lay over the marks: chains too long").click()
+    expect(states.get_by_role("radio", name="frame fitted")).to_be_checked()
+    bench.locator("svg.plot .curve.left").first.wait_for()
+    expect(bench.locator(".sheet .print path")).to_have_count(23)
+    assert (factor.input_value(), axes.text_content()) == (fitted, ticks)
+    states.get_by_role("radio", name="as set").check()
+    assert int(factor.input_value()) < int(fitted)
+    expect(bench.locator(".sheet .print path")).to_have_count(0)  # it is drawn into the frame's fit
+    bench.get_by_role("button", name="Lay over the marks: chains too long").click()
+    expect(bench.locator("svg.plot .curve.left")).to_have_count(0)

@@ -32,9 +32,8 @@ def posted(client, path, body, status=200):
 def test_the_bench_opens_with_marks_effects_and_covariates(client):
     bench = client.get("/api/bench").json()
     assert len(bench["marks"]) > 8
-    assert {"tension", "length", "angle", "phase", "height", "order", "approach"} == {
-        each["name"] for each in bench["covariates"]
-    }
+    names = {"tension", "length", "angle", "wrap", "phase", "x", "y", "order", "approach"}
+    assert names == {each["name"] for each in bench["covariates"]}
     phase = next(each for each in bench["covariates"] if each["name"] == "phase")
     assert phase["unit"] == "°"
     assert 6.3 < max(max(pair) for pair in phase["values"]) <= 360
@@ -109,7 +108,7 @@ def test_what_an_effect_draws_is_what_its_explanation_leaves_less(tmp_path):
     less = added.before_fit.errors - added.after_fit.errors
     np.testing.assert_allclose(drawn.moved, less, atol=0.01)
     assert view_by(view._frame).errors.shape == drawn.moved.shape
-    assert set(drawn.curves.curves) == {"tension", "length", "angle", "phase", "height"}
+    assert set(drawn.curves.curves) == {"tension", "length", "angle", "phase", "wrap", "x", "y"}
 
 
 def test_another_board_is_not_answered_from_the_old(client, tmp_path):
@@ -186,3 +185,16 @@ def test_files_that_the_board_is_not_made_of_make_no_other_board(client, tmp_pat
     marks = (tmp_path / "marks.toml").read_text()
     (tmp_path / "marks.toml").write_text(f"{marks}# looked at again\n")
     assert board() != before
+
+
+def test_effects_are_drawn_alone_and_together(client):
+    def drawn(*effects):
+        return got(client.get("/api/bench/drawn", params={"effects": effects}))
+
+    pitch, both = drawn("chain_pitch"), drawn("chain_pitch", "chain_stretch")
+    assert both["noun"] == f"{pitch['noun']} and chain stretch"
+    assert pitch["moved"] != both["moved"]
+    frame = posted(client, "fit", {"effects": []})["errors"]
+    fitted = posted(client, "fit", PITCH)["errors"]
+    np.testing.assert_allclose(pitch["moved"], np.subtract(frame, fitted), atol=0.01)
+    got(client.get("/api/bench/drawn"), 422)

@@ -6,7 +6,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[3]
 PAGE = ROOT / "tools/plumb/lab/page"
-MOST_SCRIPT = 300_000  # bytes of JavaScript, gzipped
+MOST = 70_000  # bytes, gzipped
 FIRST_PICTURE = """() => new Promise((seen) => new PerformanceObserver((list) => {
   const first = list.getEntriesByName("first-contentful-paint")[0];
   if (first) seen(first.startTime);
@@ -29,9 +29,9 @@ def test_the_page_is_made_of_the_source_as_it_is(tmp_path):
 
 
 def test_the_page_is_small_and_asks_no_other_site():
-    scripts = [content for name, content in files(PAGE).items() if name.endswith(".js")]
-    assert scripts
-    assert sum(len(gzip.compress(script)) for script in scripts) <= MOST_SCRIPT
+    parts = files(PAGE)
+    assert {"index.html", "index.css", "lab.js"} <= parts.keys()
+    assert sum(len(gzip.compress(part)) for part in parts.values()) <= MOST
     assert b"http" not in (PAGE / "index.html").read_bytes()
 
 

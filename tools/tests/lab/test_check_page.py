@@ -7,6 +7,7 @@ from datetime import UTC, datetime, timedelta
 
 from folder import EXAMPLE, note_fit
 from playwright.sync_api import expect
+from plumb.diary.file import read_diary
 
 PATIENCE = 300_000  # [ms] of a busy computer
 JUDGED = ".judged"
@@ -54,6 +55,16 @@ def test_two_check_marks_hold_then_miss_and_others_are_planned(lab, page):
         "marks.toml",
         "check.toml",
     ]
+    results = [each.content for each in read_diary(lab.folder).of_kind("check")]
+    assert [result["holds"] for result in results] == [True, False]  # each once
+    assert results[-1]["machine"] == "machine.toml"
+    page.goto(f"{lab.site}#/diary")
+    expect(page.locator(".noted li").first).to_contain_text(
+        re.compile("check.toml, by machine.toml: Promised: within .* More than noise, at mark 2"),
+        timeout=PATIENCE,
+    )
+    page.goto(f"{lab.site}#/check")
+    expect(page.locator(JUDGED)).to_contain_text("More than noise, at mark 2", timeout=PATIENCE)
     kept = (lab.folder / "check.toml").read_bytes()
     page.get_by_role("button", name="Write two other marks").click()
     expect(page.locator(JUDGED)).to_have_count(0, timeout=PATIENCE)

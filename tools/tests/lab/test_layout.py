@@ -68,7 +68,7 @@ def test_the_error_stays_in_view_down_to_the_last_effect(measured):
     page.set_viewport_size(WIDE)
     page.get_by_role("checkbox", name="chains too long").check()
     expect(number).not_to_have_text(before)
-    expect(page.locator(".bench-sheet svg")).to_be_in_viewport(ratio=0.9)
+    expect(page.locator(".sheet svg")).to_be_in_viewport(ratio=0.9)
     fallen = page.locator(".stairs tbody tr").nth(2).locator("td:nth-of-type(2)")
     expect(fallen).to_have_text(number.inner_text().removesuffix(" mm"))
 

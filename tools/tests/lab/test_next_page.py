@@ -82,7 +82,7 @@ def test_marks_that_the_verdict_proposes_are_cut_typed_and_counted(lab, page):
     )
     go_to(page, "Verdict")
     page.get_by_role("heading", name="One suspect").wait_for(timeout=PATIENCE)
-    arrows = page.locator(".maps figure").first.locator("polygon")
+    arrows = page.locator(".stage .sheet circle.place")
     expect(arrows).to_have_count(13, timeout=PATIENCE)
     expect(page.locator(".command code").last).to_contain_text("marks.toml more.toml")
 

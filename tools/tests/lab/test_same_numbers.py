@@ -122,7 +122,7 @@ def test_error_as_set_is_the_same(said):
         match_in(rf"As set {LENGTH} not fitted", said.parts["fall"]),
         match_in(rf"As set: {LENGTH} RMS", said.parts["maps"]),
         match_in(rf"These readings, as set {LENGTH}", said.parts["history"]),
-        said.verdict["rms_set"],
+        said.verdict["states"][0]["fit_rms"],
         said.correction["rms_set"],
         said.stairs[0]["fit_rms"],
     )
@@ -157,6 +157,7 @@ def test_error_of_the_fitted_frame_is_the_same(said):
         said.figure("frame fitted"),
         match_in(rf"Frame fitted {LENGTH} noise", said.parts["fall"]),
         said.stairs[1]["fit_rms"],
+        said.verdict["states"][1]["fit_rms"],
     )
 
 
@@ -169,7 +170,7 @@ def test_what_noise_alone_leaves_is_the_same(said):
         row(f"fitted: + {noun_of(said.added['effects_added'][-1])}", said.add)[1],
         said.figure("noise alone leaves"),
         re.findall(rf"noise {LENGTH}", said.parts["fall"])[-1],
-        said.verdict["noise_added"],
+        said.verdict["states"][-1]["noise_rms"],
     )
     named = said.named["after"]["noise_rms_mm"]
     assert_same(named, said.bench["noise_rms"], said.stairs[-1]["noise_rms"])
@@ -197,7 +198,7 @@ def test_error_of_what_is_added_is_the_same(said):
         match_in(
             rf"(?:from [\d.]+ to|{re.escape(card['title'])} {card['odds']}) {LENGTH}", accounts
         ),
-        said.verdict["rms_added"],
+        said.verdict["states"][-1]["fit_rms"],
         said.correction["rms_all"],
     )
     named = said.named["after"]["fit_rms_mm"]

@@ -190,7 +190,7 @@ def test_text_on_a_map_has_its_size_before_anybody_watches_the_map_grow(shown):
     shown.reload()
     shown.evaluate("() => { location.hash = '#/reach' }")
     settle(shown)
-    shown.locator("svg .spot text").first.wait_for()
+    shown.locator(".sheet .names text").first.wait_for()
     assert shown.evaluate(SMALL_TEXT, SMALLEST_TEXT) == []
 
 

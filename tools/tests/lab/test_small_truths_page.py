@@ -51,3 +51,13 @@ def test_a_screen_reader_is_told_states_and_no_places_or_counts(lab, page):
     assert any("runs grid.nc" in line for line in spoken)
     assert not [line for line in spoken if re.search(r"\d+ of \d+|\d mm", line)]
     assert len(spoken) < 12
+
+
+def test_a_height_has_a_name_that_says_from_where_it_is_measured(lab, page):
+    measured_machine(lab.folder)
+    page.goto(f"{lab.url}#/known")
+    known = page.locator(".known").first
+    expect(known).to_contain_text("the motors above the top edge of the sheet")
+    page.goto(f"{lab.site}#/correct")
+    numbers = page.locator(".numbers")
+    expect(numbers).to_contain_text("motors above the middle of the sheet", timeout=PATIENCE)

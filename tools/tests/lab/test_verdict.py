@@ -2,11 +2,13 @@
 
 import time
 
+import numpy as np
 import pytest
 from folder import PATIENCE, choose, example_form, finished, got, with_marks
 from plumb import api
 from plumb.cli.main import main
 from plumb.diagnosis.answer import verdict_sentence
+from plumb.fit.observations import rms
 from plumb.text.errors import read_on_page
 
 
@@ -39,19 +41,22 @@ def test_it_says_what_the_command_line_says(client, tmp_path):
     assert verdict["could_hide"][0]["mm"] == pytest.approx(largest)
 
 
-def test_the_maps_hold_the_same_marks_before_and_after(client, tmp_path):
+def test_each_state_has_all_marks_with_what_is_left_of_them(client, tmp_path):
     verdict = finished(client, "verdict")["verdict"]
-    assert [arrow["name"] for arrow in verdict["before"]] == [
-        arrow["name"] for arrow in verdict["after"]
-    ]
-
-    def rms(arrows):
-        squares = [x * x + y * y for x, y in (arrow["error"] for arrow in arrows)]
-        return (sum(squares) / len(squares)) ** 0.5
-
-    assert rms(verdict["before"]) == pytest.approx(verdict["rms_set"])
-    assert rms(verdict["after"]) == pytest.approx(verdict["rms_added"])
-    assert verdict["rms_added"] < verdict["rms_set"]
+    count = len(verdict["marks"])
+    as_set, frame, added = verdict["states"]
+    assert [as_set["title"], frame["title"]] == ["as set", "frame fitted"]
+    assert added["title"] == "+ a tape that reads wrong and chain stretch"
+    assert as_set["noise_rms"] is None and frame["noise_rms"] > added["noise_rms"]
+    for state in verdict["states"]:
+        errors = np.array(state["errors"])
+        assert errors.shape == np.shape(state["chains"]) == (count, 2)
+        assert rms(errors) == pytest.approx(state["fit_rms"])
+        smallest_first = errors.ravel()[state["ranked"]["order"]]
+        assert np.all(np.diff(smallest_first) > -1e-6)
+        # An error on the sheet is an error of the chains of about its length.
+        assert rms(np.array(state["chains"])) == pytest.approx(state["fit_rms"], rel=0.5)
+    assert added["fit_rms"] < frame["fit_rms"] < as_set["fit_rms"]
 
 
 def test_what_the_frame_leaves_is_the_same_number_in_sentence_and_map(client, tmp_path):
@@ -60,8 +65,9 @@ def test_what_the_frame_leaves_is_the_same_number_in_sentence_and_map(client, tm
     assert main(["add", *board, *both]) == 0
     choose(client, settings="both.toml")
     verdict = finished(client, "verdict")["verdict"]
-    assert verdict["verdict"] == "nothing_provable" and verdict["added"] == ""
-    left, noise = (f"{verdict[key]:.2f} mm" for key in ("rms_added", "noise_added"))
+    assert verdict["verdict"] == "nothing_provable"
+    assert [state["title"] for state in verdict["states"]] == ["as set", "frame fitted"]
+    left, noise = (f"{verdict['states'][1][key]:.2f} mm" for key in ("fit_rms", "noise_rms"))
     assert (
         f"With the frame fitted {left} RMS is left; noise alone leaves {noise}"
         in (verdict["sentence"])
@@ -76,7 +82,7 @@ def test_a_changed_reading_is_never_answered_by_the_verdict_before(client, tmp_p
     )
     after = finished(client, "verdict")["verdict"]
     assert (before["verdict"], after["verdict"]) == ("cannot_tell", "slip")
-    assert after["slips"] and after["after"] == [] and after["rms_added"] is None
+    assert after["slips"] and [state["title"] for state in after["states"]] == ["as set"]
 
 
 def test_the_next_measurement_has_its_steps_and_places(client):

@@ -45,3 +45,30 @@ def test_what_was_not_accepted_is_folded_away_and_can_be_accepted_later(lab, pag
     gap.check()
     wanted = page.locator(WANTED)
     expect(wanted).to_have_text("Write 1 number into machine-2.toml", timeout=PATIENCE)
+
+
+def test_a_reading_that_changes_after_the_writing_says_what_is_stale_and_leads_back(lab, page):
+    write(page, lab, *ALL)
+    form = lab.folder / "marks.toml"
+    form.write_text(form.read_text().replace("[659.5, 110.5]", "[659.5, 111.5]"))
+    for step in ("verdict", "check", "correct"):
+        page.goto(f"{lab.site}#/{step}")
+        expect(page.locator(TITLE)).to_have_text("Your readings have changed", timeout=PATIENCE)
+    expect(page.locator(".say")).to_contain_text("The numbers in machine.toml are stale")
+    page.get_by_role("button", name="Go back to groundcontrol.ini and fit again").click()
+    expect(page.locator(TITLE)).to_have_text("What would change?", timeout=PATIENCE)
+    expect(page.locator(WANTED)).to_have_count(1, timeout=PATIENCE)
+
+
+def test_what_noise_alone_would_leave_stands_at_each_error_of_a_fit(lab, page):
+    measured_machine(lab.folder)
+    page.goto(f"{lab.url}#/correct")
+    page.get_by_role("button", name="Accept all").click(timeout=PATIENCE)
+    errors = page.locator("dl.errors > div")
+    for place in (1, 2):
+        expect(errors.nth(place)).to_contain_text(
+            re.compile(r"0\.\d\d mm\s*noise alone leaves 0\.\d\d"), timeout=PATIENCE
+        )
+    expect(errors.nth(0)).not_to_contain_text("noise")
+    by_hand = page.get_by_role("region", name="By hand").inner_text()
+    assert "too long: no firmware" in by_hand and "_" not in by_hand

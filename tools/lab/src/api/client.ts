@@ -91,10 +91,14 @@ export function sendFile<Answer>(path: string, file: File): Promise<Answer> {
 
 /** Has the browser save a file that the server makes. */
 export async function takeAlong(name: string): Promise<void> {
-  const address = URL.createObjectURL(await answered(`papers/${name}`, { patienceMs: WORK_MS }));
+  saved(await answered(`papers/${name}`, { patienceMs: WORK_MS }), name);
+}
+
+/** Has the browser save a file. */
+export function saved(content: Blob, name: string): void {
   const link = document.createElement("a");
-  link.href = address;
+  link.href = URL.createObjectURL(content);
   link.download = name;
   link.click();
-  URL.revokeObjectURL(address);
+  URL.revokeObjectURL(link.href);
 }

@@ -1,11 +1,12 @@
 // The bench for effects: add and take away, and see at once what is left of the errors.
 import { useState } from "preact/hooks";
 import { type Project, send } from "../api/client";
+import { Residuals } from "../residuals/Residuals";
+import { useDrawn } from "../residuals/useDrawn";
 import { useDo } from "../shell/doing";
 import { useNewest } from "../shell/newest";
 import { useProject } from "../shell/project";
 import { Screen } from "../shell/Screen";
-import { BenchViews } from "./BenchViews";
 import { EffectCard } from "./EffectCard";
 import { type Bench as Board, type Choice, useLive, useStairs } from "./live";
 import { Fall } from "./Staircase";
@@ -30,14 +31,28 @@ function OpenBench({ bench }: { bench: Board }) {
     setMoving(keep ? undefined : next);
     if (keep) void choose({ bench: next });
   };
-  const { now } = live;
+  const { now, frame, previous } = live;
+  const [laid, lay] = useState("");
+  const drawn = useDrawn(laid ? [laid] : [], bench.board);
+  const states = [bench.as_set, ...(frame ? [frame] : [])];
+  if (now && now.choice.effects.length > 0) states.push(now.fit);
   return (
     <Screen
       title="Effects bench"
-      say="Add an effect: all else is refitted at once. Ghost arrows show the state before. Move a slider to hold a size by hand. Nothing goes to the machine."
+      say="Add an effect: all else is refitted at once. Pale arrows show the state before. Lay an effect over the marks to see what it draws. Nothing goes to the machine."
       why={<Why />}
       {...(now ? { command: now.fit.command } : {})}
-      stage={<BenchViews bench={bench} live={live} units={units} />}
+      stage={
+        <Residuals
+          marks={bench.marks}
+          states={states}
+          ghosts={states.length > 2 ? previous?.fit : undefined}
+          sigma={bench.sigma}
+          covariates={bench.covariates}
+          drawn={drawn}
+          sheet={bench.sheet}
+        />
+      }
     >
       {live.refusal && (
         <p class="trouble" role="alert">
@@ -54,6 +69,8 @@ function OpenBench({ bench }: { bench: Board }) {
             choice={choice}
             fit={now?.fit}
             change={change}
+            isLaid={laid === effect.name}
+            lay={() => lay(laid === effect.name ? "" : effect.name)}
           />
         ))}
         {now?.fit.intervals && kept.effects.length > 0 && (

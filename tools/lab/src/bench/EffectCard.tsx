@@ -8,9 +8,12 @@ interface EffectCardParts {
   fit: Fit | undefined;
   /** Shows a choice; `keep` says that the hand is off the slider. */
   change: (choice: Choice, keep: boolean) => void;
+  /** Whether what it draws lies over the marks. */
+  isLaid: boolean;
+  lay: () => void;
 }
 
-export function EffectCard({ effect, choice, fit, change }: EffectCardParts) {
+export function EffectCard({ effect, choice, fit, change, isLaid, lay }: EffectCardParts) {
   const added = choice.effects.includes(effect.name);
   const toggle = () => {
     const effects = added
@@ -32,6 +35,15 @@ export function EffectCard({ effect, choice, fit, change }: EffectCardParts) {
           {effect.where !== "firmware" && <small>no setting holds it</small>}
         </span>
       </label>
+      <button
+        type="button"
+        class="lay"
+        aria-pressed={isLaid}
+        aria-label={`Lay over the marks: ${effect.noun}`}
+        onClick={lay}
+      >
+        Lay over
+      </button>
       {added && (
         <div class="sizes">
           {effect.parameters.map((parameter) => (

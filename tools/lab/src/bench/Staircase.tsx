@@ -19,7 +19,7 @@ export function Fall({ live, stairs, units }: FallParts) {
       </p>
       {fit && (
         <p class="beside">
-          Noise alone leaves {shownLength(fit.noise_rms, units, 2)}
+          Noise alone leaves {shownLength(fit.noise_rms ?? 0, units, 2)}
           {before !== undefined && <>, the frame alone {shownLength(before, units, 2)}</>}.
         </p>
       )}

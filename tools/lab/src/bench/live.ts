@@ -1,14 +1,12 @@
 // The bench's questions to the server: the fit of a choice, the stairs to it, and what an effect would draw.
 import { useEffect, useRef, useState } from "preact/hooks";
-import { get, type Schemas, send } from "../api/client";
+import { type Schemas, send } from "../api/client";
 
 export type Bench = Schemas["BenchAnswer"];
 export type Effect = Schemas["BenchEffect"];
 export type Fit = Schemas["BenchFit"];
 export type Stairs = Schemas["BenchStairs"];
-export type Drawn = Schemas["BenchDrawn"];
 export type Choice = { effects: string[]; held: Record<string, number> };
-export type Ends = readonly [number | null, number | null];
 
 const REST_MS = 250; // the stairs are climbed when nobody moves a slider
 
@@ -108,22 +106,4 @@ export function useStairs(kept: Choice, board: string): Stairs | undefined {
     };
   }, [key, board]);
   return stairs;
-}
-
-/** What an effect by itself would draw; nothing for no effect. */
-export function useDrawn(effect: string, board: string): Drawn | undefined {
-  const [drawn, setDrawn] = useState<Drawn>();
-  useEffect(() => {
-    setDrawn(undefined);
-    if (!effect) return;
-    let stale = false;
-    get<Drawn>(`bench/drawn?effect=${encodeURIComponent(effect)}`).then(
-      (answer) => stale || setDrawn(answer),
-      () => undefined,
-    );
-    return () => {
-      stale = true;
-    };
-  }, [effect, board]);
-  return drawn;
 }

@@ -1,6 +1,8 @@
 // What the connected machine and the open file say otherwise, and the question which of the two holds: nothing is cut
 // before it is answered.
+
 import { type Project, send } from "../api/client";
+import { setting } from "../controls/settings";
 import { useDo } from "./doing";
 import { isReady, type Machine, subject, useMachine } from "./machine";
 import { useProject } from "./project";
@@ -49,15 +51,9 @@ function Question({ held, machine }: { held: HeldAnswer; machine: Machine }) {
         <tbody>
           {numbers.slice(0, SHOWN).map((each) => (
             <tr key={each.number}>
-              <th scope="row">
-                {each.name} (${each.number})
-              </th>
-              <td>
-                {shown(each.in_file)} {each.unit}
-              </td>
-              <td>
-                {shown(each.in_machine)} {each.unit}
-              </td>
+              <th scope="row">{each.name}</th>
+              <td>{setting(each.number, each.in_file, each.unit)}</td>
+              <td>{setting(each.number, each.in_machine, each.unit)}</td>
             </tr>
           ))}
         </tbody>
@@ -82,8 +78,4 @@ function Question({ held, machine }: { held: HeldAnswer; machine: Machine }) {
       )}
     </section>
   );
-}
-
-function shown(value: number): string {
-  return String(Number(value.toPrecision(7)));
 }

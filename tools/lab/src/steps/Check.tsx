@@ -1,8 +1,10 @@
 // Step 9: two marks that took no part: is the machine where its settings promise?
 
+import { useEffect } from "preact/hooks";
 import { type Project, type Schemas, send } from "../api/client";
 import { namedLength, shownLength } from "../controls/lengths";
 import { useDo } from "../shell/doing";
+import { useReadOnly } from "../shell/editor";
 import { isReady, useMachine } from "../shell/machine";
 import { useNewest } from "../shell/newest";
 import { useProject } from "../shell/project";
@@ -10,6 +12,8 @@ import { Screen } from "../shell/Screen";
 import { CheckMap } from "./check/CheckMap";
 import { CheckReadings } from "./check/CheckReadings";
 import { OffTarget } from "./check/OffTarget";
+import { Refused } from "./correct/Refused";
+import { useWriting } from "./correct/useWriting";
 import "./check/check.css";
 
 export type CheckAnswer = Schemas["CheckAnswer"];
@@ -21,6 +25,10 @@ export function Check() {
   const answer = useNewest<CheckAnswer>("check", JSON.stringify(project.files));
   const [busy, run, refusal] = useDo();
   const units = project.choices.units ?? "mm";
+  const writing = useWriting();
+  useNoted(answer);
+  if (!answer && project.changed_since_fit)
+    return <Refused title="Is it true?" refused="" writing={writing} />;
   if (!answer) return <Screen title="Is it true?" say="One moment …" busy />;
   const doing = (path: string, body?: unknown) =>
     run(async () => {
@@ -120,6 +128,18 @@ export function Check() {
       )}
     </Screen>
   );
+}
+
+/** Has the diary note a result, once it is there. */
+function useNoted(answer: CheckAnswer | undefined): void {
+  const { take } = useProject();
+  const readOnly = useReadOnly();
+  const isNew = !readOnly && !!answer?.sentence && !answer.is_noted;
+  useEffect(() => {
+    if (!isNew) return;
+    // Who looks at the result next time has it noted then.
+    send<Project>("POST", "check/note").then(take, () => undefined);
+  }, [isNew, answer?.sentence, take]);
 }
 
 function Why() {

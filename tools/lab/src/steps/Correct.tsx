@@ -1,7 +1,7 @@
 // Step 8: each number before and after, accepted one by one; written, sent, read back, and taken back.
 import { useRef } from "preact/hooks";
 import type { Choices, Schemas } from "../api/client";
-import { namedLength } from "../controls/lengths";
+import { namedLength, shownLength } from "../controls/lengths";
 import { Progress } from "../controls/Progress";
 import { useAnswer } from "../shell/answer";
 import { useChoosing } from "../shell/kept";
@@ -9,9 +9,11 @@ import { useProject } from "../shell/project";
 import { Screen } from "../shell/Screen";
 import { useHeld } from "../shell/useHeld";
 import { asked } from "./correct/asked";
+import { GoBack } from "./correct/GoBack";
 import { Numbers } from "./correct/Numbers";
+import { Refused } from "./correct/Refused";
 import { ToMachine } from "./correct/ToMachine";
-import { type CorrectionAnswer, type Known, useWriting, type Writing } from "./correct/useWriting";
+import { type CorrectionAnswer, useKnown, useWriting, type Writing } from "./correct/useWriting";
 import "./correct/correct.css";
 
 type Made = Schemas["CorrectionParts"];
@@ -25,7 +27,7 @@ export function Correct() {
   const latest = useRef(answer?.correction);
   latest.current = answer?.correction ?? latest.current;
   const made = latest.current;
-  if (refused) return <Screen title="No correction yet" say={refused} />;
+  if (refused) return <Refused title="No correction yet" refused={refused} writing={writing} />;
   if (!answer || !made) {
     return (
       <Screen title="What would change?" say="The numbers are fitted to your readings.">
@@ -95,8 +97,13 @@ function Question(parts: Parts) {
     >
       <dl class="errors">
         <ErrorFigure name={`as ${made.settings} says`} mm={made.rms_set} units={units} />
-        <ErrorFigure name="with what you accepted" mm={made.rms_accepted} units={units} />
-        <ErrorFigure name="with all of it" mm={made.rms_all} units={units} />
+        <ErrorFigure
+          name="with what you accepted"
+          mm={made.rms_accepted}
+          noise={made.noise_accepted}
+          units={units}
+        />
+        <ErrorFigure name="with all of it" mm={made.rms_all} noise={made.noise_all} units={units} />
       </dl>
       <Numbers made={made} busy={!current} />
       {made.cures.length > 0 && <ByHand cures={made.cures} />}
@@ -165,42 +172,23 @@ function Written(parts: Parts) {
   );
 }
 
-function GoBack({ writing }: { writing: Writing }) {
-  const before = useProject().project.choices.settings_before ?? [];
-  const known = useKnown();
-  const choosing = useChoosing();
-  if (before.length === 0) return null;
-  return (
-    <button
-      type="button"
-      disabled={choosing || writing.busy}
-      onClick={() => void writing.undo(known)}
-    >
-      Go back to {before.at(-1)}
-    </button>
-  );
-}
-
-/** What the page knows of the folder: nothing is written over what it has not seen. */
-function useKnown(): Known {
-  const { project } = useProject();
-  return {
-    settings: project.files[project.choices.settings ?? ""] ?? "",
-    choices: project.choices_digest,
-  };
-}
-
 interface ErrorParts {
   name: string;
   mm: number | null;
+  noise?: number | null; // [mm] that noise alone would leave
   units: "mm" | "inch";
 }
 
-function ErrorFigure({ name, mm, units }: ErrorParts) {
+function ErrorFigure({ name, mm, noise, units }: ErrorParts) {
   return (
     <div>
       <dt>{name}</dt>
-      <dd>{mm === null ? "–" : namedLength(mm, units, 2)}</dd>
+      <dd>
+        {mm === null ? "–" : namedLength(mm, units, 2)}
+        {mm !== null && noise != null && (
+          <small>noise alone leaves {shownLength(noise, units, 2)}</small>
+        )}
+      </dd>
     </div>
   );
 }

@@ -1,6 +1,8 @@
 // Step 3: where on the sheet the machine can cut, and how far off is normal before it is corrected.
 import type { Schemas } from "../api/client";
-import { SheetMap, usePixel } from "../sheet/SheetMap";
+import type { Mark } from "../sheet/marks";
+import { Sheet } from "../sheet/Sheet";
+import { useScale } from "../sheet/scale";
 import { useNewest } from "../shell/newest";
 import { useProject } from "../shell/project";
 import { Screen } from "../shell/Screen";
@@ -30,92 +32,65 @@ export function Reach() {
       why={<Why reach={reach} />}
       command={reach.command}
       stage={
-        <figure class="reach">
-          <SheetMap
-            sheet={project.machine.sheet}
+        <div class="reach">
+          <Sheet
+            size={project.machine.sheet}
             label={`Where the machine is usable: ${reach.conclusion}`}
+            name="reach"
+            units={project.choices.units ?? "mm"}
+            marks={spotsOf(reach)}
           >
             <Places reach={reach} sheet={project.machine.sheet} />
-            {spotsOf(reach).map((spot) => (
-              <Spot key={spot.name} place={spot.place} name={spot.name} />
-            ))}
-          </SheetMap>
-          <figcaption>
-            <ul>
-              {MEANING.map(([tone, words], verdict) => {
-                const share = reach.shares[reach.words[verdict] ?? ""];
-                return reach.verdicts.includes(verdict) ? (
-                  <li key={tone}>
-                    <span class={`swatch ${tone}`} />
-                    <span>
-                      {share}: {words}
-                    </span>
-                  </li>
-                ) : null;
-              })}
-            </ul>
-          </figcaption>
-        </figure>
+          </Sheet>
+          <ul>
+            {MEANING.map(([tone, words], verdict) => {
+              const share = reach.shares[reach.words[verdict] ?? ""];
+              return reach.verdicts.includes(verdict) ? (
+                <li key={tone}>
+                  <span class={`swatch ${tone}`} />
+                  <span>
+                    {share}: {words}
+                  </span>
+                </li>
+              ) : null;
+            })}
+          </ul>
+        </div>
       }
     />
   );
 }
 
 function Places({ reach, sheet }: { reach: Answer; sheet: readonly [number, number] }) {
+  const { at, px } = useScale();
   const [wide, high] = [sheet[0] / reach.columns, sheet[1] / reach.rows];
   return (
-    <g class="places">
+    <g class="reached">
       {reach.verdicts.map((verdict, index) => {
         const [tone] = MEANING[verdict] ?? MEANING[0] ?? ["usable"];
-        const column = index % reach.columns;
         const row = Math.floor(index / reach.columns);
-        return (
-          <rect
-            key={index}
-            class={tone}
-            x={-sheet[0] / 2 + column * wide}
-            y={-sheet[1] / 2 + row * high}
-            width={wide}
-            height={high}
-          />
-        );
+        const [x, y] = at([
+          -sheet[0] / 2 + (index % reach.columns) * wide,
+          sheet[1] / 2 - row * high,
+        ]);
+        return <rect key={index} class={tone} x={x} y={y} width={wide * px} height={high * px} />;
       })}
     </g>
   );
 }
 
-interface SpotParts {
-  place: readonly [number, number];
-  name: string;
-}
-
-/** The extreme places; what is the same place is a single spot. */
-function spotsOf(reach: Answer): SpotParts[] {
-  const spots = new Map<string, SpotParts>();
+/** The extreme places; what is the same place is a single mark. */
+function spotsOf(reach: Answer): Mark[] {
+  const spots = new Map<string, Mark>();
   for (const { place, title } of reach.extremes) {
     const before = spots.get(place.join());
-    spots.set(place.join(), { place, name: before ? `${before.name}, ${title}` : title });
+    spots.set(place.join(), {
+      target: place,
+      name: before ? `${before.name}, ${title}` : title,
+      look: "planned",
+    });
   }
   return [...spots.values()];
-}
-
-function Spot({ place, name }: SpotParts) {
-  const pixel = usePixel();
-  const left = place[0] > 0;
-  const top = place[1] > 0;
-  return (
-    <g class="spot">
-      <circle cx={place[0]} cy={-place[1]} r={5 * pixel} stroke-width={2 * pixel} />
-      <text
-        x={place[0] + (left ? -12 : 12) * pixel}
-        y={-place[1] + (top ? 22 : -12) * pixel}
-        font-size={14 * pixel}
-        text-anchor={left ? "end" : "start"}
-      >
-        {name}
-      </text>
-    </g>
-  );
 }
 
 function Why({ reach }: { reach: Answer }) {

@@ -1,13 +1,18 @@
 // Step 7: why the marks are off, in a sentence; the suspects; and the best next measurement.
 
 import { useState } from "preact/hooks";
+import type { Schemas } from "../api/client";
 import { Progress } from "../controls/Progress";
 import { TakeAlong } from "../controls/TakeAlong";
+import { Residuals } from "../residuals/Residuals";
+import { useDrawn } from "../residuals/useDrawn";
 import { useAnswer } from "../shell/answer";
+import { useNewest } from "../shell/newest";
 import { useProject } from "../shell/project";
 import { Screen } from "../shell/Screen";
+import { Refused } from "./correct/Refused";
+import { useWriting } from "./correct/useWriting";
 import { CouldHide } from "./verdict/CouldHide";
-import { ErrorMaps } from "./verdict/ErrorMaps";
 import { HalfTyped } from "./verdict/HalfTyped";
 import { NextStep } from "./verdict/NextStep";
 import { SuspectCard } from "./verdict/SuspectCard";
@@ -26,13 +31,21 @@ export function Verdict() {
   const { project } = useProject();
   const units = project.choices.units ?? "mm";
   const { answer, refused } = useAnswer<VerdictAnswer>("verdict");
+  const writing = useWriting();
   const [isNextWanted, wantNext] = useNextWanted(project.key);
   const verdict = answer?.verdict;
+  const bench = useNewest<Schemas["BenchAnswer"]>(
+    verdict ? "bench" : "",
+    JSON.stringify(project.files),
+  );
+  const [laid, lay] = useState<string>();
+  const card = verdict?.cards.find(({ title }) => title === laid);
+  const drawn = useDrawn(card?.effects.map(({ name }) => name) ?? [], bench?.board ?? "");
   if (refused)
     return (
-      <Screen title="No verdict yet" say={refused}>
+      <Refused title="No verdict yet" refused={refused} writing={writing}>
         <HalfTyped />
-      </Screen>
+      </Refused>
     );
   if (!verdict) {
     return (
@@ -48,7 +61,18 @@ export function Verdict() {
       say={verdict.sentence}
       why={<Why noise={verdict.noise} notes={verdict.notes} />}
       command={answer.command}
-      stage={<ErrorMaps verdict={verdict} sheet={sheet} units={units} />}
+      stage={
+        verdict.marks.length > 0 && (
+          <Residuals
+            marks={verdict.marks}
+            states={verdict.states}
+            sigma={verdict.sigma}
+            covariates={bench?.covariates}
+            drawn={drawn}
+            sheet={sheet}
+          />
+        )
+      }
     >
       {verdict.slips.length > 0 && (
         <ul class="slips">
@@ -61,14 +85,20 @@ export function Verdict() {
         </ul>
       )}
       <HalfTyped />
-      <NextStep sheet={sheet} before={verdict.before} wanted={isNextWanted} want={wantNext} />
+      <NextStep sheet={sheet} marks={verdict.marks} wanted={isNextWanted} want={wantNext} />
       {verdict.cards.length > 0 && (
         <section aria-label="Suspects">
           <h2>Suspects</h2>
           {verdict.apart && <p>{verdict.apart}</p>}
           <div class="cards">
             {verdict.cards.map((card) => (
-              <SuspectCard key={card.title} card={card} sheet={sheet} units={units} />
+              <SuspectCard
+                key={card.title}
+                card={card}
+                units={units}
+                isLaid={card.title === laid}
+                lay={() => lay(card.title === laid ? undefined : card.title)}
+              />
             ))}
           </div>
           {verdict.more_cards > 0 && <p>{verdict.more_cards} more are less likely.</p>}

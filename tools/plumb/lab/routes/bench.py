@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-import math
 from typing import Annotated
 
 import numpy as np
-from fastapi import APIRouter, Depends, Request
+from fastapi import APIRouter, Depends, Query, Request
 from pydantic import BaseModel, Field, FiniteFloat
 
 from plumb.cure.add import add, add_to
@@ -20,10 +19,11 @@ from plumb.fit.expected import plausible_range
 from plumb.fit.fit import Fit
 from plumb.lab.background import LiveBoards, WarmBoard
 from plumb.lab.project import Project
+from plumb.lab.residuals import Ends, Pair, State, as_set, ends, fitted_state, pairs
 from plumb.lab.rounds import board_words, command, inputs_of, known_words, unit_words
 from plumb.lab.routes.project import ProjectAnswer, TheProject, show
 from plumb.model.catalogue import every_effect, is_sketch, parameter_words
-from plumb.model.plain import noun_of, plain_size
+from plumb.model.plain import noun_of, plain_size, plainly
 from plumb.model.predict import Array
 from plumb.text.errors import InputError
 from plumb.text.values import shown_in
@@ -32,8 +32,6 @@ router = APIRouter(tags=["bench"])
 NEW_MACHINE = "new.toml"
 MOST_EFFECTS = 32
 ANGLES = ("angle", "phase", "approach")  # covariates
-
-Pair = tuple[float, float]
 
 
 class BenchParameter(BaseModel):
@@ -63,7 +61,7 @@ class BenchCovariate(BaseModel):
     name: str
     unit: str
     of_chain: bool
-    values: list[tuple[float | None, float | None]]
+    values: list[Ends]
 
 
 class BenchAnswer(BaseModel):
@@ -71,8 +69,9 @@ class BenchAnswer(BaseModel):
 
     board: str  # another for other marks or settings
     sheet: Pair
-    sigma: float | None  # [mm] of a reading, if it is known before the fit
-    marks: tuple[ComparedMark, ...]  # against the settings as they stand
+    sigma: float  # [mm] of a reading
+    marks: tuple[ComparedMark, ...]
+    as_set: State
     effects: list[BenchEffect]
     covariates: list[BenchCovariate]
     new_machine: str  # name of the file that the bench writes
@@ -100,14 +99,10 @@ class BenchSize(BaseModel):
     possible: bool  # whether its interval, or what holds it, reaches what a real machine may have
 
 
-class BenchFit(BaseModel):
-    """The marks with the chosen effects, all else refitted [mm]."""
+class BenchFit(State):
+    """The marks with the chosen effects, all else refitted."""
 
-    fit_rms: float
-    noise_rms: float  # that noise alone would leave
-    left_out_rms: float
-    errors: list[Pair]
-    chains: list[tuple[float | None, float | None]]
+    left_out_rms: float  # [mm]
     sizes: dict[str, BenchSize]
     intervals: str  # for which noise they hold
     settled: bool
@@ -142,11 +137,11 @@ class BenchCurve(BaseModel):
 
 
 class BenchDrawn(BaseModel):
-    """What an effect by itself adds to the frame's fit [mm]."""
+    """What effects add to the frame's fit [mm]."""
 
-    effect: str
+    noun: str
     moved: list[Pair]
-    chains: list[tuple[float | None, float | None]]
+    chains: list[Ends]
     curves: dict[str, tuple[BenchCurve, BenchCurve]]
 
 
@@ -173,6 +168,7 @@ def open_bench(project: TheProject, warm: Warm) -> BenchAnswer:
         sheet=warm.live.model.sheet,
         sigma=warm.live.noise.sigma,
         marks=warm.raw.marks,
+        as_set=as_set(warm.raw, warm.live.noise.sigma),
         effects=_effects(warm),
         covariates=[_covariate(each) for each in warm.view.covariates],
         new_machine=NEW_MACHINE,
@@ -189,12 +185,10 @@ def refit(choice: BenchChoice, project: TheProject, warm: Warm) -> BenchFit:
     with shown_in(project.choices.units):
         sizes = _sizes(fitted, chosen)
         intervals = intervals_sentence(fitted.sigma, warm.live.noise.source)
+    title = f"+ {plainly(chosen.effects)}" if chosen.effects else "frame fitted"
     return BenchFit(
-        fit_rms=fitted.rms,
-        noise_rms=fitted.noise_rms,
+        **dict(fitted_state(title, fitted, warm.view)),
         left_out_rms=fitted.left_out_rms,
-        errors=[_pair(error) for error in fitted.errors],
-        chains=_ends(warm.view.chains(fitted.errors)),
         sizes=sizes,
         intervals=intervals,
         settled=fitted.settled,
@@ -211,7 +205,7 @@ def climb(choice: BenchChoice, project: TheProject, warm: Warm) -> BenchStairs:
         result = add_to(warm.live, warm.raw, chosen)
     qualities = [("frame fitted", result.before, False)]
     qualities += [(f"+ {noun_of(step.effect)}", step, step.only_fit) for step in result.by_effect]
-    as_set = BenchStair(
+    first = BenchStair(
         noun="as set", fit_rms=warm.raw.rms, noise_rms=None, left_out_rms=None, only_fit=False
     )
     stairs = [
@@ -225,21 +219,23 @@ def climb(choice: BenchChoice, project: TheProject, warm: Warm) -> BenchStairs:
         for noun, quality, only_fit in qualities
     ]
     return BenchStairs(
-        stairs=[as_set, *stairs],
+        stairs=[first, *stairs],
         pays=result.pays or not chosen.effects,
         warnings=list(result.warnings),
     )
 
 
 @router.get("/bench/drawn")
-def draw(effect: str, warm: Warm) -> BenchDrawn:
-    """Return what an effect by itself would draw."""
-    warm.live.refuse(Chosen((effect,)))
-    drawn = warm.view.drawn(effect)
+def draw(
+    effects: Annotated[list[str], Query(min_length=1, max_length=MOST_EFFECTS)], warm: Warm
+) -> BenchDrawn:
+    """Return what effects would draw into what the frame leaves."""
+    warm.live.refuse(Chosen(tuple(effects)))
+    drawn = warm.view.drawn(*effects)
     return BenchDrawn(
-        effect=effect,
-        moved=[_pair(move) for move in drawn.moved],
-        chains=_ends(drawn.curves.chains),
+        noun=plainly(effects),
+        moved=pairs(drawn.moved),
+        chains=ends(drawn.curves.chains),
         curves={
             name: (_curve(name, left), _curve(name, right))
             for name, (left, right) in drawn.curves.curves.items()
@@ -297,7 +293,7 @@ def _covariate(covariate: Covariate) -> BenchCovariate:
         name=covariate.name,
         unit="°" if covariate.unit == "rad" else covariate.unit,
         of_chain=covariate.of_chain,
-        values=_ends(_in_degrees(covariate.name, covariate.values)),
+        values=ends(_in_degrees(covariate.name, covariate.values)),
     )
 
 
@@ -338,17 +334,3 @@ def _command(project: Project, chosen: Chosen, typed: str) -> str:
         *("add", *board_words(project), *known, *unit_words(choices, typed)),
         *("--effect", *(chosen.effects or ["none"]), *held, "-o", NEW_MACHINE),
     )
-
-
-def _pair(values: Array | Pair) -> Pair:
-    x, y = values
-    return float(x), float(y)
-
-
-def _ends(values: Array) -> list[tuple[float | None, float | None]]:
-    """Left and right; None for what is not known."""
-    return [(_known(left), _known(right)) for left, right in values]
-
-
-def _known(value: float) -> float | None:
-    return float(value) if math.isfinite(value) else None

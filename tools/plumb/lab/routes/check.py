@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from typing import Any
 
 import numpy as np
 from fastapi import APIRouter
 from pydantic import BaseModel
 
 from plumb.cure.check_marks import Check, CheckedMark, check_marks, check_sentence
+from plumb.diary.file import CHECK as NOTED
+from plumb.diary.file import append, read_diary
 from plumb.fit.inputs import Inputs, settings_in
 from plumb.grid import program
 from plumb.lab.machine_line import TheLine, refuse_other_machine
@@ -62,6 +65,7 @@ class CheckAnswer(BaseModel):
     rounds: list[RoundError]  # in the order they were cut, the check marks last
     holds: bool
     is_used: bool  # the verdict goes by these marks too
+    is_noted: bool  # the diary has this result
     command: str
 
 
@@ -92,6 +96,7 @@ def show_check(project: TheProject) -> CheckAnswer:
         rounds=_rounds(project, choices, form) if checked else [],
         holds=checked is not None and checked.holds,
         is_used=form in choices.marks,
+        is_noted=checked is not None and _is_noted(project, _entry(choices, form, checked)),
         command=_command(project, inputs, form) if is_saved else _made(project, number, plan),
     )
 
@@ -114,6 +119,19 @@ def cut_check(project: TheProject, line: TheLine) -> MachineAnswer:
         line.do(lambda sender: owner.weigh_down(owner.settings.sled_weight))
     line.worker.send(name, list(cleaned(text.splitlines())))
     return machine(line)
+
+
+@router.post("/check/note")
+def note_check(project: TheProject) -> ProjectAnswer:
+    """Write the result of the newest check round into the folder's diary, once."""
+    choices, form = project.choices, f"{CHECK}{_newest(project)}{ENDING}"
+    checked = _checked(project, _of_promise(project), form) if project.read(form) else None
+    if checked is None:
+        raise InputError("not all check marks are read: there is no result yet")
+    entry = _entry(choices, form, checked)
+    if not _is_noted(project, entry):
+        append(project.folder, NOTED, entry)
+    return show(project)
 
 
 @router.post("/check/use")
@@ -171,6 +189,33 @@ def _promising(project: Project) -> list[str]:
         if name not in seen and form_of(project, choices, name).measurements.rounds[0].new_sheet
     )
     return names[: next(later, len(names))]
+
+
+def _entry(choices: Choices, form: str, checked: Check) -> dict[str, Any]:
+    """Return the result of a round of check marks as the diary has it. mm."""
+    with shown_in(choices.units):
+        sentence = check_sentence(checked)
+    return {
+        "form": form,
+        "machine": choices.settings,
+        "sentence": sentence,
+        "holds": checked.holds,
+        "marks": [
+            {"name": mark.name, "promised": round(mark.promised, 3), "off": round(mark.off, 3)}
+            for mark in checked.marks
+        ],
+    }
+
+
+def _is_noted(project: Project, entry: Mapping[str, Any]) -> bool:
+    """Return whether the diary's newest result of this form is this, in whatever unit."""
+    noted = [
+        each
+        for each in read_diary(project.folder).of_kind(NOTED)
+        if each.content["form"] == entry["form"]
+    ]
+    same = ("machine", "marks")
+    return bool(noted) and all(noted[-1].content[key] == entry[key] for key in same)
 
 
 def _rounds(project: Project, choices: Choices, check_form: str) -> list[RoundError]:

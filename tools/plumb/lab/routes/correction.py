@@ -69,7 +69,9 @@ class CorrectionParts(BaseModel):
     is_written: bool = False  # that file was fitted to just these marks
     rms_set: float | None = None  # [mm] as that file stands
     rms_accepted: float | None = None
+    noise_accepted: float | None = None  # [mm] that noise alone would leave
     rms_all: float | None = None
+    noise_all: float | None = None
     left_out: float | None = None  # [mm] of marks that took no part, with what is accepted
 
 
@@ -213,7 +215,9 @@ def _parts(
         is_written=is_written,
         rms_set=whole.raw.rms,
         rms_accepted=some.after.fit_rms if some else None,
+        noise_accepted=some.after.noise_rms if some else None,
         rms_all=whole.after.fit_rms,
+        noise_all=whole.after.noise_rms,
         left_out=some.after.left_out_rms if some else None,
         add=_add_words(made, auto.diagnosis.usual, choices),
     )

@@ -23,7 +23,7 @@ from plumb.lab.rounds import (
     program_name,
 )
 from plumb.lab.routes.project import ProjectAnswer, TheProject, show
-from plumb.lab.routes.verdict import Arrow, TheBackground, board_and_known
+from plumb.lab.routes.verdict import TheBackground, board_and_known
 from plumb.plan.proposal import (
     Next,
     Proposal,
@@ -62,12 +62,19 @@ class Other(BaseModel):
     taking: Taking | None  # None: it has no marks
 
 
+class ProposedMark(BaseModel):
+    """A mark to be measured next."""
+
+    name: str
+    target: tuple[float, float]  # [mm] machine frame
+
+
 class NextMeasurement(BaseModel):
     """What to measure next."""
 
     headline: str
     steps: list[str]
-    marks: list[Arrow]  # without errors
+    marks: list[ProposedMark]
     taking: Taking | None  # None: it is measured without marks
     by_hand: str  # the first of the numbers that are measured directly; empty: none is
     others: list[Other]
@@ -167,7 +174,7 @@ def _measurement(project: Project, inputs: api.Inputs, advice: Next) -> NextMeas
         headline=headline_of(best),
         steps=steps_of(best),
         marks=[
-            Arrow(name=name, place=tuple(place), error=(0.0, 0.0))
+            ProposedMark(name=name, target=tuple(place))
             for name, place in zip(visits.names, visits.targets.tolist(), strict=True)
         ],
         taking=_taking(project, inputs, advice, 1),

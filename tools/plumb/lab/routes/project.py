@@ -23,7 +23,7 @@ from plumb.lab.project import (
     read_choices,
     save_choices,
 )
-from plumb.lab.rounds import opened
+from plumb.lab.rounds import changed_since_fit, opened
 from plumb.marks.form import read_form
 from plumb.marks.plausible import from_edges
 from plumb.model.predict import known_effects
@@ -56,6 +56,7 @@ class ProjectAnswer(BaseModel):
     choices_digest: str
     machine: Machine | None
     trouble: str  # why the opened settings cannot be read; empty if they can
+    changed_since_fit: str  # a form with other readings than the opened settings were fitted to
 
 
 class ChoicesChange(BaseModel):
@@ -79,10 +80,12 @@ TheProject = Annotated[Project, Depends(project_of)]
 def show(project: TheProject) -> ProjectAnswer:
     """Return the project as it is on disk now."""
     choices, digest = read_choices(project)
-    machine, trouble = None, ""
+    machine, trouble, changed = None, "", ""
     if choices.settings:
         try:
-            machine = machine_of(settings_in(project.path(choices.settings)), choices.settings)
+            settings = settings_in(project.path(choices.settings))
+            machine = machine_of(settings, choices.settings)
+            changed = changed_since_fit(project, choices, settings)
         except Exception as error:
             trouble = str(error)
     return ProjectAnswer(
@@ -93,6 +96,7 @@ def show(project: TheProject) -> ProjectAnswer:
         choices_digest=digest,
         machine=machine,
         trouble=trouble,
+        changed_since_fit=changed,
     )
 
 

@@ -2,41 +2,30 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from typing import Annotated
 
-import numpy as np
 from fastapi import APIRouter, Depends, Request
 from pydantic import BaseModel
 
 from plumb import api
-from plumb.cure.add import Addition
 from plumb.cure.auto import AutoAddition, add_auto
+from plumb.cure.live_board import BoardView, LiveBoard
 from plumb.diagnosis.answer import SHOWN, Diagnosis, Together, odds_words
 from plumb.diagnosis.diagnosis import diagnose
-from plumb.diagnosis.explanation import Explanation
 from plumb.diagnosis.sizes import Size
-from plumb.diagnosis.suspect_curves import fingerprint_of
+from plumb.fit.compare import ComparedMark, Comparison
 from plumb.fit.expected import plausible_range
 from plumb.lab.background import Background, Progress, key_of
 from plumb.lab.project import Project
+from plumb.lab.residuals import State, as_set, fitted_state
 from plumb.lab.rounds import board_words, command, inputs_of, known_words, unit_words
 from plumb.lab.routes.project import TheProject
-from plumb.model.catalogue import every_effect, label
+from plumb.model.catalogue import every_effect
 from plumb.model.plain import noun_of, plain_range, plain_size, plainly, ranked
 from plumb.text.values import shown_in, worded
 
 router = APIRouter(tags=["verdict"])
 MOST_CARDS = 6
-Vector = tuple[float, float]
-
-
-class Arrow(BaseModel):
-    """An error [mm, machine frame]: from where to how far."""
-
-    name: str
-    place: Vector
-    error: Vector
 
 
 class SizeAnswer(BaseModel):
@@ -62,8 +51,6 @@ class EffectAnswer(BaseModel):
     hidden_share: float | None  # that the refitted frame swallows
     remedy: str
     check: str  # how it is measured directly; empty if nobody can
-    fingerprint: list[Arrow]
-    seen: float  # [mm] RMS of what the frame leaves of it
 
 
 class Card(BaseModel):
@@ -92,15 +79,11 @@ class Verdict(BaseModel):
 
     verdict: str
     sentence: str
-    rms_set: float  # [mm] as the settings stand
-    rms_added: float | None  # with the frame fitted, and what is added
-    noise_added: float | None  # that noise alone would leave of that fit
-    added: str  # what is added
+    marks: tuple[ComparedMark, ...]
+    states: list[State]  # as set, with the frame fitted, with what is added
     apart: str  # a sentence, where rivals would cut elsewhere by more than the noise
     sigma: float  # [mm] of a reading
     noise: str  # a sentence
-    before: list[Arrow]
-    after: list[Arrow]
     cards: list[Card]
     more_cards: int
     could_hide: list[Hidden]
@@ -163,23 +146,18 @@ def board_and_known(project: Project, inputs: api.Inputs) -> list[str]:
 def verdict_of(inputs: api.Inputs, diagnosis: Diagnosis, auto: AutoAddition) -> Verdict:
     """Return a diagnosis as the page shows it."""
     raw = api.compare(inputs)
-    addition = auto.addition
-    shown = list(zip(diagnosis.explanations, diagnosis.fits, strict=True))[:MOST_CARDS]
+    shown = list(diagnosis.explanations)[:MOST_CARDS]
     others = [each for each in diagnosis.could_hide if each.effect not in diagnosis.suspects]
     blind = [each.effect for each in others if each.mm is None]
     return Verdict(
         verdict=diagnosis.verdict,
         sentence=diagnosis.sentence,
-        rms_set=raw.rms,
-        rms_added=addition.after.fit_rms if addition else None,
-        noise_added=addition.after.noise_rms if addition else None,
-        added=plainly(addition.effects_added) if addition and addition.effects_added else "",
+        marks=raw.marks,
+        states=_states(raw, auto),
         apart=auto.apart.sentence if auto.apart else "",
         sigma=diagnosis.noise.sigma,
         noise=diagnosis.noise.sentence,
-        before=[Arrow(name=m.name, place=m.predicted, error=m.error) for m in raw.marks],
-        after=_after(addition, [mark.name for mark in raw.marks]) if addition else [],
-        cards=[_card(diagnosis, i, *each) for i, each in enumerate(shown)],
+        cards=[_card(diagnosis, i, each) for i, each in enumerate(shown)],
         more_cards=max(len(diagnosis.explanations) - MOST_CARDS, 0),
         could_hide=_could_hide(diagnosis),
         blind=f"these marks say nothing of {plainly(blind)}" if blind else "",
@@ -188,14 +166,17 @@ def verdict_of(inputs: api.Inputs, diagnosis: Diagnosis, auto: AutoAddition) -> 
     )
 
 
-def _after(addition: Addition, names: Sequence[str]) -> list[Arrow]:
-    fitted = addition.after_fit
-    return [
-        Arrow(name=name, place=tuple(place), error=tuple(error))
-        for name, place, error in zip(
-            names, fitted.predicted.tolist(), fitted.errors.tolist(), strict=True
-        )
-    ]
+def _states(raw: Comparison, auto: AutoAddition) -> list[State]:
+    """Return what is left of the marks: as set, with the frame, with what is added."""
+    addition, noise = auto.addition, auto.diagnosis.noise
+    states = [as_set(raw, noise.sigma)]
+    if addition is None:
+        return states
+    fits = [("frame fitted", addition.before_fit)]
+    if addition.effects_added:
+        fits.append((f"+ {plainly(addition.effects_added)}", addition.after_fit))
+    view = BoardView(LiveBoard(auto.inputs, noise=noise))
+    return [*states, *(fitted_state(title, fitted, view) for title, fitted in fits)]
 
 
 def _could_hide(diagnosis: Diagnosis) -> list[Hidden]:
@@ -208,10 +189,10 @@ def _could_hide(diagnosis: Diagnosis) -> list[Hidden]:
     return ranked(hidden, lambda each: -each.mm)[:SHOWN]
 
 
-def _card(diagnosis: Diagnosis, index: int, together: Together, fitted: Explanation) -> Card:
+def _card(diagnosis: Diagnosis, index: int, together: Together) -> Card:
     return Card(
         title=plainly(together.effects),
-        effects=[_effect(diagnosis, name, together, fitted) for name in together.effects],
+        effects=[_effect(diagnosis, name, together) for name in together.effects],
         odds=odds_words(together.share),
         rms_after=together.rms_after,
         noise_after=together.noise_rms,
@@ -234,14 +215,12 @@ def _looks_like(diagnosis: Diagnosis, index: int) -> list[str]:
     ]
 
 
-def _effect(
-    diagnosis: Diagnosis, name: str, together: Together, fitted: Explanation
-) -> EffectAnswer:
+def _effect(diagnosis: Diagnosis, name: str, together: Together) -> EffectAnswer:
     words = next(each for each in every_effect() if each["name"] == name)
     ranked = next(each for each in diagnosis.ranking if each.effect == name)
-    check, print_of = words["check"], fingerprint_of(fitted, name, fitted.board.rows)
+    check = words["check"]
     return EffectAnswer(
-        name=label(name),
+        name=name,
         noun=words["noun"],
         summary=words["summary"],
         sizes=[_size(name, size) for size in together.sizes[name]],
@@ -250,13 +229,6 @@ def _effect(
         check=f"{check['title']}, about {check['minutes']:.0f} minutes"
         if check and check["title"]
         else "",
-        fingerprint=[
-            Arrow(name="", place=tuple(place), error=tuple(error))
-            for place, error in zip(
-                print_of.places.tolist(), np.round(print_of.alone, 4).tolist(), strict=True
-            )
-        ],
-        seen=print_of.beyond_rms,
     )
 
 

@@ -1,4 +1,5 @@
 // What was written, how it comes into the machine, and what the machine says that it holds now.
+import { setting, settingText } from "../../controls/settings";
 import { isReady, useMachine } from "../../shell/machine";
 import { useProject } from "../../shell/project";
 import { lastSent } from "./kept";
@@ -82,11 +83,10 @@ export function ToMachine({ writing, isNext, isHeld }: ToMachineParts) {
             <tbody>
               {sent.changed.slice(0, SHOWN).map((number) => (
                 <tr key={number.number}>
-                  <th scope="row">
-                    {number.name || "number"} (${number.number})
-                  </th>
+                  <th scope="row">{number.name || "a setting"}</th>
                   <td>
-                    {shown(number.before)} → {shown(number.after)} {number.unit}
+                    {setting(number.number, number.after, number.unit)}, was{" "}
+                    {settingText(number.before)}
                   </td>
                 </tr>
               ))}
@@ -97,8 +97,4 @@ export function ToMachine({ writing, isNext, isHeld }: ToMachineParts) {
       )}
     </section>
   );
-}
-
-function shown(value: number): string {
-  return String(Number(value.toPrecision(6)));
 }

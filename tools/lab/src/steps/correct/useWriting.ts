@@ -56,3 +56,12 @@ export function useWriting(): Writing {
       ),
   };
 }
+
+/** What the page knows of the folder: nothing is written over what it has not seen. */
+export function useKnown(): Known {
+  const { project } = useProject();
+  return {
+    settings: project.files[project.choices.settings ?? ""] ?? "",
+    choices: project.choices_digest,
+  };
+}

@@ -1,7 +1,9 @@
 // The sheet while it is cut: marks that are done, marks to come, and where the sled is.
-import { MarkDot } from "../../sheet/MarkDot";
-import { SheetMap, usePixel } from "../../sheet/SheetMap";
+import { useMemo } from "preact/hooks";
+import { Sheet } from "../../sheet/Sheet";
+import { useScale } from "../../sheet/scale";
 import { useMachine } from "../../shell/machine";
+import { useProject } from "../../shell/project";
 import type { Grid } from "../Cut";
 
 const DEEP = -0.2; // [mm] the bit is in the wood
@@ -12,21 +14,30 @@ interface MapParts {
 }
 
 export function CutMap({ sheet, grid }: MapParts) {
+  const { project } = useProject();
   const { program, place, knows_place, kind, unseen } = useMachine();
   const taken = program?.title === grid.program ? program.done : 0;
-  const isCut = grid.marks.map(
-    (mark, index) => taken >= mark.lines || index < (grid.broke_off ?? 0),
+  const isCut = (lines: number, index: number) => taken >= lines || index < (grid.broke_off ?? 0);
+  const done = grid.marks.filter((mark, index) => isCut(mark.lines, index)).length;
+  const marks = useMemo(
+    () =>
+      grid.marks.map((mark, index) => ({
+        name: mark.name,
+        target: mark.place,
+        look: isCut(mark.lines, index) ? ("done" as const) : ("planned" as const),
+      })),
+    [grid, done],
   );
-  const done = isCut.filter(Boolean).length;
   return (
-    <figure class="cut-map">
-      <SheetMap sheet={sheet} label={`${done} of ${grid.marks.length} marks are cut`}>
-        {grid.marks.map((mark, index) => (
-          <MarkDot key={mark.name} place={mark.place} name={mark.name} hollow={!isCut[index]} />
-        ))}
-        {place && knows_place && kind !== "none" && <Sled place={place} old={unseen > 0} />}
-      </SheetMap>
-    </figure>
+    <Sheet
+      size={sheet}
+      label={`${done} of ${grid.marks.length} marks are cut`}
+      name="cut"
+      units={project.choices.units ?? "mm"}
+      marks={marks}
+    >
+      {place && knows_place && kind !== "none" && <Sled place={place} old={unseen > 0} />}
+    </Sheet>
   );
 }
 
@@ -37,16 +48,16 @@ interface SledParts {
 }
 
 function Sled({ place: [x, y, z], old }: SledParts) {
-  const pixel = usePixel();
+  const [cx, cy] = useScale().at([x, y]);
   return (
     <g
       fill="none"
       stroke={old ? "var(--soft)" : "var(--before)"}
-      stroke-width={2 * pixel}
-      stroke-dasharray={old ? 4 * pixel : undefined}
+      stroke-width={2}
+      stroke-dasharray={old ? 4 : undefined}
     >
-      <circle cx={x} cy={-y} r={16 * pixel} />
-      <circle cx={x} cy={-y} r={3 * pixel} fill={z < DEEP ? "var(--before)" : "none"} />
+      <circle cx={cx} cy={cy} r={16} />
+      <circle cx={cx} cy={cy} r={3} fill={z < DEEP ? "var(--before)" : "none"} />
     </g>
   );
 }

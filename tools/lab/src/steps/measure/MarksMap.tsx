@@ -1,8 +1,10 @@
 // The planned marks on the sheet: drag, tap to add, take away; arrow keys and Delete do the same.
 import { useRef, useState } from "preact/hooks";
 import { namedLength } from "../../controls/lengths";
-import { MarkDot } from "../../sheet/MarkDot";
-import { SheetMap, usePixel } from "../../sheet/SheetMap";
+import { Spot } from "../../sheet/Marks";
+import { Sheet } from "../../sheet/Sheet";
+import { useScale } from "../../sheet/scale";
+import { pointIn } from "../../sheet/useZoom";
 import { useProject } from "../../shell/project";
 import type { Place } from "./plan";
 
@@ -27,6 +29,7 @@ interface MapParts {
 }
 
 export function MarksMap({ sheet, places, spans, show, keep }: MapParts) {
+  const { project } = useProject();
   const [selected, setSelected] = useState<number>();
   const inside = ([x, y]: Place): Place => [
     Math.round(Math.max(-sheet[0] / 2 + EDGE, Math.min(sheet[0] / 2 - EDGE, x))),
@@ -40,9 +43,16 @@ export function MarksMap({ sheet, places, spans, show, keep }: MapParts) {
   };
   const add = (place: Place) => keep([...places, inside(place)]);
   return (
-    <figure class="marks-map">
-      <SheetMap sheet={sheet} label="The planned marks; each can be moved" acts>
-        <Ground sheet={sheet} add={add} />
+    <>
+      <Sheet
+        size={sheet}
+        label="The planned marks; each can be moved"
+        name="marks"
+        units={project.choices.units ?? "mm"}
+        marks={places.map((target, index) => ({ name: String(index + 1), target }))}
+        acts
+      >
+        <Ground add={add} />
         <Spans places={places} spans={spans} />
         {places.map((place, index) => (
           <Movable
@@ -56,8 +66,8 @@ export function MarksMap({ sheet, places, spans, show, keep }: MapParts) {
             remove={() => remove(index)}
           />
         ))}
-      </SheetMap>
-      <figcaption>
+      </Sheet>
+      <p>
         <button type="button" onClick={() => add([0, 0])}>
           Add a mark in the middle
         </button>{" "}
@@ -66,30 +76,32 @@ export function MarksMap({ sheet, places, spans, show, keep }: MapParts) {
             Take mark {selected + 1} away
           </button>
         )}
-      </figcaption>
-    </figure>
+      </p>
+    </>
   );
 }
 
 /** The place on the sheet [mm] at which somebody points. */
-function pointed(event: PointerEvent | MouseEvent): Place | undefined {
-  const svg = (event.currentTarget as SVGElement).ownerSVGElement;
-  const matrix = svg?.getScreenCTM();
-  if (!matrix) return undefined;
-  const point = new DOMPoint(event.clientX, event.clientY).matrixTransform(matrix.inverse());
-  return [point.x, -point.y];
+function usePointed(): (event: MouseEvent) => Place | undefined {
+  const { back } = useScale();
+  return (event) => {
+    const svg = (event.currentTarget as SVGElement).ownerSVGElement;
+    return svg ? [...back(pointIn(svg, event))] : undefined;
+  };
 }
 
 /** The bare sheet: a tap adds a mark. */
-function Ground({ sheet, add }: { sheet: readonly [number, number]; add: (place: Place) => void }) {
+function Ground({ add }: { add: (place: Place) => void }) {
+  const { plot } = useScale();
+  const pointed = usePointed();
   return (
     // biome-ignore lint/a11y/noStaticElementInteractions: the button below does it by keyboard
     <rect
       class="ground"
-      x={-sheet[0] / 2}
-      y={-sheet[1] / 2}
-      width={sheet[0]}
-      height={sheet[1]}
+      x={plot.left}
+      y={plot.top}
+      width={plot.right - plot.left}
+      height={plot.bottom - plot.top}
       onClick={(event) => {
         const place = pointed(event);
         if (place) add(place);
@@ -99,18 +111,12 @@ function Ground({ sheet, add }: { sheet: readonly [number, number]; add: (place:
 }
 
 function Spans({ places, spans }: { places: Place[]; spans: [number, number][] }) {
-  const pixel = usePixel();
-  return (
-    <g stroke="var(--ghost)" stroke-width={1.5 * pixel} stroke-dasharray={`${6 * pixel}`}>
-      {spans.map(([first, second]) => {
-        const [from, to] = [places[first], places[second]];
-        if (!from || !to) return null;
-        return (
-          <line key={`${first}-${second}`} x1={from[0]} y1={-from[1]} x2={to[0]} y2={-to[1]} />
-        );
-      })}
-    </g>
-  );
+  const { at } = useScale();
+  const lines = spans.map(([first, second]) => {
+    const [from, to] = [places[first], places[second]];
+    return from && to ? `M${at(from).join(" ")}L${at(to).join(" ")}` : "";
+  });
+  return <path class="to-span" d={lines.join("")} />;
 }
 
 interface MovableParts {
@@ -124,10 +130,12 @@ interface MovableParts {
 }
 
 function Movable({ place, name, selected, select, show, keep, remove }: MovableParts) {
-  const pixel = usePixel();
+  const { at, px } = useScale();
+  const pointed = usePointed();
   const { project } = useProject();
   const unit = project.choices.units ?? "mm";
   const dragged = useRef(false);
+  const [x, y] = at(place);
   const press = (event: KeyboardEvent) => {
     const way = MOVES[event.key];
     if (event.key === "Delete" || event.key === "Backspace") remove();
@@ -147,6 +155,7 @@ function Movable({ place, name, selected, select, show, keep, remove }: MovableP
       onFocus={select}
       onKeyDown={press}
       onPointerDown={(event) => {
+        event.stopPropagation(); // the mark moves, not the sheet
         event.currentTarget.setPointerCapture(event.pointerId);
         dragged.current = false;
         select();
@@ -154,14 +163,17 @@ function Movable({ place, name, selected, select, show, keep, remove }: MovableP
       onPointerMove={(event) => {
         if (!event.currentTarget.hasPointerCapture(event.pointerId)) return;
         const to = pointed(event);
-        if (!to || Math.hypot(to[0] - place[0], to[1] - place[1]) < 3 * pixel) return;
+        if (!to || Math.hypot(to[0] - place[0], to[1] - place[1]) * px < 3) return;
         dragged.current = true;
         show(to);
       }}
       onPointerUp={() => dragged.current && keep(place)}
     >
-      <circle class="touch" cx={place[0]} cy={-place[1]} r={22 * pixel} />
-      <MarkDot place={place} name={name} />
+      <circle class="touch" cx={x} cy={y} r={22} />
+      <Spot look="done" at={[x, y]} />
+      <text x={x} y={y - 11} text-anchor="middle">
+        {name}
+      </text>
     </g>
   );
 }

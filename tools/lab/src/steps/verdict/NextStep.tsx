@@ -1,21 +1,24 @@
 // The best next measurement: where on the sheet, how long, and how likely it settles the question.
 import { Progress } from "../../controls/Progress";
-import { SheetMap, usePixel } from "../../sheet/SheetMap";
+import type { Mark } from "../../sheet/marks";
+import { Sheet } from "../../sheet/Sheet";
 import { useAnswer } from "../../shell/answer";
 import { useMachine } from "../../shell/machine";
+import { useProject } from "../../shell/project";
 import { TakeMarks } from "./TakeMarks";
 import type { NextAnswer, Size, VerdictParts } from "./words";
 
 interface NextParts {
   sheet: Size;
-  before: VerdictParts["before"];
+  marks: VerdictParts["marks"];
   /** Whether somebody asked for it; this outlasts a verdict that is worked out again. */
   wanted: boolean;
   want: () => void;
 }
 
-export function NextStep({ sheet, before, wanted, want }: NextParts) {
+export function NextStep({ sheet, marks, wanted, want }: NextParts) {
   const { answer, refused } = useAnswer<NextAnswer>("next", wanted);
+  const { project } = useProject();
   const isVirtual = useMachine().kind === "virtual";
   if (!wanted) {
     return (
@@ -40,14 +43,18 @@ export function NextStep({ sheet, before, wanted, want }: NextParts) {
           ))}
         </ol>
         {next.marks.length > 0 && (
-          <SheetMap sheet={sheet} label="Where to measure next">
-            {before.map(({ name, place }, index) => (
-              <Dot key={`${name}/${index}`} at={place} />
-            ))}
-            {next.marks.map(({ name, place }, index) => (
-              <Dot key={`next ${name}/${index}`} at={place} number={index + 1} />
-            ))}
-          </SheetMap>
+          <Sheet
+            size={sheet}
+            label="Where to measure next"
+            name="next"
+            units={project.choices.units ?? "mm"}
+            marks={[
+              ...marks.map(({ name, target }): Mark => ({ name, target, look: "faint" })),
+              ...next.marks.map(
+                ({ target }, index): Mark => ({ name: `${index + 1}`, target, look: "next" }),
+              ),
+            ]}
+          />
         )}
       </div>
       {next.taking ? (
@@ -95,26 +102,5 @@ function Others({ next }: { next: NonNullable<NextAnswer["next"]> }) {
         ))}
       </tbody>
     </table>
-  );
-}
-
-function Dot({ at, number }: { at: Size; number?: number }) {
-  const pixel = usePixel();
-  const [x, y] = [at[0], -at[1]];
-  if (number === undefined) return <circle cx={x} cy={y} r={3 * pixel} fill="var(--ghost)" />;
-  return (
-    <g>
-      <circle cx={x} cy={y} r={11 * pixel} fill="var(--act)" />
-      <text
-        x={x}
-        y={y + 5 * pixel}
-        font-size={14 * pixel}
-        font-weight="700"
-        text-anchor="middle"
-        fill="var(--act-ink)"
-      >
-        {number}
-      </text>
-    </g>
   );
 }

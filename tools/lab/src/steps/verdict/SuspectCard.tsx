@@ -1,24 +1,26 @@
-// A suspect: what it draws, what it is, how large, how much it explains, what it looks like, what would settle it.
+// A suspect: what it is, how large, how much it explains, what it looks like, what would settle it.
 import { namedLength, type Unit } from "../../controls/lengths";
-import { Arrow } from "../../sheet/Arrow";
-import { SheetMap } from "../../sheet/SheetMap";
 import { SizeBar } from "./SizeBar";
-import type { Card, Size } from "./words";
+import type { Card } from "./words";
 
 interface CardParts {
   card: Card;
-  sheet: Size;
   units: Unit;
+  /** Whether what it draws lies over the marks. */
+  isLaid: boolean;
+  lay: () => void;
 }
 
-export function SuspectCard({ card, sheet, units }: CardParts) {
+export function SuspectCard({ card, units, isLaid, lay }: CardParts) {
   return (
     <article class="card" aria-label={card.title}>
       <h3>{card.title}</h3>
       <p class="odds">Odds {card.odds}</p>
+      <button type="button" aria-pressed={isLaid} onClick={lay}>
+        {isLaid ? "Laid over the marks" : "Lay it over the marks"}
+      </button>
       {card.effects.map((effect) => (
         <div key={effect.name} class="cause">
-          <Fingerprint arrows={effect.fingerprint} sheet={sheet} noun={effect.noun} />
           <p>{capital(effect.summary)}.</p>
           {effect.sizes.map((size) => (
             <SizeBar key={size.said} size={size} />
@@ -53,30 +55,6 @@ export function SuspectCard({ card, sheet, units }: CardParts) {
         <p class="impossible">No real machine has such sizes: look for another cause.</p>
       )}
     </article>
-  );
-}
-
-interface FingerprintParts {
-  arrows: Card["effects"][number]["fingerprint"];
-  sheet: Size;
-  noun: string;
-}
-
-function Fingerprint({ arrows, sheet, noun }: FingerprintParts) {
-  const longest = Math.max(...arrows.map(({ error }) => Math.hypot(...error)), 1e-6);
-  const exaggeration = (0.09 * sheet[0]) / longest;
-  return (
-    <SheetMap sheet={sheet} label={`What ${noun} draws on the sheet`}>
-      {arrows.map(({ place, error }) => (
-        <Arrow
-          key={place.join()}
-          from={place}
-          to={[place[0] + error[0], place[1] + error[1]]}
-          exaggeration={exaggeration}
-          colour="var(--act)"
-        />
-      ))}
-    </SheetMap>
   );
 }
 

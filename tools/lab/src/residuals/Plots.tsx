@@ -1,0 +1,213 @@
+// What is left against all that it may depend on, with what an effect draws below it; and against noise.
+import type { Schemas } from "../api/client";
+import { shownLength, type Unit } from "../controls/lengths";
+import type { Ends, State } from "../sheet/marks";
+import { tickText } from "../sheet/view";
+import { type Along, Plot } from "./Plot";
+import type { Drawn } from "./useDrawn";
+
+export type Covariate = Schemas["BenchCovariate"];
+export type Left = Schemas["State"];
+type Curve = Drawn["curves"][string][0];
+
+const TITLES: Record<string, string> = {
+  x: "x on the sheet",
+  y: "y on the sheet",
+  tension: "tension of the chain",
+  length: "length of the chain",
+  angle: "angle of the chain",
+  wrap: "chain on the sprocket",
+  phase: "turn of the sprocket",
+  order: "order of cutting",
+  approach: "way of the last move",
+};
+const ORDER = Object.keys(TITLES);
+const SIDES = ["left", "right"] as const;
+const INCH = 25.4;
+
+interface PlotsParts {
+  covariates: readonly Covariate[];
+  state: Left;
+  scale: State; // the dots of this state fit
+  drawn: Drawn | undefined;
+  units: Unit;
+  selected: number | undefined;
+  select: (mark: number | undefined) => void;
+}
+
+export function Plots(parts: PlotsParts) {
+  const { covariates, state, scale, drawn, units } = parts;
+  const unit = units === "inch" ? INCH : 1;
+  const most = (1.1 * Math.max(largest(scale.chains), largest(state.chains), 0.1)) / unit;
+  const sorted = [...covariates].sort((a, b) => ORDER.indexOf(a.name) - ORDER.indexOf(b.name));
+  const same = sorted.filter(isSame);
+  return (
+    <section class="plots" aria-labelledby="plots-title">
+      <h2 id="plots-title">
+        Where it fails: {state.title} [{units}]
+      </h2>
+      <p class="keys">
+        <span class="key left">left chain</span> <span class="key right">right chain</span>
+        {drawn && <span class="key laid">{drawn.noun}, fitted</span>}
+      </p>
+      <div class="grid">
+        {sorted
+          .filter((each) => !isSame(each))
+          .map((each) => (
+            <AgainstCovariate key={each.name} {...parts} covariate={each} most={most} />
+          ))}
+        <AgainstNoise {...parts} />
+      </div>
+      {same.length > 0 && <p class="same">Not drawn: {same.map(saidSame).join("; ")}.</p>}
+    </section>
+  );
+}
+
+interface CovariateParts extends PlotsParts {
+  covariate: Covariate;
+  most: number;
+}
+
+function AgainstCovariate(parts: CovariateParts) {
+  const { covariate, state, drawn, units, most, selected, select } = parts;
+  const unit = units === "inch" ? INCH : 1;
+  const [by, name] = covariate.unit === "mm" ? [unit, units] : [1, covariate.unit];
+  const title = TITLES[covariate.name] ?? covariate.name;
+  const ends = extremes(covariate);
+  const curves = drawn?.curves[covariate.name];
+  return (
+    <Plot
+      title={name ? `${title}, ${name}` : title}
+      label={`Errors of the chains against ${title}`}
+      across={[ends[0] / by, ends[1] / by]}
+      most={most}
+      dots={SIDES.map((kind, side) => ({
+        kind,
+        places: state.chains.map((pair, i) => {
+          const [at, error] = [covariate.values[i]?.[side], pair[side]];
+          return at == null || error == null ? null : ([at / by, error / unit] as const);
+        }),
+        marks: state.chains.map((_, i) => i),
+      }))}
+      selected={selected}
+      select={select}
+      below={(x, y) =>
+        SIDES.map((kind, side) =>
+          curves ? (
+            <CurvePath
+              key={kind}
+              kind={kind}
+              curve={curves[side as 0 | 1]}
+              x={(value) => x(value / by)}
+              y={(value) => y(value / unit)}
+              ends={ends}
+            />
+          ) : (
+            drawn && (
+              <path
+                key={kind}
+                class={`strokes ${kind}`}
+                d={drawn.chains
+                  .map((pair, i) => {
+                    const [at, value] = [covariate.values[i]?.[side], pair[side]];
+                    if (at == null || value == null) return "";
+                    return `M${(x(at / by) - 5).toFixed(1)} ${y(value / unit).toFixed(1)}h10`;
+                  })
+                  .join("")}
+              />
+            )
+          ),
+        )
+      }
+    />
+  );
+}
+
+interface CurveParts {
+  curve: Curve;
+  kind: string;
+  x: Along;
+  y: Along;
+  ends: readonly [number, number];
+}
+
+/** An effect's curve, with the band in which four fifths of the sheet lie. */
+function CurvePath({ curve, kind, x, y, ends }: CurveParts) {
+  const rows = curve.at.flatMap((at, i) => (at >= ends[0] && at <= ends[1] ? [i] : []));
+  const line = (values: readonly number[], order: readonly number[]) =>
+    order.map((i) => `${x(curve.at[i] ?? 0).toFixed(1)} ${y(values[i] ?? 0).toFixed(1)}`).join("L");
+  if (rows.length < 2) return null;
+  return (
+    <g class={`curve ${kind}`}>
+      <path
+        class="band"
+        d={`M${line(curve.low, rows)}L${line(curve.high, [...rows].reverse())}z`}
+      />
+      <path class="middle" d={`M${line(curve.middle, rows)}`} />
+    </g>
+  );
+}
+
+/** Both coordinates of all errors, the smallest first, against what noise alone would make of each. */
+function AgainstNoise({ state, units, selected, select }: PlotsParts) {
+  const unit = units === "inch" ? INCH : 1;
+  const { order, at, low, high } = state.ranked;
+  const both = order.map((place) => state.errors[Math.floor(place / 2)]?.[place % 2] ?? 0);
+  const [first = 0, last = 0] = [at[0], at.at(-1)];
+  const most = 1.1 * Math.max(...[...both, ...low, ...high].map(Math.abs), 1e-6);
+  const isOut = (i: number) => (both[i] ?? 0) < (low[i] ?? 0) || (both[i] ?? 0) > (high[i] ?? 0);
+  const dots = (kind: string, keep: (i: number) => boolean) => ({
+    kind,
+    places: both.map((value, i) =>
+      keep(i) ? ([(at[i] ?? 0) / unit, value / unit] as const) : null,
+    ),
+    marks: order.map((place) => Math.floor(place / 2)),
+  });
+  return (
+    <Plot
+      title={`if it were noise, ${units}`}
+      label={`Errors against noise: ${both.filter((_, i) => isOut(i)).length} of ${both.length} coordinates are beyond it`}
+      across={[first / unit, last / unit]}
+      most={most / unit}
+      dots={[dots("inside", (i) => !isOut(i)), dots("outside", isOut)]}
+      selected={selected}
+      select={select}
+      below={(x, y) => {
+        const line = (values: readonly number[]) =>
+          values.map(
+            (value, i) => `${x((at[i] ?? 0) / unit).toFixed(1)} ${y(value / unit).toFixed(1)}`,
+          );
+        return (
+          <g class="curve noise">
+            <path class="band" d={`M${[...line(low), ...line(high).reverse()].join("L")}z`} />
+            <path class="middle" d={`M${line(at).join("L")}`} />
+          </g>
+        );
+      }}
+    />
+  );
+}
+
+/** The largest error of a chain [mm]. */
+function largest(chains: readonly Ends[] = []): number {
+  return Math.max(0, ...chains.flat().map((end) => Math.abs(end ?? 0)));
+}
+
+function extremes({ values }: Covariate): readonly [number, number] {
+  const known = values.flat().filter((value): value is number => value !== null);
+  return [Math.min(...known), Math.max(...known)];
+}
+
+/** Nothing can depend on what is the same for all marks. */
+function isSame(covariate: Covariate): boolean {
+  const [least, most] = extremes(covariate);
+  return !(most - least > 1e-3);
+}
+
+function saidSame(covariate: Covariate): string {
+  const title = TITLES[covariate.name] ?? covariate.name;
+  const [value] = extremes(covariate);
+  if (!Number.isFinite(value)) return `${title} is not known`;
+  const said = covariate.unit === "mm" ? shownLength(value, "mm") : tickText(value);
+  return `${title} is ${said} ${covariate.unit} for all marks`;
+}

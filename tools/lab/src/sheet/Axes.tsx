@@ -1,0 +1,134 @@
+// The axes of the sheet with their lines, how long something is on it, and how long its arrows are.
+import { lengthText, type Unit } from "../controls/lengths";
+import { useScale } from "./scale";
+import { type Pair, rounded, ticks, tickText } from "./view";
+
+const INCH = 25.4;
+const APART = 70; // [px] between ticks
+const LINE = 22; // [px] of a line of the legend
+const TICKS = 24; // [px] below the sheet
+
+/** From where the axes count, and which way: from the middle, or from the edges of the tape. */
+export interface Origin {
+  zero: Pair; // [mm] machine frame
+  way: Pair; // 1 or -1
+}
+
+export const MIDDLE: Origin = { zero: [0, 0], way: [1, 1] };
+
+interface AxesParts {
+  units: Unit;
+  origin: Origin;
+}
+
+export function Axes({ units, origin }: AxesParts) {
+  const { plot, at, back } = useScale();
+  const unit = units === "inch" ? INCH : 1;
+  const [low, high] = [back([plot.left, plot.bottom]), back([plot.right, plot.top])];
+  const along = (axis: 0 | 1, room: number) => {
+    const shown = (mm: number) => ((mm - origin.zero[axis]) * origin.way[axis]) / unit;
+    const count = Math.max(3, Math.floor(room / APART));
+    return ticks(shown(low[axis]), shown(high[axis]), count).map((tick) => ({
+      tick,
+      mm: origin.zero[axis] + tick * unit * origin.way[axis],
+    }));
+  };
+  return (
+    <g class="axes">
+      {along(0, plot.right - plot.left).map(({ tick, mm }) => {
+        const x = at([mm, 0])[0];
+        return (
+          <g key={`x${tick}`}>
+            <line x1={x} x2={x} y1={plot.top} y2={plot.bottom} />
+            <text x={x} y={plot.bottom + 16} text-anchor="middle">
+              {tickText(tick)}
+            </text>
+          </g>
+        );
+      })}
+      {along(1, plot.bottom - plot.top).map(({ tick, mm }) => {
+        const y = at([0, mm])[1];
+        return (
+          <g key={`y${tick}`}>
+            <line x1={plot.left} x2={plot.right} y1={y} y2={y} />
+            <text x={plot.left - 6} y={y + 5} text-anchor="end">
+              {tickText(tick)}
+            </text>
+          </g>
+        );
+      })}
+      <text x={4} y={plot.bottom + 16}>
+        {units}
+      </text>
+    </g>
+  );
+}
+
+const ROOMY = 560; // [px] in which the legend is a single line
+
+/** How high the legend is [px]. */
+export function legendHeight(wide: number, hasArrows: boolean): number {
+  return TICKS + (hasArrows && wide < ROOMY ? 2 : 1) * LINE;
+}
+
+interface LegendParts {
+  units: Unit;
+  /** How many times longer than life arrows are; undefined without arrows. */
+  factor: number | undefined;
+  sigma: number | undefined; // [mm] of a reading
+  radius: number; // [px] of the circle of the noise
+}
+
+/** What an arrow, a circle and a line of the drawing mean, below it. */
+export function Legend({ units, factor, sigma, radius }: LegendParts) {
+  const { plot, px } = useScale();
+  const unit = units === "inch" ? INCH : 1;
+  const long = (most: number) => rounded(most / unit) * unit; // [mm]
+  const bar = long(90 / px);
+  const arrow = factor === undefined ? 0 : long(50 / px / factor);
+  const y = plot.bottom + TICKS + 0.5 * LINE;
+  const end = plot.left + arrow * px * (factor ?? 0);
+  const isNarrow = factor !== undefined && plot.right - plot.left + 60 < ROOMY;
+  const below = y + (isNarrow ? LINE : 0);
+  const noise = isNarrow ? plot.left + 8 : plot.left + 310;
+  const circle = Math.min(radius, 8);
+  return (
+    <g class="legend-of-sheet">
+      {factor !== undefined && (
+        <>
+          <path class="arrow beyond" d={arrowPath([plot.left, y], [end, y])} />
+          <text x={end + 8} y={y + 5}>
+            {lengthText(arrow, units)} {units}:{" "}
+            {factor === 1 ? "arrows as long as life" : `arrows ${factor} times larger`}
+          </text>
+        </>
+      )}
+      {factor !== undefined && sigma !== undefined && (
+        <>
+          <circle class="noise" cx={noise} cy={below} r={circle} />
+          <text x={noise + 14} y={below + 5}>
+            noise
+          </text>
+        </>
+      )}
+      <path class="bar" d={`M${plot.right - bar * px} ${below - 4}v8m0 -4h${bar * px}m0 -4v8`} />
+      <text x={plot.right - bar * px - 6} y={below + 5} text-anchor="end">
+        {lengthText(bar, units)} {units}
+      </text>
+    </g>
+  );
+}
+
+const HEAD = 9; // [px]
+
+/** An arrow between two places of the drawing: a line, and a head that is never longer than the arrow. */
+export function arrowPath([x, y]: Pair, [tx, ty]: Pair): string {
+  const [dx, dy] = [tx - x, ty - y];
+  const length = Math.hypot(dx, dy);
+  if (length < 0.1) return "";
+  const head = Math.min(HEAD, length) / length;
+  const wing = (side: number) =>
+    `${(tx - head * (dx + side * 0.45 * dy)).toFixed(1)} ${(ty - head * (dy - side * 0.45 * dx)).toFixed(1)}`;
+  const neck = `${(tx - dx * head * 0.8).toFixed(1)} ${(ty - dy * head * 0.8).toFixed(1)}`;
+  return `M${x.toFixed(1)} ${y.toFixed(1)}L${neck}M${tx.toFixed(1)} ${ty.toFixed(1)}L${wing(1)}L${wing(-1)}z`;
+}

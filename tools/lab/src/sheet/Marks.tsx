@@ -1,0 +1,111 @@
+// The marks of a state: their noise, what an effect draws, their arrows, and their names.
+import { useMemo } from "preact/hooks";
+import { arrowPath } from "./Axes";
+import type { Mark } from "./marks";
+import { written } from "./names";
+import { useScale } from "./scale";
+import type { Pair } from "./view";
+
+export const BEYOND_NOISE = 2.45; // sigmas: noise alone makes a longer error in 5 % of the marks
+const TYPE = 14; // [px] of the names
+const FEW = 30; // marks that all have their names, if there is room
+
+interface MarksParts {
+  marks: readonly Mark[];
+  errors: readonly (Pair | null)[] | undefined;
+  ghosts: readonly (Pair | null)[] | undefined;
+  /** What an effect draws, below the errors. */
+  print: readonly Pair[] | undefined;
+  factor: number;
+  sigma: number | undefined;
+  selected: number | undefined;
+}
+
+export function Marks(parts: MarksParts) {
+  const { marks, errors, ghosts, print, factor, sigma = 0, selected } = parts;
+  const { at, px } = useScale();
+  const tip = ({ target: [x, y] }: Mark, [dx, dy]: Pair) => at([x + dx * factor, y + dy * factor]);
+  const noise = Math.max(2, BEYOND_NOISE * sigma * factor * px);
+  return (
+    <>
+      {print && (
+        <g class="print">
+          {marks.map((mark, i) => {
+            const [from, to] = [at(mark.target), tip(mark, print[i] ?? [0, 0])];
+            return <path key={i} d={`M${from.join(" ")}L${to.join(" ")}`} />;
+          })}
+        </g>
+      )}
+      {marks.map((mark, i) => {
+        const [x, y] = at(mark.target);
+        const error = errors?.[i];
+        const ghost = ghosts?.[i];
+        const isBeyond = error && Math.hypot(...error) > BEYOND_NOISE * sigma;
+        return (
+          <g key={i}>
+            {error && sigma > 0 && <circle class="noise" cx={x} cy={y} r={noise} />}
+            {ghost && <path class="arrow ghost" d={arrowPath([x, y], tip(mark, ghost))} />}
+            {error ? (
+              <path
+                class={`arrow ${mark.isDoubted ? "doubted" : isBeyond ? "beyond" : "within"}`}
+                d={arrowPath([x, y], tip(mark, error))}
+              />
+            ) : (
+              <Spot look={mark.look ?? "waits"} at={[x, y]} />
+            )}
+            {error && <circle class="place" cx={x} cy={y} r={2.5} />}
+            {mark.isDoubted && <circle class="doubt" cx={x} cy={y} r={14} />}
+            {i === selected && <circle class="lit" cx={x} cy={y} r={13} />}
+          </g>
+        );
+      })}
+      <Names marks={marks} selected={selected} />
+    </>
+  );
+}
+
+/** A mark without an arrow. */
+export function Spot({ look, at: [x, y] }: { look: NonNullable<Mark["look"]>; at: Pair }) {
+  return <circle class={`spot ${look}`} cx={x} cy={y} r={look === "faint" ? 3 : 6} />;
+}
+
+function Names({ marks, selected }: { marks: readonly Mark[]; selected: number | undefined }) {
+  const scale = useScale();
+  const { plot, at } = scale;
+  const named = useMemo(() => {
+    const seen = new Set<string>();
+    const corners = cornersOf(marks);
+    const all = marks.map((mark, i) => {
+      const first = i === selected || !!mark.isDoubted || corners.has(i);
+      const isNamed = first || (marks.length <= FEW && mark.look !== "faint");
+      const name = isNamed && !seen.has(mark.name) ? mark.name : "";
+      seen.add(mark.name);
+      return { name, at: at(mark.target), first };
+    });
+    return written(all, TYPE, 6, plot);
+  }, [marks, selected, scale]);
+  return (
+    <g class="names">
+      {named.map(({ index, x, y }) => (
+        <text key={index} x={x} y={y}>
+          {marks[index]?.name}
+        </text>
+      ))}
+    </g>
+  );
+}
+
+/** The marks nearest to the four corners. */
+function cornersOf(marks: readonly Mark[]): Set<number> {
+  const corners = new Set<number>();
+  for (const [right, up] of [
+    [1, 1],
+    [1, -1],
+    [-1, 1],
+    [-1, -1],
+  ] as const) {
+    const far = marks.map(({ target: [x, y] }) => right * x + up * y);
+    corners.add(far.indexOf(Math.max(...far)));
+  }
+  return corners;
+}

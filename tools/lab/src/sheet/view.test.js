@@ -1,0 +1,79 @@
+// Runs with `node --test`.
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import {
+  extent,
+  factorFor,
+  markAt,
+  nearest,
+  panned,
+  rounded,
+  showing,
+  ticks,
+  WHOLE,
+  zoomed,
+} from "./view.ts";
+
+const SIZE = [2440, 1220];
+
+test("what is enlarged stays where it is seen, and inside of the sheet", () => {
+  const place = [300, -200];
+  const seen = (view) => {
+    const [width, height] = extent(SIZE, view.times);
+    return [(place[0] - view.x) / width, (place[1] - view.y) / height];
+  };
+  const nearer = zoomed(SIZE, WHOLE, 2, place);
+  assert.equal(nearer.times, 2);
+  seen(nearer).forEach((share, axis) => {
+    assert.ok(Math.abs(share - seen(WHOLE)[axis]) < 1e-9);
+  });
+  assert.deepEqual(zoomed(SIZE, nearer, 1 / 9, place), WHOLE);
+  assert.equal(zoomed(SIZE, nearer, 999, place).times, 40);
+  const most = panned(SIZE, nearer, [9e5, -9e5]);
+  assert.ok(most.x + extent(SIZE, 2)[0] / 2 <= extent(SIZE, 1)[0] / 2 + 1e-9);
+  assert.ok(most.y - extent(SIZE, 2)[1] / 2 >= -extent(SIZE, 1)[1] / 2 - 1e-9);
+  assert.deepEqual(panned(SIZE, WHOLE, [50, 50]), WHOLE);
+});
+
+test("a mark that is chosen comes into view, and the view stays if it was seen", () => {
+  const view = { x: 0, y: 0, times: 4 };
+  assert.equal(showing(SIZE, view, [100, 50]), view);
+  assert.equal(showing(SIZE, view, [800, 0]).x, 800);
+});
+
+test("arrows are the longest that a sixth of the sheet allows, by a round factor", () => {
+  assert.equal(factorFor([[3, 4], null], 2440), 50);
+  assert.equal(factorFor([[0, -8]], 2440), 20);
+  assert.equal(factorFor([[900, 0]], 2440), 1);
+  assert.equal(factorFor([], 2440), 500);
+});
+
+test("ticks are round, few, and from end to end whichever end comes first", () => {
+  assert.deepEqual(ticks(-1342, 1342, 9), [-1000, -500, 0, 500, 1000]);
+  assert.deepEqual(ticks(0.3, -0.3, 4), [-0.2, 0, 0.2]);
+  assert.deepEqual(ticks(2, 2, 4), []);
+  assert.deepEqual([1, 4.9, 5, 0.03, 700].map(rounded), [1, 2, 5, 0.02, 500]);
+});
+
+test("a key goes to the mark next to it in that direction", () => {
+  const places = [
+    [-10, 5],
+    [0, 5],
+    [10, 5],
+    [-10, -5],
+    [0, -5],
+  ];
+  assert.equal(markAt("ArrowRight", places, undefined), 0);
+  assert.equal(markAt("ArrowRight", places, 0), 1);
+  assert.equal(markAt("ArrowLeft", places, 2), 1);
+  assert.equal(markAt("ArrowDown", places, 1), 4);
+  assert.equal(markAt("ArrowUp", places, 1), 1);
+  assert.equal(markAt("End", places, 1), 4);
+  assert.equal(markAt("x", places, 1), undefined);
+});
+
+test("the nearest within reach is meant", () => {
+  const places = [[0, 0], null, [10, 0]];
+  assert.equal(nearest([7, 1], places, 5), 2);
+  assert.equal(nearest([5, 9], places, 5), undefined);
+});

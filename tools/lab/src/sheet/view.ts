@@ -1,0 +1,126 @@
+// What part of the sheet is in view, and how its marks are drawn: arithmetic without a browser.
+export type Pair = readonly [number, number];
+
+/** The part of the sheet in view: its middle [mm], and how many times it is enlarged. */
+export interface View {
+  x: number;
+  y: number;
+  times: number;
+}
+
+export const WHOLE: View = { x: 0, y: 0, times: 1 };
+const ROOM = 0.05; // of the width on each side, for arrows that leave the sheet
+const MOST_TIMES = 40;
+const FACTORS = [1, 2, 5, 10, 20, 50, 100, 200, 500];
+const LONGEST = 0.16; // of the sheet's width, for the longest arrow
+
+/** Width and height [mm] that a view shows. */
+export function extent([width, height]: Pair, times: number): Pair {
+  const room = 2 * ROOM * width;
+  return [(width + room) / times, (height + room) / times];
+}
+
+/** A view that is enlarged so much, and within the sheet. */
+function inside(size: Pair, { x, y, times }: View): View {
+  const enlarged = Math.min(MOST_TIMES, Math.max(1, times));
+  const [whole, part] = [extent(size, 1), extent(size, enlarged)];
+  const within = (at: number, axis: 0 | 1) => {
+    const most = (whole[axis] - part[axis]) / 2;
+    return Math.min(most, Math.max(-most, at));
+  };
+  return { x: within(x, 0), y: within(y, 1), times: enlarged };
+}
+
+/** Enlarged by a ratio, so that a place [mm] stays where it is seen. */
+export function zoomed(size: Pair, view: View, ratio: number, [x, y]: Pair): View {
+  const times = Math.min(MOST_TIMES, Math.max(1, view.times * ratio));
+  const share = view.times / times;
+  return inside(size, { x: x + (view.x - x) * share, y: y + (view.y - y) * share, times });
+}
+
+/** Moved by so much [mm]. */
+export function panned(size: Pair, view: View, [dx, dy]: Pair): View {
+  return inside(size, { ...view, x: view.x + dx, y: view.y + dy });
+}
+
+/** A view in which a place is seen: the same if it was seen before. */
+export function showing(size: Pair, view: View, [x, y]: Pair): View {
+  const [width, height] = extent(size, view.times);
+  const isSeen = Math.abs(x - view.x) < 0.45 * width && Math.abs(y - view.y) < 0.45 * height;
+  return isSeen ? view : inside(size, { ...view, x, y });
+}
+
+/** How many times longer than life arrows are drawn: a round number at which the longest is easy to see. */
+export function factorFor(errors: readonly (Pair | null)[], width: number): number {
+  const longest = Math.max(1e-6, ...errors.map((error) => (error ? Math.hypot(...error) : 0)));
+  return FACTORS.filter((factor) => factor * longest <= LONGEST * width).at(-1) ?? 1;
+}
+
+/** The largest of 1, 2, 5, 10, ... that is no more than this. */
+export function rounded(most: number): number {
+  const ten = 10 ** Math.floor(Math.log10(most) + 1e-9);
+  return [5, 2].map((digit) => digit * ten).find((each) => each <= most * (1 + 1e-9)) ?? ten;
+}
+
+/** Round numbers between two others, at most this many. */
+export function ticks(end: number, other: number, count: number): number[] {
+  const [low, high] = end < other ? [end, other] : [other, end];
+  const span = high - low;
+  if (!(span > 0)) return [];
+  const least10 = 10 ** Math.floor(Math.log10(span / count));
+  const step =
+    [1, 2, 5, 10].map((digit) => digit * least10).find((each) => span / each <= count * 1.001) ??
+    span;
+  const [first, last] = [Math.ceil(low / step - 1e-9), Math.floor(high / step + 1e-9)];
+  return Array.from({ length: Math.max(0, last - first + 1) }, (_, i) =>
+    Number(((first + i) * step).toPrecision(10)),
+  );
+}
+
+/** A number at an axis, with a minus as wide as the figures. */
+export function tickText(tick: number): string {
+  return String(Number(tick.toPrecision(6))).replace("-", "\u2212");
+}
+
+const WAYS: Record<string, Pair> = {
+  ArrowLeft: [-1, 0],
+  ArrowRight: [1, 0],
+  ArrowUp: [0, 1],
+  ArrowDown: [0, -1],
+};
+
+/** The mark to which a key goes from another: the nearest in that direction; undefined for another key. */
+export function markAt(
+  key: string,
+  places: readonly Pair[],
+  from: number | undefined,
+): number | undefined {
+  if (key === "Home") return 0;
+  if (key === "End") return places.length - 1;
+  const way = WAYS[key];
+  if (!way) return undefined;
+  const here = from === undefined ? undefined : places[from];
+  if (!here) return 0;
+  let [best, least]: [number | undefined, number] = [from, Number.POSITIVE_INFINITY];
+  places.forEach(([x, y], i) => {
+    const [dx, dy] = [x - here[0], y - here[1]];
+    const along = dx * way[0] + dy * way[1];
+    const aside = Math.abs(dx * way[1]) + Math.abs(dy * way[0]);
+    if (along > 1e-6 && along + 3 * aside < least) [best, least] = [i, along + 3 * aside];
+  });
+  return best;
+}
+
+/** The place nearest to another, within a reach; all in the same unit. */
+export function nearest(
+  [x, y]: Pair,
+  places: readonly (Pair | null | undefined)[],
+  reach: number,
+): number | undefined {
+  let [best, least]: [number | undefined, number] = [undefined, reach];
+  places.forEach((place, i) => {
+    const gap = place ? Math.hypot(place[0] - x, place[1] - y) : reach;
+    if (gap < least) [best, least] = [i, gap];
+  });
+  return best;
+}

@@ -1,0 +1,42 @@
+"""Residuals against noise: a band that noise stays in, and that a pattern leaves."""
+
+import numpy as np
+import pytest
+from plumb.fit.quantiles import quantiles
+from scipy.stats import norm
+
+MARKS = 25
+
+
+def inside(errors, noise_rms):
+    """Whether all points lie in the band."""
+    placed = quantiles(errors, noise_rms)
+    values = errors.ravel()[placed.order]
+    return bool(np.all((values >= placed.low) & (values <= placed.high)))
+
+
+def test_noise_stays_in_the_band_as_often_as_is_said():
+    noise = np.random.default_rng(7)
+    held = [inside(noise.normal(0, 0.4, (MARKS, 2)), 0.4 * np.sqrt(2)) for _ in range(600)]
+    assert 0.92 < np.mean(held) < 0.98
+
+
+def test_noise_that_is_larger_or_has_a_tail_leaves_it():
+    noise = np.random.default_rng(8)
+    errors = noise.normal(0, 0.4, (MARKS, 2))
+    assert inside(errors, 0.4 * np.sqrt(2))
+    assert not inside(2 * errors, 0.4 * np.sqrt(2))
+    errors[3, 1] = 2.4
+    assert not inside(errors, 0.4 * np.sqrt(2))
+
+
+def test_points_stand_at_the_quantiles_of_the_noise_and_name_their_marks():
+    errors = np.array([[0.3, -0.1], [0.2, -0.4]])
+    placed = quantiles(errors, np.sqrt(2) * 0.5)
+    assert placed.order.tolist() == [3, 1, 2, 0]
+    assert placed.at == pytest.approx(0.5 * norm.ppf([0.125, 0.375, 0.625, 0.875]))
+    assert np.all(placed.low < placed.at) and np.all(placed.at < placed.high)
+
+
+def test_a_board_of_distances_alone_has_none():
+    assert quantiles(np.zeros((0, 2)), 0.5).order.size == 0

@@ -1,0 +1,223 @@
+"""The sheet, which every screen draws alike: what it names, how it is enlarged, what it saves."""
+
+import csv
+import re
+import xml.etree.ElementTree as ET
+
+import pytest
+from playwright.sync_api import expect
+from screens import axe_findings, measured_machine, settle
+
+FRAME = ".sheet .board"
+CARD = ".card-of-mark"
+SVG = "{http://www.w3.org/2000/svg}"
+OVERLAPPING = """() => {
+  const boxes = [...document.querySelectorAll(".sheet .names text")].map((text) =>
+    text.getBoundingClientRect());
+  return boxes.filter((box, i) => boxes.some((other, j) => i < j && box.left < other.right &&
+    other.left < box.right && box.top + 3 < other.bottom - 3 && other.top + 3 < box.bottom - 3));
+}"""
+
+
+@pytest.fixture
+def verdict(lab, page):
+    """The verdict on the example's marks."""
+    measured_machine(lab.folder)
+    page.goto(f"{lab.url}#/verdict")
+    page.locator(FRAME).wait_for()
+    settle(page)
+    return page
+
+
+def ticks(page):
+    """What stands at the axes, as numbers."""
+    said = page.locator(".sheet .axes text").all_text_contents()
+    return [float(each.replace("−", "-")) for each in said if each not in {"mm", "inch"}]
+
+
+def span(page):
+    return max(ticks(page)) - min(ticks(page))
+
+
+def saved(page, button):
+    """The path of a file that a button of the sheet saves, and its name."""
+    if not page.get_by_role("button", name=button).is_visible():
+        page.locator(".sheet .tools summary").click()
+    with page.expect_download() as download:
+        page.get_by_role("button", name=button).click()
+    return download.value.path(), download.value.suggested_filename
+
+
+def test_a_mark_is_named_by_mouse_finger_and_keys(verdict):
+    card, place = verdict.locator(CARD), verdict.locator(".sheet circle.place").first
+    place.hover(force=True)
+    expect(card).to_contain_text(re.compile(r"Mark 1 \d\.\d\d mm off"))
+    said = card.inner_text()
+    for word in ("target", "read", "error", "chains"):
+        assert word in said
+    assert re.search(r"left [+−]\d\.\d\d, right [+−]\d\.\d\d", said)
+    verdict.mouse.move(5, 300)
+    expect(card).to_be_hidden()
+    verdict.locator(FRAME).focus()
+    verdict.keyboard.press("Home")
+    assert card.inner_text() == said
+    verdict.keyboard.press("ArrowDown")
+    expect(card).to_contain_text("Mark 6")
+    verdict.keyboard.press("Escape")
+    expect(card).to_be_hidden()
+    place.click(force=True)
+    verdict.mouse.move(5, 300)
+    assert card.inner_text() == said  # a press keeps it
+
+
+def test_the_card_lies_neither_over_its_mark_nor_over_its_arrow(verdict):
+    verdict.locator(FRAME).focus()
+    for key in ("Home", "End"):
+        verdict.keyboard.press(key)
+        card = verdict.locator(CARD).bounding_box()
+        lit = verdict.locator(".sheet circle.lit").bounding_box()
+        assert card["x"] > lit["x"] + lit["width"] or card["x"] + card["width"] < lit["x"]
+
+
+def test_states_are_compared_by_keys_and_by_buttons(verdict):
+    states = verdict.get_by_role("group", name="What is drawn").get_by_role("radio")
+    expect(states.nth(2)).to_be_checked()
+    arrows = verdict.locator(".sheet path.arrow.beyond, .sheet path.arrow.within").first
+    added = arrows.get_attribute("d")
+    verdict.locator(FRAME).focus()
+    verdict.keyboard.press("[")
+    expect(states.nth(1)).to_be_checked()
+    assert arrows.get_attribute("d") != added
+    verdict.keyboard.press("[")
+    verdict.keyboard.press("[")
+    expect(states.nth(0)).to_be_checked()
+    verdict.keyboard.press("]")
+    verdict.keyboard.press("]")
+    assert arrows.get_attribute("d") == added
+    for label, rms in zip(states.locator("..").all(), ("8.91", "1.78", "0.65"), strict=True):
+        expect(label).to_contain_text(rms)
+
+
+def test_it_is_enlarged_by_keys_buttons_wheel_and_two_fingers_and_comes_back(verdict):
+    whole = ticks(verdict)
+    verdict.locator(FRAME).focus()
+    verdict.keyboard.press("+")
+    verdict.keyboard.press("+")
+    assert span(verdict) < 0.6 * (max(whole) - min(whole))
+    verdict.keyboard.press("0")
+    assert ticks(verdict) == whole
+    verdict.get_by_role("button", name="Nearer").click()
+    verdict.get_by_role("button", name="Nearer").click()
+    assert span(verdict) < 0.5 * (max(whole) - min(whole))
+    verdict.get_by_role("button", name="All").click()
+    box = verdict.locator(".sheet svg").bounding_box()
+    x, y = box["x"] + 0.5 * box["width"], box["y"] + 0.4 * box["height"]
+    verdict.mouse.move(x, y)
+    verdict.mouse.wheel(0, -200)
+    assert ticks(verdict) == whole  # the wheel alone scrolls
+    verdict.keyboard.down("Control")
+    verdict.mouse.wheel(0, -200)
+    verdict.keyboard.up("Control")
+    verdict.wait_for_timeout(50)
+    near = span(verdict)
+    assert near < 0.6 * (max(whole) - min(whole))
+    verdict.mouse.move(x, y)
+    verdict.mouse.down()
+    verdict.mouse.move(x + 120, y, steps=3)
+    verdict.mouse.up()
+    assert max(ticks(verdict)[:3]) < max(whole) and ticks(verdict) != whole
+    verdict.get_by_role("button", name="All").click()
+    pinch(verdict, x, y)
+    assert span(verdict) < 0.8 * (max(whole) - min(whole))
+
+
+def pinch(page, x, y):
+    """Two fingers that part, at the sheet."""
+    page.evaluate(
+        """([x, y]) => {
+          const svg = document.querySelector(".sheet svg");
+          const send = (type, id, at) => svg.dispatchEvent(new PointerEvent(type, {
+            pointerId: id, pointerType: "touch", clientX: at, clientY: y, bubbles: true }));
+          send("pointerdown", 11, x - 40);
+          send("pointerdown", 12, x + 40);
+          send("pointermove", 11, x - 90);
+          send("pointermove", 12, x + 90);
+          send("pointerup", 11, x - 90);
+          send("pointerup", 12, x + 90);
+        }""",
+        [x, y],
+    )
+    page.wait_for_timeout(50)
+
+
+def test_the_legend_says_how_much_larger_arrows_are_and_how_long_a_bar_is(verdict):
+    legend = verdict.locator(".legend-of-sheet")
+    expect(legend).to_contain_text(re.compile(r"\d mm: arrows \d+ times larger"))
+    factor = int(re.search(r"arrows (\d+) times", legend.text_content())[1])
+    sample = verdict.locator(".legend-of-sheet path.arrow").bounding_box()["width"]
+    bar = verdict.locator(".legend-of-sheet path.bar").bounding_box()["width"]
+    arrow_mm = float(re.search(r"(\d+) mm: arrows", legend.text_content())[1])
+    bar_mm = float(re.search(r"(\d+) mm$", legend.text_content().strip())[1])
+    assert sample / (arrow_mm * factor) == pytest.approx(bar / bar_mm, rel=0.15)
+    verdict.get_by_label("Arrows longer than life").select_option("50")
+    expect(legend).to_contain_text("arrows 50 times larger")
+
+
+def test_its_axes_are_in_inches_where_the_page_is(verdict):
+    verdict.get_by_role("radio", name="inch").check()
+    settle(verdict)
+    expect(verdict.locator(".sheet .axes text").last).to_have_text("inch")
+    assert 40 <= max(ticks(verdict)) <= 50
+    verdict.locator(FRAME).focus()
+    verdict.keyboard.press("Home")
+    expect(verdict.locator(CARD)).to_contain_text(re.compile(r"Mark 1 0\.\d{3} inch off"))
+
+
+def test_its_data_are_saved_as_a_table(verdict):
+    path, name = saved(verdict, "Data as CSV")
+    assert name == "residuals.csv"
+    rows = list(csv.DictReader(path.read_text().splitlines()))
+    assert len(rows) == 3 * 23 and rows[0]["state"] == "as set"
+    first = {key: float(value) for key, value in rows[23].items() if key not in {"state", "name"}}
+    assert first["sigma_mm"] == pytest.approx(0.5, abs=0.1)
+    assert abs(first["error_x_mm"]) < 5 and abs(first["chain_left_mm"]) < 5
+    squares = [float(r["error_x_mm"]) ** 2 + float(r["error_y_mm"]) ** 2 for r in rows[23:46]]
+    assert (sum(squares) / 23) ** 0.5 == pytest.approx(1.78, abs=0.01)
+
+
+def test_its_picture_is_saved_in_light_colours_whatever_the_page_has(lab, browser):
+    measured_machine(lab.folder)
+    context = browser.new_context(color_scheme="dark", viewport={"width": 1280, "height": 800})
+    page = context.new_page()
+    page.goto(f"{lab.url}#/verdict")
+    page.locator(FRAME).wait_for()
+    settle(page)
+    path, name = saved(page, "Picture as SVG")
+    assert name == "residuals.svg"
+    text = path.read_text()
+    root = ET.fromstring(text)
+    assert "var(" not in text and "class=" not in text
+    paper = root.find(f"{SVG}rect").get("fill")
+    assert sum(map(int, re.findall(r"\d+", paper)[:3])) > 600
+    assert "Verdict · " in root.find(f"{SVG}title").text
+    path, name = saved(page, "Picture as PNG")
+    content = path.read_bytes()
+    assert name == "residuals.png" and content.startswith(b"\x89PNG")
+    assert int.from_bytes(content[16:20], "big") > 1400  # twice its size on the page
+    context.close()
+
+
+def test_on_a_phone_no_name_lies_over_another(lab, browser):
+    measured_machine(lab.folder)
+    context = browser.new_context(viewport={"width": 390, "height": 844}, has_touch=True)
+    page = context.new_page()
+    page.goto(f"{lab.url}#/verdict")
+    page.locator(FRAME).wait_for()
+    settle(page)
+    names = page.locator(".sheet .names text").all_text_contents()
+    assert {"1", "5", "11", "15"} <= set(names)
+    assert page.evaluate(OVERLAPPING) == []
+    page.locator(".sheet circle.place").first.tap(force=True)
+    expect(page.locator(CARD)).to_contain_text("Mark 1")
+    assert axe_findings(page) == []
+    context.close()
