@@ -56,7 +56,7 @@ class Picture:
 EACH = (
     Picture("lab-verdict", "verdict", (1280, 1000), "light", verdict),
     Picture("lab-bench", "bench", (1280, 1000), "dark", bench),
-    Picture("lab-phone", "correct", (390, 844), "light", correction),
+    Picture("lab-narrow", "correct", (390, 844), "light", correction),
 )
 
 
