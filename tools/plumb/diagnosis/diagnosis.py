@@ -81,18 +81,10 @@ def _together(listed: Listed, explanation: Explanation, noise: Noise) -> Togethe
 def _differences(explanations: Sequence[Explanation]) -> dict[tuple[int, int], float]:
     """RMS between what two explanations leave of the readings [mm]."""
     return {
-        (j, i): _rms_between(explanations[i], explanations[j])
+        (j, i): explanations[i].board.rows.rms_of(explanations[i].numbers - explanations[j].numbers)
         for i in range(len(explanations))
         for j in range(i)
     }
-
-
-def _rms_between(explanation: Explanation, other: Explanation) -> float:
-    """Over the marks as vectors, or over distances where no mark was measured [mm]."""
-    rows = explanation.board.rows
-    apart = explanation.numbers - other.numbers
-    counted = apart[: rows.measured.size] if len(rows.measured) else apart
-    return float(np.sqrt(counted @ counted / (len(rows.measured) or len(counted))))
 
 
 def _ranking(readings: CleanReadings) -> tuple[Ranked, ...]:

@@ -129,9 +129,7 @@ class Explanation:
     @property
     def rms(self) -> float:
         """Root mean square error of the marks (as vectors), or of distances without marks [mm]."""
-        marks = self.board.rows.measured
-        counted = self.numbers[: marks.size] if len(marks) else self.numbers
-        return float(np.sqrt(counted @ counted / max(len(marks) or len(counted), 1)))
+        return self.board.rows.rms_of(self.numbers)
 
     @property
     def basis(self) -> Array:

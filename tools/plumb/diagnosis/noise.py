@@ -132,10 +132,8 @@ def _repeats(rows: Observations) -> tuple[float, int]:
 
 def left_by_noise(explanation: Explanation, noise: Noise) -> float:
     """Return what noise alone would leave of a fit [mm], as `Explanation.rms` counts it."""
-    rows = explanation.board.rows
-    count = rows.measured.size or rows.count
-    spare = count - float(np.sum(explanation.basis[:count] ** 2))
-    return noise.sigma * float(np.sqrt(max(spare, 0.0) / (len(rows.measured) or count)))
+    leverages = np.sum(explanation.basis**2, axis=1)
+    return noise.sigma * explanation.board.rows.rms_of_noise(leverages)
 
 
 def library_basis(explanation: Explanation) -> Array:

@@ -136,10 +136,10 @@ def _room(effect: str, explanation: Explanation, noise: Noise) -> Room:
         limits.append(Limit(name.partition(".")[2], float(largest), words[name]["unit"]))
     if len(columns) == 1:
         whole = np.abs(raw) * limits[0].largest / board.problem.scale[columns[0]]
-        return Room(effect, tuple(limits), _per_reading(explanation, whole[:, 0]))
+        return Room(effect, tuple(limits), board.rows.rms_of(board.sigma * whole[:, 0]))
     # Where little is measured the ellipsoid is boundless, but what is possible is not.
     sizes = np.array([limit.largest for limit in limits]) / board.problem.scale[columns]
-    at_limits = sum(_per_reading(explanation, column) for column in (raw * sizes).T)
+    at_limits = sum(board.rows.rms_of(board.sigma * column) for column in (raw * sizes).T)
     return Room(
         effect, tuple(limits), min(_largest(explanation, raw, total, covariance), at_limits)
     )
@@ -148,11 +148,12 @@ def _room(effect: str, explanation: Explanation, noise: Noise) -> Room:
 def _largest(explanation: Explanation, raw: Array, total: Array, covariance: Array) -> float:
     """RMS over the readings of the largest effect of several parameters [mm]."""
     # |E v| over the ellipsoid of v is at most |E middle| + its radius times the longest axis.
+    board = explanation.board
     values, directions = np.linalg.eigh(covariance)
     axes = raw @ (directions * np.sqrt(np.maximum(values, 0.0)))
     radius = float(np.sqrt(scipy.special.chdtri(raw.shape[1], 0.10)))
-    middle = _per_reading(explanation, raw @ total)
-    return middle + radius * max(_per_reading(explanation, axis) for axis in _main_axes(axes))
+    middle = board.rows.rms_of(board.sigma * raw @ total)
+    return middle + radius * max(board.rows.rms_of(board.sigma * axis) for axis in _main_axes(axes))
 
 
 def _main_axes(columns: Array) -> Array:
@@ -160,14 +161,6 @@ def _main_axes(columns: Array) -> Array:
     left, sizes, _ = np.linalg.svd(columns, full_matrices=False)
     main: Array = (left * sizes).T
     return main
-
-
-def _per_reading(explanation: Explanation, whitened: Array) -> float:
-    """RMS over the marks (as vectors), or over distances without marks [mm]."""
-    rows = explanation.board.rows
-    counted = whitened[: rows.measured.size] if len(rows.measured) else whitened[: rows.count]
-    count = len(rows.measured) or rows.count
-    return float(np.linalg.norm(counted) * explanation.board.sigma / np.sqrt(count))
 
 
 def _covariance(columns: Array) -> Array:

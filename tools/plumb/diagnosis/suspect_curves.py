@@ -194,7 +194,8 @@ def fingerprint_of(explanation: Explanation, effect: str, rows: Observations) ->
     the way of the nearest visit in `rows`.
     """
     sheet = visits_all_over(model_by(explanation), rows, counts=COUNTS, share=SHARE)
-    columns, frame = explanation.board.columns([effect]), explanation.board.frame
+    board = explanation.board
+    columns, frame = board.columns([effect]), board.frame
     whole = _sizes(explanation, columns)
     without = explanation.unknowns.copy()
     without[columns] -= whole
@@ -207,8 +208,10 @@ def fingerprint_of(explanation: Explanation, effect: str, rows: Observations) ->
         places=sheet.targets,
         alone=there - seen_by(explanation, sheet, unknowns=without).read.where,
         beyond=there - seen_by(explanation, sheet, unknowns=refitted).read.where,
-        alone_rms=_rms(explanation, drawn),
-        beyond_rms=_rms(explanation, drawn - explanation.slopes[:, frame] @ fitting),
+        alone_rms=board.rows.rms_of(drawn * board.sigma),
+        beyond_rms=board.rows.rms_of(
+            (drawn - explanation.slopes[:, frame] @ fitting) * board.sigma
+        ),
     )
 
 
@@ -217,11 +220,3 @@ def _sizes(explanation: Explanation, columns: Array) -> Array:
     problem = explanation.board.problem
     whole: Array = problem.start[columns] / problem.scale[columns] + explanation.unknowns[columns]
     return whole
-
-
-def _rms(explanation: Explanation, whitened: Array) -> float:
-    """Over the marks as vectors, or over distances where no mark was measured [mm]."""
-    rows = explanation.board.rows
-    counted = whitened[: rows.measured.size] if len(rows.measured) else whitened[: rows.count]
-    count = len(rows.measured) or rows.count
-    return float(np.linalg.norm(counted) * explanation.board.sigma / np.sqrt(count))

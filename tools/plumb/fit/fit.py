@@ -175,18 +175,12 @@ def _fit_of(problem: Problem, solution: Solution, stated: float | None, degrees:
         distance_errors=distances,
         left_out_distance_errors=left_distances,
         spent=spent,
-        noise_rms=sigma * _left_by_noise(rows, np.diag(leverage)),
+        noise_rms=sigma * rows.rms_of_noise(np.diag(leverage)),
         sigma=sigma,
         sigma_from="residuals" if stated is None else "stated",
         settled=solution.settled,
         covariance=covariance * np.outer(problem.scale, problem.scale),
     )
-
-
-def _left_by_noise(rows: Observations, leverages: Array) -> float:
-    """RMS that a fit leaves of noise of 1 mm [mm]: of marks as vectors, or of distances."""
-    counted = leverages[: rows.measured.size] if len(rows.measured) else leverages
-    return float(np.sqrt(np.sum(1 - counted) / (len(rows.measured) or len(counted))))
 
 
 def _estimates(

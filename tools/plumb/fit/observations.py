@@ -50,6 +50,17 @@ class Observations:
         """How many numbers were measured."""
         return 2 * len(self.measured) + len(self.distances)
 
+    def rms_of(self, numbers: Array) -> float:
+        """Root mean square of errors of the measured numbers (n or more,) [mm]: over the marks, as
+        vectors, or over the distances where no mark was measured.
+        """
+        counted = numbers[: self.measured.size or self.count]
+        return float(np.sqrt(counted @ counted / max(len(self.measured) or len(counted), 1)))
+
+    def rms_of_noise(self, leverages: Array) -> float:
+        """Return what a fit leaves of noise of 1 mm, counted alike; its leverages (n or more,)."""
+        return self.rms_of(np.sqrt(np.maximum(1 - leverages, 0.0)))
+
 
 def observe(
     settings: MachineSettings,

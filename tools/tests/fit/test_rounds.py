@@ -217,7 +217,7 @@ def test_compare_tells_the_error_of_each_file(run, ask, file):
     calm, wild = answer["rounds"]
     assert (calm["name"], calm["count"], calm["date"]) == ("calm", 9, "2026-05-01")
     assert calm["rms_mm"] < 0.3 < 2 < wild["rms_mm"] and wild["distance_rms_mm"] is None
-    assert "distances, RMS" in run("compare", *paths)[1]
+    assert "distances, RMS" in run("compare", *paths, "--details")[1]
     assert ask("compare", *paths[:2])[1]["rounds"] == []
 
 
