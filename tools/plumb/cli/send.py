@@ -5,35 +5,50 @@ from __future__ import annotations
 import argparse
 import os
 import signal
+import sys
 from collections.abc import Sequence
 from pathlib import Path
 from threading import Event, Thread
+from time import monotonic
 
 from plumb.cli.arguments import add_port
 from plumb.cli.output import say_failure
-from plumb.cli.screen import Bar, free_name, next_step, sentences
+from plumb.cli.screen import Bar, bar, free_name, next_step, sentences
 from plumb.diary.file import PROGRAM, keep, program_entry, write_and_keep
 from plumb.firmware.settings import refuse_other_numbers, refuse_other_origin
 from plumb.grid.cut_with import form_of
 from plumb.job.dry_run import program_in, refuse_other_files
+from plumb.job.time_left import TimeLeft, timetable
 from plumb.line.memory import Written, kept_before, lines_for, read_numbers
 from plumb.line.port import LostError, SerialPort, port_for
 from plumb.line.progress import SAID_PAUSED, waits_in
-from plumb.line.sender import Reached, RefusedError, Sender, StoppedError, cleaned
+from plumb.line.sender import (
+    PAUSED,
+    Reached,
+    RefusedError,
+    Sender,
+    Status,
+    StoppedError,
+    cleaned,
+    plain,
+)
 from plumb.marks.form import read_form
 from plumb.model.predict import known_effects
 from plumb.settings.files import read_settings
 from plumb.settings.machine import MachineSettings
 from plumb.text.errors import InputError
 from plumb.text.files import read_text
+from plumb.text.values import time_text
 
-NUMBERS = "$$"  # tells the sender how long the motors hold, and how far ahead answers come
+NOWHERE = Status("", (0.0, 0.0, 0.0))
 SETTINGS = (
     "machine.toml",
     "groundcontrol.ini",
     "webcontrol.json",
 )  # that a program may be sent with
 SHOWN = 20  # changed numbers in the answer
+RENEWED = 0.5  # [s] between two looks in a terminal
+SAID = 60.0  # [s] between two lines elsewhere
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -55,7 +70,6 @@ def run(arguments: argparse.Namespace) -> int:
             written = _write(sender, what, numbers, back=arguments.undo)
             _print_written(arguments, written)
             return 0
-        sender.ask(NUMBERS)
         return _stream_and_note(sender, arguments, text)
     finally:
         port.close()
@@ -144,13 +158,12 @@ def _print_resume(arguments: argparse.Namespace, reached: Reached) -> None:
 class _Attendant:
     """Attends to a program: Ctrl-C holds it, and a program that waits is asked about."""
 
-    def __init__(self, bar: Bar, text: Sequence[str], reached: Reached) -> None:
+    def __init__(self, followed: _Followed, text: Sequence[str], reached: Reached) -> None:
         """`text`: the program with its comments, which say what its pauses are for."""
         self._reached = reached
         self.pressed = Event()  # Ctrl-C
-        self._bar = bar
+        self._followed = followed
         self._waits = {wait.lines: wait.do for wait in waits_in(text)}
-        self._total = sum(1 for _ in cleaned(text))
         self._done = 0
         self._waits_now = False
         self._question: Question | None = None
@@ -159,7 +172,7 @@ class _Attendant:
         """Note that the machine took this many lines."""
         self._done = done
         self._reached.note(done)
-        self._bar.show(done / self._total)
+        self._followed.answered(done)
 
     def hear(self, line: str) -> None:
         """Print what the machine says, and note that it waits."""
@@ -170,6 +183,8 @@ class _Attendant:
 
     def attend(self, sender: Sender) -> None:
         """Hold, ask, and do what is answered; called again and again."""
+        waits = self._question is not None or self._waits_now
+        self._followed.look(pauses=waits or (sender.status or NOWHERE).state == PAUSED)
         if self._question:
             self._settle(sender, self._question)
         elif self._waits_now:
@@ -181,7 +196,7 @@ class _Attendant:
             self._ask("The machine holds.")
 
     def _ask(self, why: str) -> None:
-        self._bar.clear()
+        self._followed.clear()
         self._question = Question(f"{why} Enter goes on; s and Enter stops: ")
 
     def _settle(self, sender: Sender, question: Question) -> None:
@@ -194,6 +209,57 @@ class _Attendant:
             self._reached.end()
             sender.stop()
         sender.go_on()
+
+
+class _Followed:
+    """Says how far a program is: line, percent and the time that is left.
+
+    In a terminal that is a line that renews itself; elsewhere a line now and then.
+    """
+
+    def __init__(self, text: Sequence[str], left: TimeLeft | None) -> None:
+        """`left` is None for a single line, and where no dry run says how long it takes."""
+        self._left = left
+        self._numbers = [number for number, line in enumerate(text, start=1) if plain(line)]
+        self._total = len(text)
+        self._line = 0
+        self._bar = Bar("sending", patience=0.5)
+        self._shown_at = self._said_at = monotonic()
+
+    def answered(self, done: int) -> None:
+        """Note that the machine took this many lines."""
+        self._line = self._numbers[done - 1]
+
+    def look(self, *, pauses: bool) -> None:
+        """Note the time, and show how far the program is; called again and again."""
+        now = monotonic()
+        if self._left is None:
+            return
+        self._left.note(now, self._line, pauses=pauses)
+        if pauses or not self._line:
+            return
+        if now - self._shown_at >= RENEWED:
+            self._shown_at = now
+            self._bar.show(self._left.share, self._words())
+        if now - self._said_at >= SAID and not sys.stderr.isatty():
+            self._said_at = now
+            print(f"{self._words()}, {100 * self._left.share:.0f} % done", file=sys.stderr)
+
+    def _words(self) -> str:
+        left = time_text(self._left.seconds) if self._left else ""
+        return f"line {self._line} of {self._total}, {left} left"
+
+    def clear(self) -> None:
+        """Leave nothing behind."""
+        self._bar.clear()
+
+
+def _time_left(sender: Sender, numbers: dict[int, float], text: Sequence[str]) -> TimeLeft | None:
+    if sum(1 for _ in cleaned(text)) < 2:
+        return None
+    place = (sender.status or NOWHERE).place
+    times = timetable(numbers, text, place, progress=bar("working out how long it takes"))
+    return TimeLeft(times, ahead=sender.ahead) if times else None
 
 
 def _stream_and_note(sender: Sender, arguments: argparse.Namespace, text: Sequence[str]) -> int:
@@ -212,10 +278,12 @@ def _stream_and_note(sender: Sender, arguments: argparse.Namespace, text: Sequen
 
 def _stream(sender: Sender, arguments: argparse.Namespace, text: Sequence[str]) -> int:
     """Stream a program, and wait until the place is kept; Ctrl-C holds the machine where it is."""
-    bar = Bar("sending", patience=0.5)
+    # They also tell the sender how long the motors hold, and how far ahead answers come.
+    numbers = read_numbers(sender)
     lines = list(cleaned(text))
     reached = Reached(sender, text)
-    attendant = _Attendant(bar, text, reached)
+    followed = _Followed(text, _time_left(sender, numbers, text))
+    attendant = _Attendant(followed, text, reached)
     sender.attend, sender.said = attendant.attend, attendant.hear
     before = signal.signal(signal.SIGINT, lambda *_: attendant.pressed.set())
     try:
@@ -235,7 +303,7 @@ def _stream(sender: Sender, arguments: argparse.Namespace, text: Sequence[str]) 
         _print_resume(arguments, reached)
         raise
     finally:
-        bar.clear()
+        followed.clear()
         signal.signal(signal.SIGINT, before)
     if len(lines) > 1:
         print(f"{len(lines)} lines were sent, and the machine took each.")
