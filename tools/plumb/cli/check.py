@@ -45,7 +45,7 @@ from plumb.model.predict import CANNOT_HANG, REACH_WORDS, USABLE
 from plumb.pictures.job import Drawn, draw_job
 from plumb.settings.machine import GRAVITY, MachineSettings
 from plumb.text.answers import Internal, part
-from plumb.text.values import bare, brief, signed, unit, worded
+from plumb.text.values import bare, brief, signed, time_text, unit, worded
 
 NAMED = 30  # parts that get their number in the picture
 
@@ -388,12 +388,3 @@ def _lines(numbers: Sequence[int]) -> str:
 
 def _count(number: int, noun: str) -> str:
     return f"{number} {noun}" + ("" if number == 1 else "s")
-
-
-def time_text(seconds: float) -> str:
-    """Return a time for people."""
-    whole = round(seconds)
-    hours, minutes = whole // 3600, whole // 60 % 60
-    if hours:
-        return f"{hours} h {minutes} min"
-    return f"{minutes} min {whole % 60} s" if minutes else f"{whole} s"

@@ -109,7 +109,7 @@ class Bar:
         """Show how much of the work is done, 0 to 1, and on what it is."""
         waited = time.monotonic() - self._start
         if not self._shown and waited >= self._patience and sys.stderr.isatty():
-            columns = TextColumn("{task.description}"), BarColumn(), TaskProgressColumn()
+            columns = TextColumn("{task.description}"), BarColumn(20), TaskProgressColumn()
             self._shown = Progress(*columns, console=Console(stderr=True), transient=True)
             self._task = self._shown.add_task(self._what, total=1.0)
             self._shown.start()

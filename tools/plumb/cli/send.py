@@ -14,8 +14,9 @@ from threading import Event, Thread
 from typing import Annotated
 
 from plumb.cli.arguments import add_json, add_port
+from plumb.cli.followed import NOWHERE, Followed, time_left
 from plumb.cli.output import say_failure
-from plumb.cli.screen import Bar, free_name, next_step, print_json, sentences
+from plumb.cli.screen import free_name, next_step, print_json, sentences
 from plumb.diary.file import PROGRAM, keep, program_entry, write_and_keep
 from plumb.firmware.settings import refuse_other_numbers, refuse_other_origin
 from plumb.grid.cut_with import form_of
@@ -23,7 +24,14 @@ from plumb.job.dry_run import program_in, refuse_other_files
 from plumb.line.memory import Written, kept_before, lines_for, read_numbers
 from plumb.line.port import LostError, SerialPort, port_for
 from plumb.line.progress import SAID_PAUSED, waits_in
-from plumb.line.sender import Reached, RefusedError, Sender, StoppedError, cleaned
+from plumb.line.sender import (
+    PAUSED,
+    Reached,
+    RefusedError,
+    Sender,
+    StoppedError,
+    cleaned,
+)
 from plumb.marks.form import read_form
 from plumb.model.predict import known_effects
 from plumb.settings.files import read_settings
@@ -32,7 +40,6 @@ from plumb.text.answers import meant
 from plumb.text.errors import InputError
 from plumb.text.files import read_text
 
-NUMBERS = "$$"  # tells the sender how long the motors hold, and how far ahead answers come
 SETTINGS = (
     "machine.toml",
     "groundcontrol.ini",
@@ -94,7 +101,6 @@ def _send(arguments: argparse.Namespace, answer: SendAnswer) -> bool:
             answer.changed = dict(written.changed)
             _print_written(arguments, (written, kept))
             return True
-        sender.ask(NUMBERS)
         answer.lines = sum(1 for _ in cleaned(text))
         answer.stopped_at = _stream_and_note(sender, arguments, text, hear)
         return answer.stopped_at is None
@@ -186,7 +192,11 @@ class _Attendant:
     """Attends to a program: Ctrl-C holds it, and a program that waits is asked about."""
 
     def __init__(
-        self, bar: Bar, text: Sequence[str], reached: Reached, said: Callable[[str], None]
+        self,
+        followed: Followed,
+        text: Sequence[str],
+        reached: Reached,
+        said: Callable[[str], None],
     ) -> None:
         """`text`: the program with its comments, which say what its pauses are for; `said`: called
         with what the machine says.
@@ -194,9 +204,8 @@ class _Attendant:
         self._reached = reached
         self._said = said
         self.pressed = Event()  # Ctrl-C
-        self._bar = bar
+        self._followed = followed
         self._waits = {wait.lines: wait.do for wait in waits_in(text)}
-        self._total = sum(1 for _ in cleaned(text))
         self._done = 0
         self._waits_now = False
         self._question: Question | None = None
@@ -205,7 +214,7 @@ class _Attendant:
         """Note that the machine took this many lines."""
         self._done = done
         self._reached.note(done)
-        self._bar.show(done / self._total)
+        self._followed.answered(done)
 
     def hear(self, line: str) -> None:
         """Print what the machine says, and note that it waits."""
@@ -216,6 +225,8 @@ class _Attendant:
 
     def attend(self, sender: Sender) -> None:
         """Hold, ask, and do what is answered; called again and again."""
+        waits = self._question is not None or self._waits_now
+        self._followed.look(pauses=waits or (sender.status or NOWHERE).state == PAUSED)
         if self._question:
             self._settle(sender, self._question)
         elif self._waits_now:
@@ -227,7 +238,7 @@ class _Attendant:
             self._ask("The machine holds.")
 
     def _ask(self, why: str) -> None:
-        self._bar.clear()
+        self._followed.clear()
         self._question = Question(f"{why} Enter goes on; s and Enter stops: ")
 
     def _settle(self, sender: Sender, question: Question) -> None:
@@ -273,10 +284,12 @@ def _stream(
     """Stream a program, and wait until the place is kept; Ctrl-C holds the machine where it is.
     The line where it stopped; None: it did not.
     """
-    bar = Bar("sending", patience=0.5)
+    # They also tell the sender how long the motors hold, and how far ahead answers come.
+    numbers = read_numbers(sender)
     lines = list(cleaned(text))
     reached = Reached(sender, text)
-    attendant = _Attendant(bar, text, reached, said)
+    followed = Followed(text, time_left(sender, numbers, text))
+    attendant = _Attendant(followed, text, reached, said)
     sender.attend, sender.said = attendant.attend, attendant.hear
     before = signal.signal(signal.SIGINT, lambda *_: attendant.pressed.set())
     try:
@@ -296,7 +309,7 @@ def _stream(
         _print_resume(arguments, reached)
         raise
     finally:
-        bar.clear()
+        followed.clear()
         signal.signal(signal.SIGINT, before)
     if len(lines) > 1:
         print(f"{len(lines)} lines were sent, and the machine took each.")

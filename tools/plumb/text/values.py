@@ -204,3 +204,12 @@ def point(value: object, *, unit: float = 1.0) -> tuple[float, float]:
     if not isinstance(value, list) or len(value) != 2:
         raise ValueError("two numbers are needed, as [x, y]")
     return length(value[0], unit=unit), length(value[1], unit=unit)
+
+
+def time_text(seconds: float) -> str:
+    """Return a time for people."""
+    whole = round(seconds)
+    hours, minutes = whole // 3600, whole // 60 % 60
+    if hours:
+        return f"{hours} h {minutes} min"
+    return f"{minutes} min {whole % 60} s" if minutes else f"{whole} s"
