@@ -48,7 +48,7 @@ from plumb.fit.inputs import Inputs
 from plumb.model.plain import plainly
 from plumb.plan import Next, Proposal, propose
 from plumb.text.answers import Internal, part
-from plumb.text.values import bare, worded
+from plumb.text.values import bare, in_inches, worded
 
 
 @dataclass(frozen=True)
@@ -261,7 +261,7 @@ def _ending(
     if best is None:
         return [verdict]
     if not arguments.details:
-        steps = to_read(best, best.option.do, inputs.settings)
+        steps = to_read(best, list(map(in_inches, best.option.do)), inputs.settings)
         return [f"{verdict}\n{steps}\n{after(best, arguments, inputs.settings)}"]
     parts = [verdict, *first_proposal(best, arguments, inputs.settings)]
     if this.result.chosen:

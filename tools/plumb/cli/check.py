@@ -299,7 +299,7 @@ def _job(checked: Checked) -> str:
     if hanging is not None:
         slack, tight = hanging.tension
         rows.append(["chains", f"{slack:.0f} to {tight:.0f} N", "slackest and tightest"])
-        rows.append(["give", f"{worded(hanging.give)}/N", _give(hanging)])
+        rows.append(["give", worded(GRAVITY * hanging.give), _give(hanging)])
     return table(["the job", "", ""], rows, words=[1, 2])
 
 
@@ -323,10 +323,7 @@ def _bits(piece: Piece) -> str:
 
 
 def _give(hanging: Hanging) -> str:
-    return (
-        f"a push of 1 kg moves the bit {worded(GRAVITY * hanging.give)}, most at line "
-        f"{hanging.give_line}"
-    )
+    return f"by a push of 1 kg on the bit, most at line {hanging.give_line}"
 
 
 def _parts(checked: Checked) -> str:

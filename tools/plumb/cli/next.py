@@ -43,6 +43,7 @@ from plumb.plan.proposal import (
 from plumb.settings.machine import MachineSettings
 from plumb.text.answers import Internal, part
 from plumb.text.errors import InputError
+from plumb.text.values import in_inches
 
 SHOWN, SPOKEN = 8, 3  # proposals of --details in the table, and in sentences; --json has all
 FEW = 5  # proposals of a short answer
@@ -174,7 +175,7 @@ def details(diagnosis: Diagnosis, advice: Next) -> list[str]:
     if len(advice.proposals) > 1:
         parts.append(_table(advice))
         steps = [
-            f"{place}. {' '.join(proposal.option.do)}"
+            f"{place}. {in_inches(' '.join(proposal.option.do))}"
             for place, proposal in enumerate(advice.proposals[1:SPOKEN], 2)
         ]
         parts.append(sentences(steps, mark=""))

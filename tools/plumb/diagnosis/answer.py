@@ -221,7 +221,7 @@ def _cannot_tell(diagnosis: Diagnosis) -> str:
     if sure:
         causes = "One cause is" if len(sure) == 1 else "Two causes are"
         causes = causes if len(sure) <= MOST_NAMED else "The causes are"
-        said = f"{causes} most likely {_named(sure)}. With it: "
+        said = f"{causes} most likely {_named(sure)}. In addition: "
     else:
         said = "The marks cannot tell yet. Most likely it is "
     said += f"{_open(first, sure)}, at odds of {odds_words(first.share)}"

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 from plumb.settings.machine import GRAVITY, MachineSettings
-from plumb.text.values import INCH, length_in, number_in, unit
+from plumb.text.values import INCH, in_inches, length_in, number_in, unit
 
 Curve = Literal["straight", "square", "tangent squared"]  # of the tangent: degrees
 Unit = Literal["mm", "kg", "g", "degrees"]
@@ -159,7 +159,7 @@ def what_to_type(names: Iterable[str], settings: MachineSettings) -> str:
         return ""
     shown = "inches" if read[0].unit == "mm" and unit() == "inch" else read[0].unit
     titles = "; then ".join(reading.title for reading in read)
-    return f"{VALUE}: {titles}, in {shown}."
+    return in_inches(f"{VALUE}: {titles}, in {shown}.")
 
 
 def number_read(

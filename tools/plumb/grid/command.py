@@ -18,6 +18,7 @@ from plumb.grid.options import (
     MACHINE_KEYS,
     NUMBERS,
     PRESETS,
+    UNITS,
     Grid,
     GridError,
     PlainMachine,
@@ -52,6 +53,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> argparse._ArgumentGroup:
     group.add_argument("--settings", metavar="FILE", help=settings)
     group.add_argument("--output", metavar="FILE", help="where the program goes [the screen]")
     group.add_argument("--marks", metavar="FILE", help="also write a marks.toml to fill in")
+    group.add_argument(
+        "--units", choices=UNITS, default="mm", help="of your tape, for the form [%(default)s]"
+    )
     another = "the form says that its marks are on another sheet than those before"
     group.add_argument("--new-sheet", action="store_true", help=another)
     force = "replace files that this program did not write"
@@ -152,7 +156,9 @@ def run(
             named = cut_with_lines(arguments.settings, arguments.marks)
             if arguments.output:
                 files[arguments.output] = with_form(text, arguments.marks, arguments.output)
-            form = marks_list(grid, machine, named, new_sheet=arguments.new_sheet)
+            form = marks_list(
+                grid, machine, named, new_sheet=arguments.new_sheet, units=arguments.units
+            )
             files[arguments.marks] = form
         writing = write or (lambda contents: _write(contents, force=arguments.force))
         writing({path: said.encode("ascii") for path, said in files.items()})

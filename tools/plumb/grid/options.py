@@ -19,6 +19,8 @@ MAX_TENSION = 200.0  # [N]
 # Below a slack-side bungee's pull the gears change sides, and the far chain is too soft.
 MIN_TENSION = 18.0  # [N]
 MIN_FREE_CHAIN = 100.0  # [mm] between ring and sprocket, so that the carriage stays clear
+# [mm] of each unit of a form, and the decimals that its targets have.
+UNITS = {"mm": (1.0, 2), "inch": (25.4, 4)}
 
 
 class Number(NamedTuple):

@@ -5,7 +5,7 @@ from __future__ import annotations
 import configparser
 import json
 
-from plumb.grid.options import APPROACH, PLUNGE_FEED, Grid, PlainMachine
+from plumb.grid.options import APPROACH, PLUNGE_FEED, UNITS, Grid, PlainMachine
 from plumb.grid.pattern import (
     benchmark_form,
     check,
@@ -59,32 +59,42 @@ def program(grid: Grid, machine: PlainMachine) -> str:
 
 
 def marks_list(
-    grid: Grid, machine: PlainMachine, cut_with: str = "", *, new_sheet: bool = False
+    grid: Grid,
+    machine: PlainMachine,
+    cut_with: str = "",
+    *,
+    new_sheet: bool = False,
+    units: str = "mm",
 ) -> str:
-    """Return the text of a marks.toml that waits for the tape's readings.
+    """Return the text of a marks.toml that waits for the tape's readings, in units of UNITS.
 
     `cut_with` are lines that name the settings in force, and `new_sheet` says that the marks are on
     another sheet than those before.
     """
     cut_with = "\nnew_sheet = true" * new_sheet + cut_with
+    if units == "inch":
+        cut_with = f'\nunits = "inch"  # fractions too, like 3 7/8{cut_with}'
     if grid.is_benchmark:
         return benchmark_form(cut_with)
     spans = spans_of(grid)
     lines = [
-        "# Calibration marks, mm from the sheet's top left corner; x right, y down, approach too.",
+        f"# Calibration marks, {units} from the sheet's top left corner; x right, y down, approach "
+        "too.",
         "# Fill in each measured line and take away its #; delete a [[mark]] that you cannot read.",
         *([spans_line(spans)] if spans else []),
         f'frame = "sheet-top-left"{cut_with}',
     ]
+    size, digits = UNITS[units]
     for mark in listed(touches_of(grid, machine)):
         x, y = machine.sheet_width / 2 + mark.x, machine.sheet_height / 2 - mark.y
+        target = f"[{x / size:.{digits}f}, {y / size:.{digits}f}]"
         lines += [
-            f'\n[[mark]]\nname = "{mark.name}"\ntarget = [{x:.2f}, {y:.2f}]',
+            f'\n[[mark]]\nname = "{mark.name}"\ntarget = {target}',
             f"approach = [{APPROACH[0]:.1f}, {0.0 - APPROACH[1]:.1f}]",
             "# measured = [ , ]",
         ]
     for first, second in spans:
-        lines.append(f'\n# [[distance]]\n# between = ["{first}", "{second}"]\n# length =')
+        lines.append(f'\n# [[distance]]\n# between = ["{first}", "{second}"]\n# {units} =')
     return "\n".join([*lines, ""])
 
 

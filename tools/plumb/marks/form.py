@@ -17,7 +17,7 @@ from plumb.marks.model import Mark, Measurements, Point
 from plumb.marks.plausible import Sheet
 from plumb.marks.toml import read_marks_toml
 from plumb.text.files import read_text
-from plumb.text.values import UNITS
+from plumb.text.values import UNITS, with_quoted_fractions
 
 BLANK = "# measured = [ , ]"  # what a form has where a reading is yet to come
 DIGITS = {"mm": 4, "inch": 5}  # a 1/128 inch stays what it is
@@ -41,7 +41,7 @@ def read_form(
     """Return the form in a file. Raises InputError for what is no marks.toml."""
     measurements = read_marks_toml(path, sheet=sheet, known=known)
     text = read_text(path)
-    return Form(tomllib.loads(text), _comment_of(text), measurements)
+    return Form(tomllib.loads(with_quoted_fractions(text)), _comment_of(text), measurements)
 
 
 def with_readings(form: Form, places: Mapping[int, Point | None]) -> dict[str, Any]:

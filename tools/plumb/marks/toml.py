@@ -26,6 +26,7 @@ from plumb.text.values import (
     point,
     refuse_unknown,
     text_of,
+    with_quoted_fractions,
     within,
 )
 
@@ -82,7 +83,7 @@ def read_marks_toml(
     marks too.
     """
     try:
-        head = tomllib.loads(read_text(path))
+        head = tomllib.loads(with_quoted_fractions(read_text(path)))
     except tomllib.TOMLDecodeError as error:
         raise InputError(path, f"is not valid TOML: {error}", remedy="mend that line") from None
     with naming(path, "at the top"):

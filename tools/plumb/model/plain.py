@@ -20,12 +20,15 @@ if TYPE_CHECKING:
     from plumb.model.python_effect import PlainWords
 
 
+PER_METRE, PER_FOOT = "for each metre", "for each foot"
+FOOT = 0.3048  # [m]
+
 # What the marks are measured from is no number of the machine, so its words are here.
 SHEET: dict[str, PlainWords] = {
     "sheet_rotation": {
-        "more": "sheet turned by #",
+        "more": f"sheet turned by # {PER_METRE}",
         "less": "",
-        "unit": "mm for each metre",
+        "unit": "mm",
         "times": 1000.0,
         "shown": "as is",
     }
@@ -59,9 +62,8 @@ def plain_size(name: str, value: float, low: float | None = None, high: float | 
         for number in (value, *((low, high) if low is not None and high is not None else ()))
     ]
     digits = digits_for(shown, ends)
-    said = (words["less"] if below else words["more"]).replace(
-        "#", f"{_rounded(shown, digits)} {_unit(words)}"
-    )
+    said = in_feet(words["less"] if below else words["more"])
+    said = said.replace("#", f"{_rounded(shown, digits)} {_unit(words)}")
     if not ends:
         return said
     least, most = (_rounded(end, digits) for end in sorted(ends))
@@ -110,7 +112,15 @@ def shown_size(words: PlainWords, value: float) -> float:
         size = math.copysign(math.sqrt(abs(size)), size)
     if words["shown"] not in ("as is", "root"):
         return math.degrees(math.atan(size))
-    return in_unit(size) if words["unit"] == "mm" else size
+    if words["unit"] != "mm":
+        return size
+    per_foot = FOOT if PER_METRE in words["more"] and unit() == "inch" else 1.0
+    return in_unit(size) * per_foot
+
+
+def in_feet(said: str) -> str:
+    """Return words for a length of a metre for a foot, where lengths are shown in inches."""
+    return said.replace(PER_METRE, PER_FOOT) if unit() == "inch" else said
 
 
 def _unit(words: PlainWords) -> str:
@@ -145,7 +155,7 @@ def plain_change(name: str, before: float, value: float, low: float, high: float
     words = words_of(name)
     was, now, *ends = (shown_size(words, number) for number in (before, value, low, high))
     digits = digits_for(now, ends)
-    noun = " ".join(words["more"].replace("#", "").split())
+    noun = " ".join(in_feet(words["more"]).replace("#", "").split())
     margin = _rounded(abs(ends[1] - ends[0]) / 2, digits)
     return PlainChange(noun, _rounded(was, digits), _rounded(now, digits), margin, _unit(words))
 

@@ -7,8 +7,12 @@ from pathlib import Path
 import plumb.grid as marks_grid
 from plumb.grid.pattern import ACROSS, SPANS, SQUARE, UPWARDS
 from plumb.pictures.measuring_sheet import Hole, MeasuringSheet, Reading, measuring_sheet
+from plumb.text.values import bare, in_unit, unit
 
-TAPE = "Read the tape in mm, to half a millimetre if you can."
+TAPE = {
+    "mm": "Read the tape in mm, to half a millimetre if you can.",
+    "inch": "Read the tape in inches, to 1/32 if you can.",
+}
 
 
 def grid_paper(
@@ -34,13 +38,15 @@ def content_of(
         how=(
             "x: from the left edge of the wood to the middle of the mark. "
             "y: from its top edge down to it.",
-            f"{TAPE} A white dot is its neighbour made again: read both." if grid.repeats else TAPE,
+            f"{TAPE[unit()]} A white dot is its neighbour made again: read both."
+            if grid.repeats
+            else TAPE[unit()],
             then,
         ),
         words=("mark", "planned x", "planned y", "x", "y"),
         holes=holes,
         readings=tuple(
-            Reading(hole.name, (f"{hole.x:.1f}", f"{hole.y:.1f}"), "again" if hole.again else "")
+            Reading(hole.name, (bare(hole.x, 1), bare(hole.y, 1)), "again" if hole.again else "")
             for hole in holes
         ),
         sheet=(machine.sheet_width, machine.sheet_height),
@@ -68,13 +74,13 @@ def _benchmark(
         title="Calibration Benchmark Test",
         how=(
             "From mark to mark, or from a side of a cut to the same side of the other.",
-            TAPE,
+            TAPE[unit()],
             then,
         ),
         words=("from - to", "planned", "measured"),
         holes=holes,
         readings=tuple(
-            Reading(f"{first} - {last}", (f"{planned.get(name, SQUARE):g}",))
+            Reading(f"{first} - {last}", (f"{round(in_unit(planned.get(name, SQUARE)), 3):g}",))
             for name, spans in SPANS.items()
             for first, last in spans
         ),

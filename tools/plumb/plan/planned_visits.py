@@ -20,6 +20,7 @@ from plumb.model.reach import with_soft_chains
 from plumb.settings.machine import GRAVITY, MachineSettings
 from plumb.text.answers import key
 from plumb.text.errors import InputError
+from plumb.text.values import bare, unit
 
 Array = np.ndarray
 
@@ -339,19 +340,22 @@ def marks_file(
     said: tuple[str, ...],
     cut_with: str = "",
 ) -> str:
-    """Return the text of the file: places count from the sheet's top left corner, y down [mm];
-    `cut_with` are lines that name the settings in force.
+    """Return the text of the file: places count from the sheet's top left corner, y down, in the
+    unit in which lengths are shown; `cut_with` are lines that name the settings in force.
     """
+    if unit() == "inch":
+        cut_with = f'\nunits = "inch"  # fractions too, like 3 7/8{cut_with}'
     lines = [
-        "# Measured from the sheet's left and top edges, in mm: take away the # before `measured`",
-        "# and write what the tape says. Give this file to plumb after the marks you have.",
+        f"# Measured from the sheet's left and top edges, in {unit()}: take away the # before",
+        "# `measured` and write what the tape says. Give this file to plumb after your marks.",
         *(f"# {sentence}" for sentence in said),
         f'frame = "sheet-top-left"{cut_with}',
         f'controller = "{controller}"',
     ]
     for i, name in enumerate(visits.names):
         x, y = visits.targets[i, 0] + sheet[0] / 2, sheet[1] / 2 - visits.targets[i, 1]
-        lines += ["", "[[mark]]", f'name = "{name}"', f"target = [{x:.3f}, {y:.3f}]"]
+        target = f"target = [{bare(x, 3)}, {bare(y, 3)}]"
+        lines += ["", "[[mark]]", f'name = "{name}"', target]
         lines.append(f"sled_weight_n = {visits.sled_weights[i]:.1f}")
         side = visits.approaches[i]
         if side.any():

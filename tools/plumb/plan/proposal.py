@@ -33,7 +33,7 @@ from plumb.plan.planned_visits import (
 )
 from plumb.plan.separation import ENOUGH, apart, drawn_by
 from plumb.text.answers import Internal, among, key, meant, part
-from plumb.text.values import bare, worded
+from plumb.text.values import bare, in_inches, worded
 
 Array = np.ndarray
 # A question: what the chance is the chance of.
@@ -243,7 +243,10 @@ def headline_of(best: Proposal) -> str:
 
 def steps_of(best: Proposal) -> list[str]:
     """Return what to do, and what it tells, in sentences."""
-    return [*best.option.do, *dict.fromkeys(_difference(*pair) for pair in best.parts)]
+    return [
+        *map(in_inches, best.option.do),
+        *dict.fromkeys(_difference(*pair) for pair in best.parts),
+    ]
 
 
 def _difference(first: str, second: str) -> str:

@@ -165,6 +165,33 @@ def brief(length: float) -> str:
     return f"{round(in_unit(length), 2):g} {unit()}"
 
 
+# Sentences that say lengths in mm and metres, for somebody with an inch tape.
+
+_BOTH = re.compile(r"[\d.]+ mm \(([\d.]+ inch(?:es)?)\)")  # says both already
+_PER_METRE = re.compile(r"([\d.]+) mm per metre")
+_MILLIMETRES = re.compile(r"([\d.]+) mm\b")
+_METRES = re.compile(r"\b(?:(\d+) m|a metre)\b")
+
+
+def in_inches(sentence: str) -> str:
+    """Return a sentence with its lengths in inches, where lengths are shown so."""
+    if unit() != "inch":
+        return sentence
+    said = _BOTH.sub(r"\1", sentence)
+    said = _PER_METRE.sub(lambda length: f"{float(length[1]) * 0.012:.1g} inch per foot", said)
+    said = _MILLIMETRES.sub(lambda length: f"{float(length[1]) / INCH:.2g} inch", said)
+    return _METRES.sub(lambda length: _eighths(1000 * float(length[1] or 1)), said)
+
+
+def _eighths(length: float) -> str:
+    """Return a length [mm] in inches and eighths."""
+    whole, part = divmod(round(8 * length / INCH), 8)
+    if not part:
+        return f"{whole} inches"
+    top, below = {2: (1, 4), 4: (1, 2), 6: (3, 4)}.get(part, (part, 8))
+    return f"{whole} {top}/{below} inches"
+
+
 # Lengths as people type them: millimetres or inches, decimals or fractions like 47 7/8.
 
 INCH = 25.4  # [mm]
@@ -189,10 +216,28 @@ def length_in(text: str, *, unit: float = 1.0) -> float:
 
 
 def length(value: object, *, unit: float = 1.0) -> float:
-    """Return the length [mm] that a TOML value is: a number, or a fraction in quotes."""
+    """Return the length [mm] that a TOML value is: a number, or a fraction of inches in quotes."""
     if isinstance(value, str) and "/" in value:
+        if unit == 1.0:
+            raise ValueError(
+                f"'{_short(value)}' is a fraction, and this is in mm; write units = \"inch\" at "
+                "the top of the file (or inch = for a distance)"
+            )
         return length_in(value, unit=unit)
     return unit * number(value)
+
+
+_ASIDE = re.compile(r"(\"(?:[^\"\\]|\\.)*\"|'[^']*'|#[^\n]*)")  # what TOML quotes, and comments
+_BARE_FRACTION = re.compile(
+    r"(?<=[\[,=])([ \t]*)([+-]?(?:\d+[ -]+)?\d+[ \t]*/[ \t]*\d+)(?=[ \t]*(?:[\],\n]|$))"
+)
+
+
+def with_quoted_fractions(text: str) -> str:
+    """Return TOML in which fractions are quoted; a maker writes [3 7/8, 4 3/16]."""
+    parts = _ASIDE.split(text)
+    parts[::2] = [_BARE_FRACTION.sub(r'\1"\2"', part) for part in parts[::2]]
+    return "".join(parts)
 
 
 def point(value: object, *, unit: float = 1.0) -> tuple[float, float]:

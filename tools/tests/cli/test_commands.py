@@ -18,6 +18,7 @@ EXAMPLE = Path(__file__).resolve().parents[3] / "docs/example"
 SHARED = {
     "start",
     "__init__",
+    "addition",
     "answers",
     "arguments",
     "demo",

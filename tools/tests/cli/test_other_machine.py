@@ -91,10 +91,10 @@ def test_a_fit_is_written_into_its_machine_and_into_a_machine_that_holds_it(run,
     settings = fitted("fit.toml", BELIEVED)
     assert run("send", "--port", "USB", "fit.toml")[0] == 0
     assert board.numbers[2] == pytest.approx(settings.motor_gap, rel=1e-6)
-    code, said, notes = run("send", "--port", "USB", "fit.toml", "--json")
+    code, said, report = run("send", "--port", "USB", "fit.toml", "--json")
     answer = json.loads(said)
     assert code == 0 and answer["changed"] == {} and answer["stopped_at"] is None
-    assert answer["lines"] > 10 and "each was read back" in notes and Path(answer["kept"]).exists()
+    assert answer["lines"] > 10 and "each was read back" in report and Path(answer["kept"]).exists()
     board.numbers[2] -= 1
     answer = json.loads(run("send", "--port", "USB", "fit.toml", "--force", "--json")[1])
     assert answer["changed"]["2"] == pytest.approx([settings.motor_gap - 1, settings.motor_gap])

@@ -54,7 +54,7 @@ def test_what_all_explanations_have_is_said_once():
     sure = "motor_level"
     either = account(sure, "chain_sag", share=0.8), account(sure, "tape_scale", share=0.2)
     assert said_of("cannot_tell", *either) == (
-        "One cause is most likely motors that are not level. With it: chain sag, at odds "
+        "One cause is most likely motors that are not level. In addition: chain sag, at odds "
         "of 4 to 1, or a tape that reads wrong, at 1 to 4."
     )
     assert said_of("cannot_tell", either[0], account(sure, share=0.2)).endswith(

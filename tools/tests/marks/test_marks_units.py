@@ -90,3 +90,27 @@ def test_inches_without_a_word_are_still_noticed(tmp_path):
     rows = "".join(f"{x},{y},{x / 25.4},{y / 25.4}\n" for x in (-900, 0, 900) for y in (-400, 400))
     with pytest.raises(InputError, match='write units = "inch" at the top'):
         read(tmp_path, f"target_x_mm,target_y_mm,measured_x_mm,measured_y_mm\n{rows}", "m.csv")
+
+
+def test_fractions_need_no_quotes_and_names_stay_as_they_are(tmp_path):
+    path = tmp_path / "marks.toml"
+    bare = INCHES.replace('["5 1/8", "4 15/16"]', "[5 1/8, 4-15/16]").replace(
+        'inch = "45 1/16"', "inch = 45 1/16  # once [1/2, 3]"
+    )
+    read = []
+    for text in (INCHES, bare, bare.replace('"1"', '"a [1/2, 3]"')):
+        path.write_text(text)
+        read.append(read_marks(path, sheet=SHEET))
+    assert read[0].marks == read[1].marks and read[0].distances == read[1].distances
+    assert read[2].marks[0].name == "a [1/2, 3]"
+    assert read[2].marks[0].measured == read[0].marks[0].measured
+
+
+@pytest.mark.parametrize("place", ["[5 1/8, 4 15/16]", '["5 1/8", "4 15/16"]'])
+def test_a_fraction_in_a_file_of_mm_is_refused_with_the_cure(place, tmp_path):
+    path = tmp_path / "marks.toml"
+    path.write_text(MILLIMETRES.replace("[130.175, 125.4125]", place))
+    with pytest.raises(
+        InputError, match=r"mark 1 measured: '5 1/8' is a fraction, .* units = \"in"
+    ):
+        read_marks(path, sheet=SHEET)

@@ -235,13 +235,14 @@ def _written(project: Project, advice: Next, place: int) -> _Written | None:
     if not len(option.visits):
         return None
     settings = str(project.path(project.choices.settings))
-    form = form_of(
-        advice,
-        place,
-        str(project.path(f"{STEM}.toml")),  # the text is the same under any name
-        settings=settings,
-        sheet=settings_in(settings).sheet,
-    )
+    with shown_in(project.choices.units):  # the form is in the unit of the tape
+        form = form_of(
+            advice,
+            place,
+            str(project.path(f"{STEM}.toml")),  # the text is the same under any name
+            settings=settings,
+            sheet=settings_in(settings).sheet,
+        )
     count = 1
     while True:
         name = f"{STEM}.toml" if count == 1 else f"{STEM}-{count}.toml"
