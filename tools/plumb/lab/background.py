@@ -98,6 +98,7 @@ class WarmBoard:
     """A board with its view, and the marks against the settings as they stand."""
 
     key: str  # of the files and choices that it was made of
+    words: tuple[str, ...]  # its files, as a command names them
     live: LiveBoard
     view: BoardView
     raw: Comparison
@@ -110,14 +111,20 @@ class LiveBoards:
         self._kept: WarmBoard | None = None
         self._making = Lock()
 
-    def of(self, project: Project, inputs_of: Callable[[Project], Inputs]) -> WarmBoard:
+    def of(
+        self,
+        project: Project,
+        inputs_of: Callable[[Project], Inputs],
+        board_words: Callable[[Project], list[str]],
+    ) -> WarmBoard:
         """Return the board of a project as it is on disk now. Raises InputError."""
         with self._making:
             key = key_of(project)
             if self._kept is None or self._kept.key != key:
                 inputs = inputs_of(project)
                 live = LiveBoard(inputs)
-                self._kept = WarmBoard(key, live, BoardView(live), compare(inputs))
+                words = tuple(board_words(project))
+                self._kept = WarmBoard(key, words, live, BoardView(live), compare(inputs))
             return self._kept
 
 

@@ -73,8 +73,12 @@ def _open(url: str, say: Callable[[str], None]) -> None:
 
 
 def _listening(port: int) -> socket.socket:
-    """Return a socket on the port, of this computer alone."""
-    listener = socket.socket()
+    """Return a socket on the port, of this computer alone.
+
+    It says that it is TCP: asyncio sends the body of an answer at once only where it knows that.
+    Else each answer waits for the browser's receipt of its header, 40 ms.
+    """
+    listener = socket.socket(socket.AF_INET, socket.SOCK_STREAM, socket.IPPROTO_TCP)
     listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
     try:
         listener.bind((HOST, port))

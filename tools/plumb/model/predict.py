@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import cache
 from math import hypot, sqrt
 from typing import TYPE_CHECKING, Annotated, Literal, NamedTuple
 
@@ -44,6 +45,7 @@ class Reached:
         return np.asarray(np.linalg.eigvalsh(self.compliance)[:, -1], dtype=float)
 
 
+@cache
 def library() -> list[EffectWords]:
     """Return every effect of the firmware, in the order applied: words, parameters and units."""
     return _core.effects()

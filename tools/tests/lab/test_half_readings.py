@@ -69,7 +69,8 @@ def test_half_a_reading_does_not_count_not_even_after_a_reload(lab, readings, ty
     expect(page.locator(".count")).to_contain_text("23 of 23 marks are read")
     expect(field(page, LEFT)).not_to_have_attribute("aria-describedby", re.compile("."))
     page.goto(f"{lab.site}#/verdict")
-    expect(page.get_by_text(re.compile("As set: "))).to_be_visible(timeout=PATIENCE)
+    states = page.get_by_role("group", name="What is drawn")
+    expect(states.get_by_text("as set")).to_be_visible(timeout=PATIENCE)
     expect(half).to_have_count(0)
 
 
@@ -83,7 +84,8 @@ def test_what_another_program_read_meanwhile_is_no_half_any_more(lab, readings):
     expect(page.locator(".count")).to_contain_text("23 of 23 marks are read")
     expect(field(page, LEFT)).not_to_have_value("")
     page.goto(f"{lab.site}#/verdict")
-    expect(page.get_by_text(re.compile("As set: "))).to_be_visible(timeout=PATIENCE)
+    states = page.get_by_role("group", name="What is drawn")
+    expect(states.get_by_text("as set")).to_be_visible(timeout=PATIENCE)
     expect(page.get_by_text("half typed")).to_have_count(0)
 
 

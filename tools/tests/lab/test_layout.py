@@ -87,3 +87,14 @@ def test_a_phone_has_one_column_and_small_bars(measured):
     seen = "each => Math.max(0, each.getBoundingClientRect().bottom)"
     bars = page.locator("header").evaluate(seen) + foot.bounding_box()["height"]
     assert bars <= 0.15 * NARROW["height"]
+
+
+def test_a_phone_shows_the_first_field_of_the_readings_without_scrolling(measured):
+    page = measured("readings")
+    page.set_viewport_size(NARROW)
+    fields = page.locator(".cells input")
+    fields.first.wait_for()
+    for field in (fields.nth(0), fields.nth(1)):
+        box = field.bounding_box()
+        assert box["y"] + box["height"] <= page.locator(".way-on").bounding_box()["y"]
+    expect(page.get_by_label("Measured from")).to_be_in_viewport(ratio=1)

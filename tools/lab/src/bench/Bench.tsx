@@ -1,5 +1,5 @@
 // The bench for effects: add and take away, and see at once what is left of the errors.
-import { useState } from "preact/hooks";
+import { useMemo, useState } from "preact/hooks";
 import { type Project, send } from "../api/client";
 import { Residuals } from "../residuals/Residuals";
 import { useDrawn } from "../residuals/useDrawn";
@@ -34,25 +34,30 @@ function OpenBench({ bench }: { bench: Board }) {
   const { now, frame, previous } = live;
   const [laid, lay] = useState("");
   const drawn = useDrawn(laid ? [laid] : [], bench.board);
-  const states = [bench.as_set, ...(frame ? [frame] : [])];
-  if (now && now.choice.effects.length > 0) states.push(now.fit);
+  // A slider moves more often than a fit comes: what has not changed is not drawn again.
+  const stage = useMemo(() => {
+    const states = [bench.as_set, ...(frame ? [frame] : [])];
+    const hasEffects = !!now && now.choice.effects.length > 0;
+    if (hasEffects) states.push(now.fit);
+    return (
+      <Residuals
+        marks={bench.marks}
+        states={states}
+        ghosts={hasEffects ? previous?.fit : undefined}
+        sigma={bench.sigma}
+        covariates={bench.covariates}
+        drawn={drawn}
+        sheet={bench.sheet}
+      />
+    );
+  }, [bench, frame, now, previous, drawn]);
   return (
     <Screen
       title="Effects bench"
       say="Add an effect: all else is refitted at once. Pale arrows show the state before. Lay an effect over the marks to see what it draws. Nothing goes to the machine."
       why={<Why />}
       {...(now ? { command: now.fit.command } : {})}
-      stage={
-        <Residuals
-          marks={bench.marks}
-          states={states}
-          ghosts={states.length > 2 ? previous?.fit : undefined}
-          sigma={bench.sigma}
-          covariates={bench.covariates}
-          drawn={drawn}
-          sheet={bench.sheet}
-        />
-      }
+      stage={stage}
     >
       {live.refusal && (
         <p class="trouble" role="alert">

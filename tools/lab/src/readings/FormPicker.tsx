@@ -9,7 +9,32 @@ interface FormPickerParts {
   choose: (name: string) => void;
 }
 
+/** The forms of the folder, where there are several. */
 export function FormPicker({ form, choose }: FormPickerParts) {
+  if (form.files.length === 0)
+    return (
+      <p>
+        There are no marks yet. <a href="#/measure">Choose marks</a> and cut them first, or open a
+        file that has readings.
+      </p>
+    );
+  if (form.files.length === 1) return null;
+  return (
+    <label class="form-picker">
+      Form
+      <select value={form.file} onChange={(event) => choose(event.currentTarget.value)}>
+        {form.files.map((file) => (
+          <option key={file.name} value={file.name}>
+            {file.name}: {file.read} of {file.asked} read
+          </option>
+        ))}
+      </select>
+    </label>
+  );
+}
+
+/** A file of readings from elsewhere; folded away where a form is open. */
+export function FileOfReadings({ form, choose }: FormPickerParts) {
   const { reload } = useProject();
   const [, run, refusal] = useDo();
   const pick = async (input: HTMLInputElement) => {
@@ -32,35 +57,11 @@ export function FormPicker({ form, choose }: FormPickerParts) {
       {refusal}
     </label>
   );
-  if (form.files.length === 0) {
-    return (
-      <div class="form-picker">
-        <p>
-          There are no marks yet. <a href="#/measure">Choose marks</a> and cut them first, or open a
-          file that has readings.
-        </p>
-        {picker}
-      </div>
-    );
-  }
+  if (form.files.length === 0) return picker;
   return (
-    <div class="form-picker">
-      {form.files.length > 1 && (
-        <label>
-          Form
-          <select value={form.file} onChange={(event) => choose(event.currentTarget.value)}>
-            {form.files.map((file) => (
-              <option key={file.name} value={file.name}>
-                {file.name}: {file.read} of {file.asked} read
-              </option>
-            ))}
-          </select>
-        </label>
-      )}
-      <details class="more">
-        <summary>Readings from a file</summary>
-        {picker}
-      </details>
-    </div>
+    <details class="from-file">
+      <summary>Readings from a file</summary>
+      {picker}
+    </details>
   );
 }

@@ -38,16 +38,6 @@ export function Grid({ form, readings, doubted }: GridParts) {
       <p class="from">
         In each cell: {units} from the <b>{across}</b> edge, then from the <b>{upright}</b> edge.
       </p>
-      {isFolded && (
-        <MarkPicker
-          form={form}
-          layout={layout}
-          typed={kept.value}
-          doubted={doubted}
-          open={open}
-          pick={pick}
-        />
-      )}
       {spots.map((spot) => (
         <div key={`${spot.row}/${spot.column}`}>
           {spot.marks.map((mark) => (
@@ -77,6 +67,16 @@ export function Grid({ form, readings, doubted }: GridParts) {
           ))}
         </div>
       ))}
+      {isFolded && (
+        <MarkPicker
+          form={form}
+          layout={layout}
+          typed={kept.value}
+          doubted={doubted}
+          open={open}
+          pick={pick}
+        />
+      )}
     </div>
   );
 }

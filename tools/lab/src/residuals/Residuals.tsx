@@ -5,6 +5,7 @@ import { Sheet } from "../sheet/Sheet";
 import { useProject } from "../shell/project";
 import { type Covariate, type Left, Plots } from "./Plots";
 import type { Drawn } from "./useDrawn";
+import { useRested } from "./useRested";
 import "./residuals.css";
 
 interface ResidualsParts {
@@ -35,8 +36,28 @@ export function Residuals(parts: ResidualsParts) {
     () => marks.map(({ name, target, measured }) => ({ name, target, measured })),
     [marks],
   );
-  if (!state) return null;
   const laid = shown === FRAME ? drawn : undefined;
+  // A slider moves the arrows; the plots follow a few times a second.
+  const plotted = useRested(state);
+  const frame = states[Math.min(FRAME, states.length - 1)];
+  const plots = useMemo(
+    () =>
+      covariates &&
+      plotted &&
+      frame && (
+        <Plots
+          covariates={covariates}
+          state={plotted}
+          scale={frame}
+          drawn={laid}
+          units={units}
+          selected={selected}
+          select={select}
+        />
+      ),
+    [covariates, plotted, frame, laid, units, selected],
+  );
+  if (!state) return null;
   return (
     <>
       <Sheet
@@ -54,17 +75,7 @@ export function Residuals(parts: ResidualsParts) {
         selected={selected}
         select={select}
       />
-      {covariates && (
-        <Plots
-          covariates={covariates}
-          state={state}
-          scale={states[Math.min(FRAME, states.length - 1)] ?? state}
-          drawn={laid}
-          units={units}
-          selected={selected}
-          select={select}
-        />
-      )}
+      {plots}
     </>
   );
 }

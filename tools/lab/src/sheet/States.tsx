@@ -19,7 +19,7 @@ export function States({ states, shown, show, units }: StatesParts) {
         <label key={i}>
           <input type="radio" name={name} checked={i === shown} onChange={() => show(i)} />
           <span>
-            {state.title}
+            {state.title}{" "}
             {state.fit_rms !== undefined && <b>{namedLength(state.fit_rms, units, 2)}</b>}
             {state.noise_rms != null && (
               <small> noise leaves {shownLength(state.noise_rms, units, 2)}</small>

@@ -186,7 +186,7 @@ function ErrorFigure({ name, mm, noise, units }: ErrorParts) {
       <dd>
         {mm === null ? "–" : namedLength(mm, units, 2)}
         {mm !== null && noise != null && (
-          <small>noise alone leaves {shownLength(noise, units, 2)}</small>
+          <small> noise alone leaves {shownLength(noise, units, 2)}</small>
         )}
       </dd>
     </div>

@@ -5,7 +5,7 @@ import { TakeAlong } from "../controls/TakeAlong";
 import { Distances } from "../readings/Distances";
 import { Doubts } from "../readings/Doubts";
 import { lengthBetween } from "../readings/distances";
-import { FormPicker } from "../readings/FormPicker";
+import { FileOfReadings, FormPicker } from "../readings/FormPicker";
 import { Grid } from "../readings/Grid";
 import { ReadAgain } from "../readings/ReadAgain";
 import { ReadingsMap } from "../readings/ReadingsMap";
@@ -19,7 +19,7 @@ import { Screen } from "../shell/Screen";
 import "../readings/readings.css";
 
 const PLACED =
-  "Type where each mark is, from the two edges. Each number is saved at once and stays open to change. A reading that disagrees gets a ring: look at it again.";
+  "Type where each mark is, from the two edges. Enter goes on. Each number is saved at once. A reading that disagrees gets a ring.";
 const TAPED =
   "Lay the tape between the two marks of each line, in this order, and type what it says. Each number is saved at once and stays open to change.";
 
@@ -81,6 +81,7 @@ export function Readings() {
           {read > 0 && <TakeAlong name="readings.csv">Save the readings as a table</TakeAlong>}
         </>
       )}
+      <FileOfReadings form={form} choose={readings.chooseFile} />
     </Screen>
   );
 }

@@ -18,7 +18,7 @@ from plumb.fit.covariates import Covariate
 from plumb.fit.expected import plausible_range
 from plumb.fit.fit import Fit
 from plumb.lab.background import LiveBoards, WarmBoard
-from plumb.lab.project import Project
+from plumb.lab.project import Choices
 from plumb.lab.residuals import Ends, Pair, State, as_set, ends, fitted_state, pairs
 from plumb.lab.rounds import board_words, command, inputs_of, known_words, unit_words
 from plumb.lab.routes.project import ProjectAnswer, TheProject, show
@@ -154,7 +154,7 @@ class BenchSave(BenchChoice):
 def _warm(request: Request, project: TheProject) -> WarmBoard:
     boards = request.app.state.live_boards
     assert isinstance(boards, LiveBoards)
-    return boards.of(project, inputs_of)
+    return boards.of(project, inputs_of, board_words)
 
 
 Warm = Annotated[WarmBoard, Depends(_warm)]
@@ -192,7 +192,7 @@ def refit(choice: BenchChoice, project: TheProject, warm: Warm) -> BenchFit:
         sizes=sizes,
         intervals=intervals,
         settled=fitted.settled,
-        command=_command(project, chosen, warm.live.inputs.measurements.typed.unit),
+        command=_command(project.choices, chosen, warm),
     )
 
 
@@ -326,11 +326,12 @@ def _sizes(fitted: Fit, chosen: Chosen) -> dict[str, BenchSize]:
     return sizes
 
 
-def _command(project: Project, chosen: Chosen, typed: str) -> str:
-    choices = project.choices
+def _command(choices: Choices, chosen: Chosen, warm: WarmBoard) -> str:
+    """Return the same in a terminal. No file is read: a slider asks for it many times a second."""
     held = [word for item in chosen.held.items() for word in ("--hold", "{}={:.12g}".format(*item))]
     known = known_words(choices, effects=chosen.effects, held=chosen.held)
     return command(
-        *("add", *board_words(project), *known, *unit_words(choices, typed)),
+        *("add", *warm.words, *known),
+        *unit_words(choices, warm.live.inputs.measurements.typed.unit),
         *("--effect", *(chosen.effects or ["none"]), *held, "-o", NEW_MACHINE),
     )
