@@ -232,6 +232,6 @@ def test_add_says_what_the_numbers_of_a_round_mean(run, file):
             place = np.round(mark.measured, 2).tolist()
             lines += ["[[mark]]", f"target = {list(mark.target)}", f"measured = {place}"]
         paths.append(file(f"{name}.toml", "\n".join(lines)))
-    _, said, _ = run("add", *paths, "--effect", "chain_pitch")
+    _, said, _ = run("add", *paths, "--effect", "chain_pitch", "--details")
     assert "zero2.left" in said and "sheet2.rotation" in said
     assert "- zero2: how much more chain is out" in said and "- sheet2: how the new" in said
