@@ -60,7 +60,7 @@ export function Sheet(parts: SheetParts) {
   const frame = {
     tabIndex: 0,
     role: "group" as const,
-    "aria-label": `${label}. Arrow keys choose a mark, plus and minus enlarge${states.length > 1 ? ", [ and ] change the state" : ""}.`,
+    "aria-label": `The sheet: arrow keys choose a mark, plus and minus enlarge${states.length > 1 ? ", [ and ] change the state" : ""}`,
   };
   const { plot, px } = scale;
   const high = plot.bottom + legendHeight(wide, state !== undefined);
