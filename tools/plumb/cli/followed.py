@@ -1,4 +1,4 @@
-"""How far a program is that is sent: its line, the share that is done, and the time that is left."""
+"""How far a program is that is being sent: its line, its share, and the time that is left."""
 
 from __future__ import annotations
 

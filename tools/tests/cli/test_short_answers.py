@@ -124,3 +124,18 @@ def test_a_verdict_has_its_colour_where_the_screen_has_colours(command, colour, 
     assert ";3" not in "".join(answer(run, "simple", command))
     monkeypatch.delenv("FORCE_COLOR")
     assert "\x1b" not in "".join(answer(run, "simple", command))
+
+
+@pytest.mark.parametrize(
+    ("board", "more", "colour"),
+    [
+        ("simple", (), ";33m"),  # several causes are left
+        ("simple", checked(), ";32m"),  # a single cause
+        ("holes", (), ";31m"),  # nothing in the library
+    ],
+)
+def test_a_verdict_is_coloured_by_what_it_says(board, more, colour, run):
+    put(board)
+    said = run("diagnose", INI, MARKS, *more)[1].rstrip("\n").split("\n")
+    verdict, _ = verdict_of(said)
+    assert all(f"\x1b[1{colour}" in line for line in verdict)
