@@ -118,7 +118,10 @@ def worst_rows(comparison: Comparison, inputs: Inputs) -> list[str]:
     more = f" {left_out} more are off by less; --details shows them." if left_out else ""
     parts = [f"{rows}\n{sentences([f'{said}{more}'], mark='')}"]
     outside = outside_sentence(comparison.promised) if comparison.promised else ""
-    notes = [*([outside] if outside else []), *comparison.warnings][:NOTES]
+    score = ""
+    if comparison.benchmark:
+        score = benchmark_sentence(comparison.benchmark, comparison.benchmark_left)
+    notes = [*filter(None, [score, outside]), *comparison.warnings][:NOTES]
     return [*parts, sentences(notes)] if notes else parts
 
 

@@ -22,6 +22,7 @@ SHARED = {
     "answers",
     "arguments",
     "demo",
+    "followed",
     "inputs",
     "main",
     "man",

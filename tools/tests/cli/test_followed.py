@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from plumb.cli import send
+from plumb.cli import followed
 from plumb.job.time_left import TimeLeft, Timetable
 
 TEXT = ["(a job)", "G0 X1", "", *(f"G1 X{x} F100" for x in range(8000))]
@@ -28,25 +28,25 @@ class Screen:
 @pytest.fixture
 def clock(monkeypatch):
     now = [1000.0]
-    monkeypatch.setattr(send, "monotonic", lambda: now[0])
+    monkeypatch.setattr(followed, "monotonic", lambda: now[0])
     return now
 
 
 def follow(clock, *, seconds, step=0.25, pauses=False):
     """A job whose lines take 2 s each, followed for a while."""
-    followed = send._Followed(TEXT, TimeLeft(Timetable(np.arange(len(TEXT) + 1) * 2.0), ahead=1.0))
+    job = followed.Followed(TEXT, TimeLeft(Timetable(np.arange(len(TEXT) + 1) * 2.0), ahead=1.0))
     every = int(2 / step)
     for tick in range(int(seconds / step)):
         clock[0] += step
         if tick % every == every - 1:
-            followed.answered(tick // every + 1)
-        followed.look(pauses=pauses)
-    followed.clear()
+            job.answered(tick // every + 1)
+        job.look(pauses=pauses)
+    job.clear()
 
 
 def test_where_nobody_looks_a_line_comes_each_minute(clock, monkeypatch):
     screen = Screen(watched=False)
-    monkeypatch.setattr(send.sys, "stderr", screen)
+    monkeypatch.setattr(followed.sys, "stderr", screen)
     follow(clock, seconds=185)
     lines = screen.said.splitlines()
     assert len(lines) == 3
@@ -55,15 +55,15 @@ def test_where_nobody_looks_a_line_comes_each_minute(clock, monkeypatch):
 
 def test_in_a_pause_nothing_is_said(clock, monkeypatch):
     screen = Screen(watched=False)
-    monkeypatch.setattr(send.sys, "stderr", screen)
+    monkeypatch.setattr(followed.sys, "stderr", screen)
     follow(clock, seconds=185, pauses=True)
     assert screen.said == ""
 
 
 def test_a_terminal_has_a_line_that_fits(clock, monkeypatch):
     shown = []
-    monkeypatch.setattr(send.sys, "stderr", Screen(watched=True))
-    monkeypatch.setattr(send.Bar, "show", lambda self, share, what: shown.append((share, what)))
+    monkeypatch.setattr(followed.sys, "stderr", Screen(watched=True))
+    monkeypatch.setattr(followed.Bar, "show", lambda self, share, what: shown.append((share, what)))
     follow(clock, seconds=4000, step=0.5)
     assert len(shown) > 7000
     shares = [share for share, _ in shown]
@@ -74,9 +74,9 @@ def test_a_terminal_has_a_line_that_fits(clock, monkeypatch):
 
 def test_a_single_line_is_not_followed(clock, monkeypatch):
     screen = Screen(watched=False)
-    monkeypatch.setattr(send.sys, "stderr", screen)
-    followed = send._Followed(["G0 X1"], None)
-    followed.answered(1)
+    monkeypatch.setattr(followed.sys, "stderr", screen)
+    job = followed.Followed(["G0 X1"], None)
+    job.answered(1)
     clock[0] += 100
-    followed.look(pauses=False)
+    job.look(pauses=False)
     assert screen.said == ""

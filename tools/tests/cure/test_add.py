@@ -208,5 +208,5 @@ def test_distances_alone_say_nothing_of_where_the_sheet_lies(run, ask, tmp_path)
     assert answer["frame"]["motor_center_x"] == 0
     names = [parameter["name"] for parameter in answer["parameters"]]
     assert names == ["motor_gap", "chain_pitch.left", "chain_pitch.right"]
-    said = run("compare", machine, board[1])[1]
+    said = run("compare", machine, board[1], "--details")[1]
     assert "fitted to these marks" in said and "turned" not in said

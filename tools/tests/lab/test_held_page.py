@@ -6,7 +6,7 @@ import re
 from lab_machine import PATIENCE, start_virtual
 from playwright.sync_api import expect
 
-GAP = re.compile(r"motor_gap \(\$2\)\s*3008\.4 mm\s*2978\.4 mm")
+GAP = re.compile(r"motor_gap\s*\$2 = 3008\.4 mm\s*\$2 = 2978\.4 mm")
 
 
 def question(page):

@@ -101,7 +101,7 @@ def write_and_send(visit, count):
         visit.press(press)
         # The machine keeps a float: at a five in the last place it may round to the other side.
         near = "|".join(re.escape(f"{now + more:.6g}") for more in (-0.004, 0, 0.004))
-        expect(rows.first).to_contain_text(re.compile(f"→ ({near})"), timeout=PATIENCE)
+        expect(rows.first).to_contain_text(re.compile(rf"\$\d+ = ({near})"), timeout=PATIENCE)
         kind = "old" if press.startswith("Give back") else "new"
         said = f"holds {count} {kind} numbers; each was read back"
         expect(visit.page.get_by_text(said)).to_be_visible(timeout=PATIENCE)

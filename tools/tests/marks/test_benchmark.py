@@ -138,7 +138,7 @@ def test_the_score_falls_when_the_effect_is_added(ask, run, file):
     assert added["benchmark"]["before"] == score
     assert added["benchmark"]["after"]["long_mm"] < 0.1
     assert "Calibration Benchmark Score" in run("compare", machine, marks)[1]
-    said = run("add", machine, marks, "--effect", "chain_pitch")[1]
+    said = run("add", machine, marks, "--effect", "chain_pitch", "--details")[1]
     assert "to expect when it is cut again" in " ".join(said.split())
 
 
