@@ -69,7 +69,7 @@ class Outline:
     @property
     def is_seen(self) -> bool:
         """Whether it shows in its typical size, with POWER."""
-        return self.smallest is not None and self.smallest <= 1
+        return _is_seen(self.smallest)
 
 
 @dataclass(frozen=True)
@@ -226,6 +226,10 @@ def _smallest(board: Board, effect: str, seen: float) -> float | None:
     return _needed(board, effect, seen) / seen if seen > UNSEEN else None
 
 
+def _is_seen(smallest: float | None) -> bool:
+    return smallest is not None and smallest <= 1
+
+
 def _is_distinct(matrix: Array, i: int) -> bool:
     return bool((matrix[i] >= APART).all())
 
@@ -233,10 +237,7 @@ def _is_distinct(matrix: Array, i: int) -> bool:
 def _named(board: Board, matrix: Array) -> int:
     """Return how many effects could be named in their usual size."""
     smallest = (_smallest(board, name, matrix[i, i]) for i, name in enumerate(effect_names()))
-    return sum(
-        size is not None and size <= 1 and _is_distinct(matrix, i)
-        for i, size in enumerate(smallest)
-    )
+    return sum(_is_seen(size) and _is_distinct(matrix, i) for i, size in enumerate(smallest))
 
 
 def _needed(board: Board, effect: str, seen: float) -> float:

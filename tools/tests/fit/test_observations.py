@@ -74,3 +74,12 @@ def test_chains_come_from_the_settings_in_force_and_the_model_from_the_others():
     assert model == heavy
     assert rows.chains[0] == pytest.approx(observe(STOCK, BOARD).chains[0])
     assert rows.sled_weights.tolist() == [130.0, 130.0, 120.0]
+
+
+def test_an_rms_counts_marks_as_vectors_and_distances_only_where_no_mark_is():
+    rows = observe(BELIEVED, BOARD)
+    errors = np.array([3.0, 4.0, 0.0, 0.0, 100.0, 100.0])  # two marks, then two distances
+    assert rows.rms_of(errors) == pytest.approx(np.sqrt(25 / 2))
+    assert rows.rms_of_noise(np.array([0.5, 0.5, 0.0, 1.2, 0.0, 0.0])) == pytest.approx(1.0)
+    spans = replace(rows, measured=np.zeros((0, 2)), targets=np.zeros((0, 2)), names=())
+    assert spans.rms_of(np.array([6.0, 8.0])) == pytest.approx(np.sqrt(50))

@@ -3,8 +3,10 @@
 import json
 import tomllib
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
+import plumb.lab.routes.plan as plan_routes
 import pytest
 from folder import EXAMPLE, asked, choose, got
 from plumb.bench.causes import MAKER
@@ -166,6 +168,24 @@ def test_the_plan_that_names_most_causes_is_recommended(client, fineness):
     assert (instead in advice["sentence"]) == (advice["layout"] != "nine")
     for plan in plans.values():
         assert plan["seen"] == sum(each["is_seen"] for each in plan["effects"])
+
+
+@pytest.mark.parametrize(
+    ("worth", "best"),
+    [
+        ({"nine": (1, 9), "fifteen": (2, 3), "twenty-five": (2, 3)}, "fifteen"),  # the quicker
+        ({"nine": (1, 9), "fifteen": (2, 3), "twenty-five": (2, 4)}, "twenty-five"),
+        ({"nine": (2, 4), "fifteen": (1, 9), "twenty-five": (2, 4)}, "nine"),
+        ({}, "nine"),  # nothing shows with any
+    ],
+)
+def test_causes_that_are_named_count_before_those_that_show(client, monkeypatch, worth, best):
+    def looked(settings, choices, request, *, is_quick):
+        named, seen = worth.get(request.layout, (0, 0))
+        return SimpleNamespace(named=named, seen=seen, effects=range(13), sigma=0.5)
+
+    monkeypatch.setattr(plan_routes, "_looked", looked)
+    assert got(client.get("/api/layouts/advice"))["layout"] == best
 
 
 def test_what_cannot_be_planned_is_said(client):

@@ -13,7 +13,7 @@ from plumb.diagnosis.linear import LinearBoard
 from plumb.fit.observations import model_and_observations
 from plumb.marks.read import Mark, Measurements
 from plumb.model.catalogue import EVERY_MACHINE, effect_names, parameter_words
-from plumb.plan.preview import APART, POWER, preview
+from plumb.plan.preview import APART, POWER, _named, preview
 from plumb.plan.proposal import AGAIN
 from plumb.text.errors import InputError
 from synthetic import grid
@@ -119,6 +119,8 @@ def test_additions_are_worth_the_information_that_they_bring(nine):
         if each.smallest is not None and each.smallest <= 1 and min(row) >= APART
     ]
     assert nine.named == len(named)
+    smallest = [each.smallest for each in nine.outlines if each.smallest is not None]
+    assert nine.seen == sum(size <= 1 for size in smallest) < sum(size <= 2 for size in smallest)
     # All marks of the addition at once are a plan like any other.
     many = next(each for each in nine.additions if each.kind == "many")
     marks = plan_of(3, 3, approach=(0.0, 1.0)).marks + tuple(
@@ -126,6 +128,18 @@ def test_additions_are_worth_the_information_that_they_bring(nine):
     )
     whole = preview(MACHINE, Measurements(marks), sigma=SIGMA, is_quick=True)
     assert whole.named == pytest.approx(many.named, abs=1)
+
+
+def test_what_is_added_is_counted_as_the_plan_itself_is():
+    """At noises at which effects show one after the other."""
+    model, rows = model_and_observations(MACHINE, plan_of(5, 5))
+    counts = []
+    for sigma in (SIGMA / 8, SIGMA / 4, SIGMA / 2, SIGMA):
+        seen = preview(MACHINE, plan_of(5, 5), sigma=sigma, is_quick=True)
+        board = Board.of(model, rows, sigma=sigma)
+        assert _named(board, seen.matrix) == seen.named <= seen.seen
+        counts.append(seen.named)
+    assert counts == sorted(counts, reverse=True) and counts[0] > counts[-1]
 
 
 def test_a_plan_of_too_few_places_is_refused():

@@ -13,7 +13,7 @@ interface StatesParts {
 export function States({ states, shown, show, units }: StatesParts) {
   const name = useId();
   return (
-    <fieldset class="states">
+    <fieldset class="pick states">
       <legend>What is drawn</legend>
       {states.map((state, i) => (
         <label key={i}>
