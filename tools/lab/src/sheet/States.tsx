@@ -13,7 +13,7 @@ interface StatesParts {
 export function States({ states, shown, show, units }: StatesParts) {
   const name = useId();
   return (
-    <fieldset class="pick states">
+    <fieldset class="segments states">
       <legend>What is drawn</legend>
       {states.map((state, i) => (
         <label key={i}>

@@ -24,7 +24,7 @@ export function Header() {
       <span class="waits" role="status">
         {waits && "What you typed is kept in this browser until the lab answers."}
       </span>
-      <fieldset class="pick units" disabled={useReadOnly()}>
+      <fieldset class="segments units" disabled={useReadOnly()}>
         <legend>Lengths in</legend>
         {(["mm", "inch"] as const).map((unit) => (
           <label key={unit}>

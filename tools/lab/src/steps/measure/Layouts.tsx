@@ -13,7 +13,7 @@ export function Layouts({ layouts, chosen, count, choose }: LayoutsParts) {
   // It is always there, so that the sheet does not move under the finger that drags a mark.
   const mine = { id: "own" as const, title: "Your choice", minutes: 0 };
   return (
-    <fieldset class="pick layouts">
+    <fieldset class="segments layouts">
       <legend>How to measure</legend>
       {[...layouts, mine].map((layout) => (
         <label key={layout.id}>
