@@ -355,7 +355,7 @@ def _worst_distances(case: Case, best: Explanation) -> Option:
     """Return the distances that are explained worst, to be measured again."""
     worst = ascending(-np.abs(best.numbers))[: 2 * WORST]
     said = ", ".join(case.spans[i] for i in worst)
-    do = f"Measure the distances {said} {READ_AGAIN} more times: this tells a slip from more."
+    do = f"Measure these distances {READ_AGAIN} more times: {said}. This tells a slip from more."
     minutes = ROUND + READING * READ_AGAIN * len(worst)
     return Option("repeats", "the worst distances again", (do,), minutes, nowhere())
 
