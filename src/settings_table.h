@@ -7,7 +7,7 @@
 //   name in C++, number, "name, unit", kind, step, default, lowest, highest, what it touches,
 //   section and key of the published programs, or "", sentence,
 //   what differs from the published firmware, or ""
-// A number keeps its meaning for ever once it was released. Free: 14, 47 to 59, 73, 74, 77 to 84.
+// A number keeps its meaning for ever once it was released. Free: 14, 47 to 59, 73, 74, 79 to 84.
 // Never use 85 to 98 and 144: WebControl gives them another meaning.
 #pragma once
 
@@ -162,7 +162,9 @@
   ROW(kHoldingTorque, 77, "holding_torque, N m", kReal, kAnyValue, 1.4f, 0, 1000, kNothing, \
       "", \
       "What friction holds at the sprocket of a motor without power. Where the sled pulls harder, high on the sheet, " \
-      "the motors stay on at rest; 10: they never do.", "new")
+      "the motors stay on at rest; 10: they never do.", "new") \
+  ROW(kReportInches, 78, "report_inches", kBool, 1, 0, 0, 1, kNothing, \
+      "", "Units of the status for a sender of Grbl, to whom it is $13. 0: mm; 1: inches.", "new")
 
 #define PLUMB_KEPT_SETTINGS(ROW) \
   ROW(kSimulatedMotors, 99, "simulated_motors", kBool, 1, 0, 0, 1, kNothing, \

@@ -22,6 +22,12 @@ FlashText textOf(gcode::Fault fault) {
   }
 }
 
+uint8_t numberOf(gcode::Fault fault) {
+  using gcode::Fault;
+  if (fault == Fault::kStray) return grbl::kNoLetter;
+  return fault == Fault::kNoCode ? grbl::kUnsupported : grbl::kBadNumber;
+}
+
 }  // namespace
 
 FlashText tooLongForChains() { return FLASH("no chain is that long"); }
@@ -29,65 +35,88 @@ FlashText tooLongForZ() { return FLASH("no z axis is that long"); }
 FlashText tooLongALine() { return FLASH("a line of more than 126 characters, which was skipped"); }
 FlashText tooFar() { return FLASH("that is farther than any machine reaches"); }
 
-void Answers::beginError() {
-  out_ << FLASH("error: ");
+void Answers::beginError(uint8_t number) {
+  out_.error(number);
   is_answered_ = true;
 }
 
-bool Answers::refuse(FlashText why) {
-  beginError();
+bool Answers::refuse(FlashText why, uint8_t number) {
+  beginError(number);
   out_.line(why);
+  return false;
+}
+
+bool Answers::refuseBare(uint8_t number) {
+  out_.bareError(number);
+  is_answered_ = true;
   return false;
 }
 
 bool Answers::refuseStatement() { return refuse(FLASH("Invalid statement")); }
 
+bool Answers::refuseWords(FlashText why) {
+  beginRefusal(false, grbl::kUnsupported);
+  out_ << why;
+  return endRefusal();
+}
+
+bool Answers::refuseWords(FlashText why, char letter) {
+  beginRefusal(false, grbl::kUnsupported);
+  out_ << why << letter;
+  return endRefusal();
+}
+
 bool Answers::refuseMotion(FlashText why) {
-  beginRefusal();
+  beginRefusal(true, grbl::kTravel);
   out_ << why;
   return endRefusal();
 }
 
 bool Answers::refuseMotion(FlashText why, char letter) {
-  beginRefusal();
+  beginRefusal(true, grbl::kTravel);
   out_ << why << letter;
   return endRefusal();
 }
 
 bool Answers::refuseMotion(FlashText why, float mm, FlashText more) {
-  beginRefusal();
+  beginRefusal(true, grbl::kTravel);
   out_ << why;
   out_.fixed(mm, 0) << more;
   return endRefusal();
 }
 
 bool Answers::refuseCode(const gcode::Piece& piece) {
-  beginRefusal();
+  beginRefusal(false, grbl::kUnsupported);
   out_ << FLASH("this machine does no ") << piece.letter << int32_t(piece.tenths / 10);
   if (piece.tenths % 10 != 0) out_ << '.' << int32_t(piece.tenths % 10);
   return endRefusal();
 }
 
 bool Answers::refuseMistake(gcode::Mistake mistake) {
-  return refuseMotion(textOf(mistake.fault), mistake.letter);
+  beginRefusal(false, numberOf(mistake.fault));
+  out_ << textOf(mistake.fault) << mistake.letter;
+  return endRefusal();
 }
 
-void Answers::beginRefusal() {
-  if (halts())
-    beginHalt();
+/// Begins the words. A halt is an alarm, but to a sender of Grbl a mistake in a line stays an error.
+void Answers::beginRefusal(bool is_motion, uint8_t number) {
+  if (halts() && (is_motion || !out_.speaksGrbl()))
+    out_.alarm(grbl::kAlarmOfTarget);
   else
-    beginError();
+    out_.error(number);
+  if (halts()) quoteLine();
 }
 
 bool Answers::endRefusal() {
-  out_.line(halts() ? FLASH(". Press Stop.") : FLASH(""));
+  if (halts()) out_ << FLASH(". ") << out_.toOpen() << '.';
+  out_.end();
   must_halt_ = halts();
   is_answered_ = true;
   return false;
 }
 
-void Answers::beginHalt() {
-  out_ << FLASH("ALARM: Halted at ");
+void Answers::quoteLine() {
+  out_ << FLASH("Halted at ");
   // As people write it: reading removed the spaces between words.
   for (const char* at = line_; *at != '\0'; ++at) {
     if (at != line_ && isLetter(*at) && *at != 'E' && !isLetter(at[-1]) && at[-1] != ' ')

@@ -14,6 +14,9 @@ namespace machine {
 /// move would start from a wrong place. So by default a refused move halts the machine ($70):
 /// mustHalt() is then true once. Functions that refuse return false, so a command can return their
 /// result.
+///
+/// A sender of Grbl hears what is wrong with a line as `error:N`, and of a motion that cannot be
+/// done as `ALARM:2`, the words before it.
 class Answers {
  public:
   Answers(Printer& out, const settings::Values& values) : out_(out), values_(values) {}
@@ -38,14 +41,19 @@ class Answers {
     return must;
   }
 
-  /// Begins a line with `error: `; the caller ends it.
-  void beginError();
-  bool refuse(FlashText why);
-  /// Refuses a motion, so that the machine is not where the program thinks: asks for a halt or
-  /// answers `error:`, as setting $70 says.
+  /// Begins the words of a refusal; the caller ends the line. `number` is one of Grbl's.
+  void beginError(uint8_t number = grbl::kStatement);
+  bool refuse(FlashText why, uint8_t number = grbl::kStatement);
+  /// Refuses a line without words, as a sender of Grbl expects it.
+  bool refuseBare(uint8_t number);
+  /// Refuses a motion that cannot be done, so that the machine is not where the program thinks:
+  /// asks for a halt or answers `error:`, as setting $70 says.
   bool refuseMotion(FlashText why);
   /// Refuses a motion with a sentence that ends in `letter`.
   bool refuseMotion(FlashText why, char letter);
+  /// Refuses a line whose words make no sense; asks for a halt as above.
+  bool refuseWords(FlashText why);
+  bool refuseWords(FlashText why, char letter);
   /// Refuses a motion with a sentence around a length [mm].
   bool refuseMotion(FlashText why, float mm, FlashText more);
   /// Refuses a line without meaning, in the words of the published firmware.
@@ -55,9 +63,9 @@ class Answers {
 
  private:
   bool halts() const { return values_.at(kRefusedMotion) == 0 && !is_serving_; }
-  void beginRefusal();
+  void beginRefusal(bool is_motion, uint8_t number);
   bool endRefusal();
-  void beginHalt();
+  void quoteLine();
 
   Printer& out_;
   const settings::Values& values_;

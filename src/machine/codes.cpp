@@ -56,6 +56,11 @@ bool Machine::find(const gcode::Piece& piece, Code& found) {
   return false;
 }
 
+bool Machine::knows(const gcode::Piece& piece) {
+  Code code;
+  return find(piece, code);
+}
+
 bool Machine::run(const gcode::Piece& piece) {
   Code code;
   if (find(piece, code)) return (this->*code.run)(piece);
@@ -78,10 +83,10 @@ bool Machine::beginMotion(const gcode::Piece& piece) {
 
 bool Machine::dwell(const gcode::Piece& piece) {
   const Words& words = piece.words;
-  if (words.hasPlace()) return answers_.refuseMotion(FLASH("G4 takes P or S and goes nowhere"));
+  if (words.hasPlace()) return answers_.refuseWords(FLASH("G4 takes P or S and goes nowhere"));
   const float seconds =
       float(fabs(words.value('P') != 0 ? words.value('P') / 1000 : words.value('S')));
-  if (!(seconds < 86400)) return answers_.refuseMotion(FLASH("a dwell is shorter than a day"));
+  if (!(seconds < 86400)) return answers_.refuseWords(FLASH("a dwell is shorter than a day"));
   if (!drain()) return false;
   out_ << FLASH("dwell time ");
   out_.fixed(seconds, 3).line(FLASH(" s"));
@@ -91,7 +96,7 @@ bool Machine::dwell(const gcode::Piece& piece) {
 bool Machine::declare(const gcode::Piece& piece) {
   const Words& words = piece.words;
   if (words.has('L')) return coordinates_.declare(words);
-  if (goesAcross(words)) return answers_.refuseMotion(FLASH("G10 with X or Y needs L2 or L20"));
+  if (goesAcross(words)) return answers_.refuseWords(FLASH("G10 with X or Y needs L2 or L20"));
   if (!drain()) return false;
   if (!words.has('Z')) return true;
   const float z = modal_.toMm(words.value('Z'));
@@ -102,7 +107,7 @@ bool Machine::declare(const gcode::Piece& piece) {
 
 bool Machine::probeDown(const gcode::Piece& piece) {
   if (goesAcross(piece.words))
-    return answers_.refuseMotion(FLASH("a probe goes along z, and takes no X or Y"));
+    return answers_.refuseWords(FLASH("a probe goes along z, and takes no X or Y"));
   return single_axis_.probe(moves_.targetOf(piece.words).z);
 }
 
@@ -130,7 +135,7 @@ bool Machine::endProgram(const gcode::Piece&) {
   modal_.endProgram();
   if (!drain() || !spindle_.turn(false)) return false;
   cutter_.arm(false);
-  changeFeed(gcode::Quick::kFeedUsual);
+  resetOverrides();
   return true;
 }
 
@@ -152,7 +157,7 @@ bool Machine::armLaser(const gcode::Piece& piece) {
 }
 
 bool Machine::refuseSubprogram(const gcode::Piece&) {
-  return answers_.refuseMotion(FLASH("subprograms are left to the program that sends"));
+  return answers_.refuseWords(FLASH("subprograms are left to the program that sends"));
 }
 
 }  // namespace machine

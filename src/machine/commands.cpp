@@ -35,45 +35,59 @@ void Machine::loop() {
   char line[gcode::Input::kRoom + 1];
   if (course_.isWaiting() || !input_.takeLine(line)) return clock_.sleep();
   answers_.begin(line);
+  if (isDroppedJog(line)) return answer(true);
+  is_executing_ = *line != '$';
   const bool done = execute(line);
   // The clients' Hold and Pause only stop sending. The queue is short enough that the sled then
   // stops soon.
   waitWhile([&] { return !answers_.isAnswered() && (course_.isWaiting() || isFarAhead()); });
+  is_executing_ = false;
   answer(done);
 }
 
 void Machine::answer(bool done) {
   if (answers_.mustHalt()) halt();
   // A line that a stop or an alarm broke off gets no answer.
-  if (done && !isStopping() && !answers_.isAnswered()) out_.line(FLASH("ok"));
+  if (done && !isStopping() && !answers_.isAnswered()) out_.plain(FLASH("ok"));
 }
 
 void Machine::halt() {
   if (!untilRunning()) return;
   course_.take(Event::kHalt);
-  forgetLines();
+  forgetUnanswered();
   // Moves that were queued before are good: let them end first.
   if (drain()) spindle_.turn(false);
 }
 
 bool Machine::execute(char* line) {
   if (input_.wasTooLong()) {
-    if (isHalted()) return false;
+    if (isHalted()) return refuseHalted();
     answers_.begin("");
-    return answers_.refuseMotion(tooLongALine());
+    return answers_.refuseWords(tooLongALine());
   }
   char* first = line;
   while (*first == ' ') ++first;
   if (*first == 'b' || *first == 'B') {
-    if (isHalted() && !isQuestion(bCodeOf(first))) return false;
+    if (isHalted() && !isQuestion(bCodeOf(first))) return refuseHalted();
+    // The first words of GroundControl, WebControl and the lab.
+    if (bCodeOf(first) == 5) out_.speak(Dialect::kMaslow);
     echo(first);
     gcode::clean(line);
     return runB(line);
   }
   gcode::clean(line);
   if (*line == '\0') return true;
-  if (*line == '$') return runSetting(line);
-  return !isHalted() && runCode(line);
+  if (*line == '$') return out_.speaksGrbl() ? runGrbl(line) : runSetting(line);
+  if (isHalted()) return refuseHalted();
+  if (is_checking_) return checkCode(line);
+  if (isJogging()) return answers_.refuseBare(grbl::kLocked);
+  is_jogging_ = false;
+  return runCode(line);
+}
+
+/// A line comes after an alarm: only a sender of Grbl counts on an answer.
+bool Machine::refuseHalted() {
+  return out_.speaksGrbl() && answers_.refuseBare(grbl::kLocked);
 }
 
 void Machine::echo(const char* line) {
@@ -105,7 +119,7 @@ bool Machine::runPiece(const gcode::Piece& piece) {
   if (isStopping() || answers_.isAnswered())
     return piece.letter == 'G' && modal_.take(piece.tenths);
   if (const char axis = foreignAxis(words))
-    return answers_.refuseMotion(FLASH("there is no axis "), axis);
+    return answers_.refuseWords(FLASH("there is no axis "), axis);
   if (piece.letter != 'M' && words.has('T') && !setTool(words)) return false;
   // S of a G4 are seconds.
   if (piece.letter != 'M' && !(piece.letter == 'G' && piece.tenths == 40) && !spindle_.takeS(words))
@@ -142,14 +156,14 @@ bool Machine::moveInMode(const Words& words) {
 bool Machine::riseAfterCycle(const Words& words) {
   const Place target = moves_.targetOf(words);
   if (goesAcross(words) || target.z < program_.aim().z)
-    return answers_.refuseMotion(FLASH("no motion is in force after G80; say G0 or G1"));
+    return answers_.refuseWords(FLASH("no motion is in force after G80; say G0 or G1"));
   return moves_.moveStraight(target, false, moves_.feedOf(0));
 }
 
 bool Machine::setTool(const Words& words) {
   const float tool = words.value('T');
   if (!(tool >= 0 && tool <= 65535))
-    return answers_.refuseMotion(FLASH("a tool's number is 0 to 65535"));
+    return answers_.refuseWords(FLASH("a tool's number is 0 to 65535"));
   modal_.tool = uint16_t(tool);
   out_ << FLASH("Tool change to tool ") << int32_t(modal_.tool);
   out_.end();

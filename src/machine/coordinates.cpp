@@ -25,10 +25,10 @@ bool Coordinates::keep(uint8_t row, float value) {
 bool Coordinates::declare(const gcode::Words& words) {
   const bool here = words.value('L') == 20;
   if (!here && words.value('L') != 2)
-    return answers_.refuseMotion(FLASH("G10 knows L2 and L20 only"));
+    return answers_.refuseWords(FLASH("G10 knows L2 and L20 only"));
   const float system = words.value('P');
   if (!(system >= 0 && system <= kKeptSystems && system == float(uint8_t(system))))
-    return answers_.refuseMotion(
+    return answers_.refuseWords(
         FLASH("P is 1 to 6, for G54 to G59, or 0 for the coordinates in force"));
   if (here && goesAcross(words) && !mayCrossSheet()) return false;
   const uint8_t index = system == 0 ? modal_.system : uint8_t(system - 1);
@@ -44,7 +44,7 @@ bool Coordinates::declare(const gcode::Words& words) {
 }
 
 bool Coordinates::shift(const gcode::Words& words) {
-  if (!words.hasPlace()) return answers_.refuseMotion(FLASH("G92 needs X, Y or Z"));
+  if (!words.hasPlace()) return answers_.refuseWords(FLASH("G92 needs X, Y or Z"));
   if (goesAcross(words) && !mayCrossSheet()) return false;
   Place aim = program_.aim();
   for (uint8_t axis = 0; axis < kPlaceAxes; ++axis) {
@@ -63,14 +63,14 @@ void Coordinates::endShift(uint16_t tenths) {
 
 bool Coordinates::takeToolLength(const gcode::Words& words) {
   if (!words.has('Z') || goesAcross(words))
-    return answers_.refuseMotion(FLASH("G43.1 needs Z, the tool's length, and nothing else"));
+    return answers_.refuseWords(FLASH("G43.1 needs Z, the tool's length, and nothing else"));
   offsets_.setToolLength(modal_.toMm(words.value('Z')));
   return true;
 }
 
 bool Coordinates::keepGoal(const gcode::Piece& piece) {
   if (piece.words.hasPlace())
-    return answers_.refuseMotion(FLASH("it keeps the place where the tool is"));
+    return answers_.refuseWords(FLASH("it keeps the place where the tool is"));
   if (!mayCrossSheet()) return false;
   const uint8_t row = goalRow(piece);
   const Place& aim = program_.aim();
@@ -80,7 +80,7 @@ bool Coordinates::keepGoal(const gcode::Piece& piece) {
 const float* Coordinates::goal(const gcode::Piece& piece) {
   const float* const kept = values_.from(goalRow(piece));
   if (*kept != kNoPlace) return kept;
-  answers_.refuseMotion(FLASH("no place is kept for it; go there first and send G28.1 or G30.1"));
+  answers_.refuseWords(FLASH("no place is kept for it; go there first and send G28.1 or G30.1"));
   return nullptr;
 }
 
@@ -92,6 +92,12 @@ void Coordinates::say(FlashText name, int32_t number, float x, float y, float z)
   out_.fixed(modal_.fromMm(x), decimals) << FLASH(" Y");
   out_.fixed(modal_.fromMm(y), decimals) << FLASH(" Z");
   out_.fixed(modal_.fromMm(z), decimals).end();
+}
+
+Place Coordinates::kept(uint8_t place) const {
+  const float* const at = values_.from(uint8_t(kFirstPlaceSetting + place * kPlaceAxes));
+  if (at[0] == kNoPlace) return {0, 0, 0};
+  return {at[0], at[1], at[2]};
 }
 
 void Coordinates::show() {

@@ -6,7 +6,7 @@ namespace machine {
 uint8_t Cutter::spindleLevel() const {
   const float most = values_.at(kSpindleMost), least = values_.at(kSpindleLeast);
   // If there was never an S word, full speed.
-  float speed = s_ > 0 ? s_ : most;
+  float speed = (s_ > 0 ? s_ : most) * float(percent_) * 0.01f;
   if (speed < least) speed = least;
   if (speed > most) speed = most;
   return uint8_t(float(kFull) * speed / most + 0.5f);
@@ -34,6 +34,11 @@ void Cutter::takeS(float s) {
   const bool changes = changesSpeed(s);
   s_ = s;
   if (changes) setSpindle(true);
+}
+
+void Cutter::override(uint8_t percent) {
+  percent_ = percent;
+  if (is_pulsed_) setSpindle(true);
 }
 
 void Cutter::arm(bool yes) {

@@ -30,6 +30,10 @@ class Cutter {
   }
   /// Takes an S word: turns a minute, or 0 to 255 for a laser.
   void takeS(float s);
+  /// The S word in force.
+  float s() const { return s_; }
+  /// From now on a pulsed spindle turns at this percentage of S, within its limits.
+  void override(uint8_t percent);
 
   /// M106 and M107, for moves that are queued from now on.
   void arm(bool yes);
@@ -57,7 +61,7 @@ class Cutter {
   float s_ = 0;
   volatile uint8_t shown_ = 0;
   volatile bool is_barred_ = true;
-  uint8_t aimed_ = 0;
+  uint8_t aimed_ = 0, percent_ = 100;
   bool is_armed_ = false, is_turning_ = false, is_pulsed_ = false;
 };
 

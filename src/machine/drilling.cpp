@@ -29,13 +29,13 @@ void Drilling::begin(uint8_t cycle) {
   modal_.motion = cycle;
 }
 
-bool Drilling::refuse(gcode::DrillFault fault) { return answers_.refuseMotion(textOf(fault)); }
+bool Drilling::refuse(gcode::DrillFault fault) { return answers_.refuseWords(textOf(fault)); }
 
 bool Drilling::drill(const gcode::Words& words) {
   if (modal_.plane != 17)
-    return answers_.refuseMotion(FLASH("holes are drilled in the plane of G17 only"));
+    return answers_.refuseWords(FLASH("holes are drilled in the plane of G17 only"));
   if (modal_.inverse_time || modal_.machine_coordinates)
-    return answers_.refuseMotion(FLASH("no hole is drilled with G53 or G93"));
+    return answers_.refuseWords(FLASH("no hole is drilled with G53 or G93"));
   if (!coordinates_.mayCrossSheet()) return false;
   const Place at = program_.counted();
   const float from[] = {at.x, at.y, at.z};

@@ -7,7 +7,7 @@ namespace machine {
 
 void Greeting::sayBoard() {
   if (board_.driver == nullptr) {
-    out_ << FLASH("ALARM: The Board version number from this Motor Control board is invalid. ");
+    out_.alarm(1) << FLASH("The Board version number from this Motor Control board is invalid. ");
     out_.line(FLASH("No motor will be driven; see the wiring page for its straps."));
     return;
   }
@@ -16,12 +16,13 @@ void Greeting::sayBoard() {
 }
 
 void Greeting::sayReady() {
-  // Our clients need none of these lines, but other programs wait for "Grbl".
-  out_.line(FLASH("Grbl v1.00"));
+  sayWelcome();
   out_.line(FLASH("Plumb " PLUMB_VERSION ", firmware for the Maslow CNC"));
   out_.line(FLASH("ready"));
-  out_.line(FLASH("ok"));
+  out_.plain(FLASH("ok"));
 }
+
+void Greeting::sayWelcome() { out_.plain(FLASH("Grbl 1.1h ['$' for help]")); }
 
 void Greeting::sayMotors(bool are_simulated) {
   out_.line(are_simulated ? FLASH("FAKE_SERVO on") : FLASH("FAKE_SERVO off"));
@@ -40,18 +41,18 @@ void Greeting::saySource(const settings::Started& started) {
     case Source::kStored:
       return;
     case Source::kStoredInPart:
-      return out_.line(FLASH("error: Some settings were out of today's limits and have defaults."));
+      return out_.error(0).line(FLASH("Some settings were out of today's limits and have defaults."));
     case Source::kImported:
       return out_.line(FLASH("Settings of the published firmware were taken over."));
     case Source::kDefaults:
       // On a fresh board sayUnset() says it.
       if (started.known == settings::Known::kNothing) return;
-      return out_.line(FLASH("error: EEPROM read fail. Using default settings."));
+      return out_.error(0).line(FLASH("EEPROM read fail. Using default settings."));
     case Source::kOtherVersion:
-      out_ << FLASH("error: Settings of another firmware, version ") << int32_t(started.version);
+      out_.error(0) << FLASH("Settings of another firmware, version ") << int32_t(started.version);
       return out_.line(FLASH(", are not read. Using default settings."));
     case Source::kBadValue:
-      out_ << FLASH("error: The published firmware's $") << int32_t(started.number);
+      out_.error(0) << FLASH("The published firmware's $") << int32_t(started.number);
       return out_.line(FLASH(" cannot be right; none was taken over. Using default settings."));
   }
 }

@@ -28,7 +28,10 @@ class Greeting {
   void sayStart();
   /// Says where the settings come from, unless they are as they were left.
   void saySource(const settings::Started& started);
-  /// Says the line after which clients begin to send.
+  /// The line by which senders of Grbl know what they talk to. GroundControl and WebControl look for
+  /// no such line.
+  void sayWelcome();
+  /// Says the lines after which clients begin to send.
   void sayReady();
 
  private:

@@ -4,9 +4,9 @@
 
 #include "axis_tests.h"
 #include "drilling.h"
-#include "feed_override.h"
 #include "greeting.h"
 #include "operator_lines.h"
+#include "overrides.h"
 #include "reports.h"
 #include "settings_lines.h"
 #include "single_axis.h"
@@ -74,22 +74,27 @@ class Machine : private Waiting, private Dispatch {
   void takeQuick(gcode::Quick quick);
   void stopNow();
   void forgetLines();
+  void forgetUnanswered();
   void finishStop();
   void resetSoftly();
-  void raiseAlarm(FlashText text);
-  /// Says the texts as one line.
-  void raiseAlarm(FlashText text, FlashText more, FlashText end);
+  /// What a person does after an alarm.
+  enum class Remedy : uint8_t { kOpen, kLookForHold, kMendAndSet, kSwitchOff };
+  /// Says the texts and the remedy as one line.
+  void raiseAlarm(Remedy remedy, FlashText text, FlashText more = FLASH(""));
+  void sayRemedy(Remedy remedy);
   void watchStack();
   void watchAxes();
   void watchEncoders();
   void raiseAlarmOf(motion::Fault fault);
-  static FlashText mendAndSet();
-  void changeFeed(gcode::Quick quick);
+  void override(gcode::Quick quick);
+  void resetOverrides();
+  void applyOverrides();
   bool isHalted() const { return course_.isHalted(); }
   bool isFarAhead() const;
 
   // commands.cpp: turns a line into pieces.
   __attribute__((noinline)) bool execute(char* line);
+  bool refuseHalted();
   void answer(bool done) override;
   void halt();
   void echo(const char* line);
@@ -103,8 +108,34 @@ class Machine : private Waiting, private Dispatch {
   bool runReset(const char* what);
   void restoreDefaults(settings::Reset what);
 
+  // grbl.cpp: what a sender of Grbl asks for.
+  void askStatus(bool is_in_line);
+  void answerStatus();
+  FlashText stateForGrbl();
+  void sayPlace(const Place& place);
+  gcode::Quick meantByGrbl(gcode::Quick quick) const;
+  void resetAsGrbl();
+  void resetModes();
+  __attribute__((noinline)) bool runGrbl(const char* line);
+  void showCoordinates();
+  void showModes();
+  bool unlock();
+  bool toggleCheck();
+  bool checkCode(const char* text);
+
+  // jogs.cpp: `$J=`, and the end of a jog.
+  bool isJogging() const { return is_jogging_ && isMoving(); }
+  bool jog(const char* text);
+  bool queueJog(const char* text);
+  bool readJog(const char* text, gcode::Words& words);
+  void cancelJog();
+  /// Whether a stop ended a jog, and nothing else.
+  bool endsJog();
+  bool isDroppedJog(const char* line);
+
   // codes.cpp: what each G and M code does, by a table.
   static bool find(const gcode::Piece& piece, Code& found);
+  static bool knows(const gcode::Piece& piece);
   bool run(const gcode::Piece& piece);
   bool ignoreM(const gcode::Piece& piece);
   bool beginMotion(const gcode::Piece& piece);
@@ -165,7 +196,7 @@ class Machine : private Waiting, private Dispatch {
   Planner planner_;
   PositionKeeper keeper_;
   Cutter cutter_;
-  FeedOverride feed_;
+  Overrides overrides_;
   Greeting greeting_;
   Answers answers_;
   ProgramPlace program_;
@@ -186,7 +217,14 @@ class Machine : private Waiting, private Dispatch {
   SingleAxis single_axis_;
   AxisTests axis_tests_;
   YieldNotice yield_notice_;
+  Aux& aux_;
   uint8_t ticks_per_second_ = 100;
+  bool is_status_due_ = false;     ///< a `?` came
+  bool is_executing_ = false;      ///< a line of a program is in execution
+  bool is_checking_ = false;       ///< `$C`: lines are read and not done
+  bool is_jogging_ = false;        ///< the moves in the queue are jogs
+  bool is_jog_cancelled_ = false;  ///< a stop is on its way that ends jogs only
+  uint8_t dropped_jogs_ = 0;       ///< lines that waited then
   volatile bool hung_ = false;
 };
 

@@ -71,7 +71,7 @@ bool Moves::move(uint8_t kind, const Words& words) {
   takeFeed(words);
   Place target = targetOf(words);
   if (modal_.inverse_time && kind != 0 && !(modal_.inverse_feed > 0))
-    return answers_.refuseMotion(FLASH("with G93 each line needs its F"));
+    return answers_.refuseWords(FLASH("with G93 each line needs its F"));
   const float feed = feedOf(kind);
   if (kind < 2) return moveStraight(target, goesAcross(words), feed);
   const bool turns_z = modal_.plane != 17;
@@ -93,16 +93,16 @@ bool Moves::mayTurn(const Words& words) {
   const bool has_first = words.has(centreLetter(plane.first));
   const bool has_second = words.has(centreLetter(plane.second));
   if (modal_.plane != 17 && !z_.hasMotor())
-    return answers_.refuseMotion(FLASH("an arc after G18 or G19 needs a motor for z"));
+    return answers_.refuseWords(FLASH("an arc after G18 or G19 needs a motor for z"));
   const bool has_centre = words.has('R') || has_first || has_second;
   if (modal_.plane != 17 && words.hasPlace() && !has_centre)
-    return answers_.refuseMotion(FLASH("an arc needs R, or a centre in its plane (G17 to G19)"));
+    return answers_.refuseWords(FLASH("an arc needs R, or a centre in its plane (G17 to G19)"));
   if (modal_.machine_coordinates)
-    return answers_.refuseMotion(FLASH("G53 goes with G0 and G1 only"));
+    return answers_.refuseWords(FLASH("G53 goes with G0 and G1 only"));
   if (modal_.absolute_centres && !words.has('R') && !(has_first && has_second))
-    return answers_.refuseMotion(FLASH("with G90.1 an arc needs both letters of its centre"));
+    return answers_.refuseWords(FLASH("with G90.1 an arc needs both letters of its centre"));
   if (words.has('P') && words.value('P') != 1)
-    return answers_.refuseMotion(
+    return answers_.refuseWords(
         FLASH("an arc goes round once; P is left to the program that sends"));
   return true;
 }
@@ -175,7 +175,7 @@ bool Moves::drawRound(uint8_t kind, Place target, const Words& words, motion::Pa
         gcode::centreByRadius(to.x - from.x, to.y - from.y, radius, clockwise,
                               modal_.inches ? gcode::kInchSpare : gcode::kMillimetreSpare);
     if (!seen.found)
-      return answers_.refuseMotion(FLASH("an arc of that radius does not reach its end"));
+      return answers_.refuseWords(FLASH("an arc of that radius does not reach its end"));
     ahead = {seen.x, seen.y};
     digit = 0;  // the radius's sign says whether the arc is the long way round
   } else if (!words.has(centreLetter(plane.first)) && !words.has(centreLetter(plane.second))) {
@@ -186,7 +186,7 @@ bool Moves::drawRound(uint8_t kind, Place target, const Words& words, motion::Pa
   const motion::Turn turn = clockwise ? motion::Turn::kClockwise : motion::Turn::kCounterclockwise;
   path = motion::arc(from, to, {from.x + ahead.x, from.y + ahead.y}, turn, digit);
   return path.drawn != motion::Drawn::kEndOffArc ||
-         answers_.refuseMotion(FLASH("the arc does not end on its circle"));
+         answers_.refuseWords(FLASH("the arc does not end on its circle"));
 }
 
 /// Queues an arc that turns z, as chords: `path` is the arc in its plane.
@@ -299,8 +299,8 @@ bool Moves::queuePieces(EdgeCut& cut, float z_to, float feed, uint8_t beam) {
 bool Moves::queuePiece(const motion::Path<float>& piece, motion::Space space, float z, float feed,
                        uint8_t beam) {
   if (!waiting_.waitWhile([&] { return !planner_.hasRoom(); }) || !motors_.wake()) return false;
-  if (!planner_.add(piece, z, feed / 60, space, beam))
-    return answers_.refuseMotion(FLASH("that is no path"));
+  if (!planner_.add(piece, z, feed / 60, space, beam, modal_.motion == 0))
+    return answers_.refuseWords(FLASH("that is no path"));
   const bool cuts = modal_.motion >= 1 && modal_.motion <= 3;
   motors_.stayOn(cuts && z < coordinates_.begin(kZAxis) - kInTheWork);
   if (piece.drawn == motion::Drawn::kYes)

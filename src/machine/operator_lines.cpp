@@ -16,7 +16,8 @@ void OperatorLines::wait(Event event) {
 void OperatorLines::resume() {
   const uint32_t now = clock_.milliseconds();
   // A `~` that ends a wait is no answer to a pause to come.
-  if (!course_.isRunning() || now - resumed_ms_ < kTwice) input_.takeResume();
+  // Senders of Grbl press it at any time.
+  if (!course_.isRunning() || now - resumed_ms_ < kTwice || out_.speaksGrbl()) input_.takeResume();
   resumed_ms_ = now;
   course_.take(Event::kResume);
 }
@@ -24,7 +25,9 @@ void OperatorLines::resume() {
 gcode::Input& OperatorLines::inputFor(char character) {
   const uint32_t kFirstMs = 300;  // a sender that has not noticed may go on for a moment
   if (character != '\n' && !coming_->isInLine()) {
-    const bool is_own = isOperatorsTurn() && clock_.milliseconds() - since_ms_ >= kFirstMs;
+    // To a sender of Grbl a line in a hold is one of the program, to be done after it.
+    const bool is_own = !out_.speaksGrbl() && isOperatorsTurn() &&
+                        clock_.milliseconds() - since_ms_ >= kFirstMs;
     coming_ = is_own ? &typed_ : &input_;
   }
   return *coming_;

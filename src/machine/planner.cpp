@@ -18,12 +18,13 @@ void Planner::prepare(const settings::Values& values, float seconds_per_tick) {
        values.at(kZSpeed) * float(fabs(values.at(kZPerTurn))) / 60, values.at(kCornerDeviation)},
       seconds_per_tick);
   greatest_feed_ = values.at(kGreatestFeed) / 60;
-  moves_.boost(boost_, greatest_feed_);
+  moves_.boost(boost_, greatest_feed_, rapid_);
 }
 
-void Planner::boost(float times) {
+void Planner::boost(float times, float rapid) {
   boost_ = times;
-  moves_.boost(times, greatest_feed_);
+  rapid_ = rapid;
+  moves_.boost(times, greatest_feed_, rapid);
 }
 
 void Planner::setGeometry(const Geometry& geometry) {
@@ -32,8 +33,8 @@ void Planner::setGeometry(const Geometry& geometry) {
 }
 
 bool Planner::add(const motion::Path<float>& path, float z_to, float feed, motion::Space space,
-                  uint8_t beam) {
-  const motion::Added added = moves_.add(path, z_to, feed, space, beam);
+                  uint8_t beam, bool is_rapid) {
+  const motion::Added added = moves_.add(path, z_to, feed, space, beam, is_rapid);
   return added == motion::Added::kYes || added == motion::Added::kNothing;
 }
 

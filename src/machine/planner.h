@@ -27,10 +27,10 @@ class Planner {
   bool lastsLonger(uint16_t ticks) const { return moves_.lastsLonger(ticks); }
 
   /// Queues a move from the end of the last move; `space` is Geometry's of the path. `feed` [mm/s]
-  /// is over all three axes, `beam` the strength of a laser on it. False if the path could not be
-  /// drawn.
+  /// is over all three axes, `beam` the strength of a laser on it; `is_rapid`: the feed is none of
+  /// the program's. False if the path could not be drawn.
   bool add(const motion::Path<float>& path, float z_to, float feed, motion::Space space,
-           uint8_t beam = 0);
+           uint8_t beam = 0, bool is_rapid = false);
 
   /// Queues a move of a single axis to a length [mm], at rest; `feed` [mm/s].
   void addAxis(Axis axis, float length, float feed);
@@ -43,8 +43,11 @@ class Planner {
   void standHere(Axes& axes);
   void forget() { moves_.forget(); }
 
-  /// From now on multiplies feeds by `times`, up to the greatest feed.
-  void boost(float times);
+  /// From now on multiplies feeds by `times`, up to the greatest feed, and the speed of rapids by
+  /// `rapid` [1], at most 1.
+  void boost(float times, float rapid);
+  /// [mm/tick] Planned speed of the tool.
+  float speed() const { return isIdle() ? 0 : moves_.walk().speed; }
   /// How often set-points ran dry in the middle of a move, since the last call.
   uint16_t timesDry() { return moves_.timesDry(); }
 
@@ -54,6 +57,7 @@ class Planner {
  private:
   motion::Mover moves_;
   float boost_ = 1;          ///< [1] factor of feeds
+  float rapid_ = 1;          ///< [1] factor of rapids
   float greatest_feed_ = 0;  ///< [mm/s]
 };
 

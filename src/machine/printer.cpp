@@ -15,27 +15,51 @@ const char* digitsOf(uint32_t number, char (&room)[12]) {
   return at;
 }
 
-Printer& Printer::operator<<(FlashText text) {
+void Printer::put(char character) {
+  if (line_ == Line::kNothing) {
+    const bool is_data = character == '[' || character == '<' || character == '$';
+    line_ = is_data || !speaksGrbl() ? Line::kData : Line::kMessage;
+    if (line_ == Line::kMessage) putText(FLASH("[MSG:"));
+  }
+  wire_.write(character);
+}
+
+/// Writes a text to the wire as it is.
+void Printer::putText(FlashText text) {
   for (const char* at = text.at;; ++at) {
     const char character = char(pgm_read_byte(at));
-    if (character == '\0') return *this;
+    if (character == '\0') return;
     wire_.write(character);
   }
 }
 
+void Printer::endOnWire() {
+  wire_.write('\r');
+  wire_.write('\n');
+  line_ = Line::kNothing;
+}
+
+Printer& Printer::operator<<(FlashText text) {
+  for (const char* at = text.at;; ++at) {
+    const char character = char(pgm_read_byte(at));
+    if (character == '\0') return *this;
+    put(character);
+  }
+}
+
 Printer& Printer::operator<<(const char* text) {
-  for (; *text != '\0'; ++text) wire_.write(*text);
+  for (; *text != '\0'; ++text) put(*text);
   return *this;
 }
 
 Printer& Printer::operator<<(char character) {
-  wire_.write(character);
+  put(character);
   return *this;
 }
 
 Printer& Printer::operator<<(int32_t number) {
   char room[12];
-  if (number < 0) wire_.write('-');
+  if (number < 0) put('-');
   return *this << digitsOf(number < 0 ? 0u - uint32_t(number) : uint32_t(number), room);
 }
 
@@ -45,21 +69,51 @@ Printer& Printer::fixed(float number, uint8_t decimals) {
   uint32_t scale = 1;
   for (uint8_t i = 0; i < decimals; ++i) scale *= 10;
   const uint32_t scaled = uint32_t(lround(fabs(number) * float(scale)));
-  if (number < 0 && scaled != 0) wire_.write('-');
+  if (number < 0 && scaled != 0) put('-');
   *this << int32_t(scaled / scale);
   if (decimals == 0) return *this;
-  wire_.write('.');
+  put('.');
   const uint32_t fraction = scaled % scale;
   for (uint32_t place = scale / 10; place != 0; place /= 10)
-    wire_.write(char('0' + fraction / place % 10));
+    put(char('0' + fraction / place % 10));
   return *this;
 }
 
-void Printer::end() { *this << '\r' << '\n'; }
+void Printer::end() {
+  if (line_ == Line::kNothing && speaksGrbl() && number_ == 0) return;
+  if (line_ == Line::kMessage) wire_.write(']');
+  endOnWire();
+  if (number_ == 0) return;
+  const uint8_t number = number_;
+  number_ = 0;
+  putText(verdict_);
+  line_ = Line::kData;
+  *this << int32_t(number);
+  endOnWire();
+}
 
 void Printer::line(FlashText text) {
   *this << text;
   end();
+}
+
+void Printer::plain(FlashText text) {
+  putText(text);
+  endOnWire();
+}
+
+Printer& Printer::begin(FlashText words, FlashText verdict, uint8_t number) {
+  if (!speaksGrbl()) return *this << words;
+  verdict_ = verdict;
+  number_ = number;
+  return *this;
+}
+
+void Printer::bareError(uint8_t number) {
+  putText(FLASH("error:"));
+  line_ = Line::kData;
+  *this << int32_t(number);
+  endOnWire();
 }
 
 }  // namespace machine

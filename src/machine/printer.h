@@ -1,4 +1,4 @@
-// Text and numbers to the computer; lines end as the clients need it.
+// Text and numbers to the computer; lines look and end as the sender needs it.
 #pragma once
 
 #include "flash_text.h"
@@ -6,10 +6,54 @@
 
 namespace machine {
 
+/// Grbl's numbers of refusals and alarms.
+namespace grbl {
+enum : uint8_t {
+  kNoLetter = 1,
+  kBadNumber = 2,
+  kStatement = 3,
+  kNoHoming = 5,
+  kNotIdle = 8,
+  kLocked = 9,
+  kLongLine = 11,
+  kTravel = 15,
+  kBadJog = 16,
+  kUnsupported = 20,
+  kNoFeed = 22,
+};
+enum : uint8_t { kAlarmOfTarget = 2, kAlarmOfFault = 3 };
+}  // namespace grbl
+
+/// What the program at the other end of the line understands.
+enum class Dialect : uint8_t {
+  kMaslow,  ///< GroundControl and WebControl
+  kGrbl,    ///< a sender that asks with `?`
+};
+
 /// Writes to the wire. Nothing is buffered here, so begin a line only when all of it is known.
+///
+/// A line is one of three kinds. Data begin with `[`, `<` or `$` and are the same in both dialects,
+/// as are plain lines. A refusal or an alarm has its words behind `error: ` or `ALARM: `; a sender
+/// of Grbl gets the words as `[MSG:...]`, and then `error:N` or `ALARM:N`. Everything else is for
+/// people; a sender of Grbl gets it as `[MSG:...]`.
 class Printer {
  public:
   explicit Printer(Wire& wire) : wire_(wire) {}
+
+  void speak(Dialect dialect) { dialect_ = dialect; }
+  bool speaksGrbl() const { return dialect_ == Dialect::kGrbl; }
+
+  /// Begins the words of a refusal, or of an alarm; end() ends them. The number is Grbl's.
+  Printer& error(uint8_t number) { return begin(FLASH("error: "), FLASH("error:"), number); }
+  Printer& alarm(uint8_t number) { return begin(FLASH("ALARM: "), FLASH("ALARM:"), number); }
+  /// What opens a machine that halted.
+  FlashText toOpen() const { return speaksGrbl() ? FLASH("Unlock ($X)") : FLASH("Press Stop"); }
+  /// The same inside a sentence.
+  FlashText alsoToOpen() const { return speaksGrbl() ? FLASH("unlock ($X)") : FLASH("press Stop"); }
+  /// A whole line that is the same in both dialects.
+  void plain(FlashText text);
+  /// `error:N` without words, for a sender of Grbl.
+  void bareError(uint8_t number);
 
   Printer& operator<<(FlashText text);
   Printer& operator<<(const char* text);
@@ -20,14 +64,26 @@ class Printer {
   /// large for any machine, shows as zero: clients stop at words such as "nan".
   Printer& fixed(float number, uint8_t decimals);
 
-  /// Ends the line.
+  /// Ends the line. A sender of Grbl gets no empty lines.
   void end();
 
   /// A whole line of fixed text.
   void line(FlashText text);
 
  private:
+  /// What has been written of the line in progress.
+  enum class Line : uint8_t { kNothing, kData, kMessage };
+
+  Printer& begin(FlashText words, FlashText verdict, uint8_t number);
+  void put(char character);
+  void putText(FlashText text);
+  void endOnWire();
+
   Wire& wire_;
+  Dialect dialect_ = Dialect::kMaslow;
+  Line line_ = Line::kNothing;
+  FlashText verdict_ = FLASH("");  ///< what comes behind a message: `error:` or `ALARM:`
+  uint8_t number_ = 0;             ///< of that; 0: nothing comes
 };
 
 /// Writes the digits of a number that cannot be negative, with a zero at the end. Returns their

@@ -9,12 +9,12 @@ void Machine::service() {
   operator_lines_.serve();
   if (isStopping() && axes_.isAtRest()) planner_.standHere(axes_);
   if (!planner_.fill(axes_, geometry_))
-    raiseAlarm(FLASH("No sled can hang on the way; the machine has halted. Press Stop."));
+    raiseAlarm(Remedy::kOpen, FLASH("No sled can hang on the way; the machine has halted"));
   watchStack();
   watchAxes();
   if (telemetry_.findsFailure())
-    raiseAlarm(telemetry_.failing(), FLASH(" complains: too hot, a short, or no 12 V"),
-               FLASH(". Press Stop."));
+    raiseAlarm(Remedy::kOpen, telemetry_.failing(),
+               FLASH(" complains: too hot, a short, or no 12 V"));
   new_values_.refreshWhenQuiet(isMoving());
   // In a test of loops the motors also hold between the jumps.
   motors_.restWhenIdle(isMoving() || axes_.isDriven() || axis_tests_.isTesting() ||
@@ -26,6 +26,7 @@ void Machine::service() {
 
 void Machine::keepReporting() {
   clock_.idle();
+  if (out_.speaksGrbl()) return answerStatus();
   if (!reports_.areDue()) return;
   reports_.sayStatus(course_.isWaiting() ? FLASH("Pause")
                      : isHalted()        ? FLASH("Stop")
@@ -36,7 +37,7 @@ void Machine::keepReporting() {
 
 bool Machine::isFarAhead() const {
   const float ahead =
-      values_.at(kMotionAhead) * 1e-3f * float(ticks_per_second_) * feed_.shareOfPlan();
+      values_.at(kMotionAhead) * 1e-3f * float(ticks_per_second_) * overrides_.shareOfPlan();
   const uint8_t waiting = axes_.waiting();
   return planner_.lastsLonger(ahead > float(waiting) ? uint16_t(ahead) - waiting : 0);
 }
@@ -45,7 +46,12 @@ void Machine::readWire() {
   for (;;) {
     const int16_t character = wire_.read();
     if (character < 0) return;
-    takeQuick(operator_lines_.inputFor(char(character)).put(char(character)));
+    gcode::Input& input = operator_lines_.inputFor(char(character));
+    const gcode::Quick quick = input.put(char(character));
+    if (quick == gcode::Quick::kStatus)
+      askStatus(input.isInLine());
+    else
+      takeQuick(out_.speaksGrbl() ? meantByGrbl(quick) : quick);
   }
 }
 
@@ -55,24 +61,26 @@ void Machine::takeQuick(gcode::Quick quick) {
     case Quick::kNone:
       return;
     case Quick::kStop:
-      out_.line(FLASH("ok"));
+      out_.plain(FLASH("ok"));
       return stopNow();
     case Quick::kResume:
       // Whoever holds counts answers: neither 0x84 nor the ~ behind it has any.
-      if (!course_.is(State::kHeld)) out_.line(FLASH("ok"));
+      if (!course_.is(State::kHeld) && !out_.speaksGrbl()) out_.plain(FLASH("ok"));
       return operator_lines_.resume();
     case Quick::kHold:
       // A chain does not go on at a duty. The line gets no answer, so the client must hear why.
       if (axes_.isDriven() || axis_tests_.isTesting())
-        return raiseAlarm(FLASH("A hold ended a pull or a test of motors. Press Stop."));
+        return raiseAlarm(Remedy::kOpen, FLASH("A hold ended a pull or a test of motors"));
       return operator_lines_.hold();
     case Quick::kReset:
-      return resetSoftly();
+      return out_.speaksGrbl() ? resetAsGrbl() : resetSoftly();
+    case Quick::kJogCancel:
+      return cancelJog();
     case Quick::kOverflow:
-      return raiseAlarm(
-          FLASH("Buffer overflow: more lines came than there is room for. Press Stop."));
+      return raiseAlarm(Remedy::kOpen,
+                        FLASH("Buffer overflow: more lines came than there is room for"));
     default:
-      return changeFeed(quick);
+      return override(quick);
   }
 }
 
@@ -81,6 +89,11 @@ void Machine::stopNow() {
   forgetLines();
   // Off at once, whatever else the stop has to wait for.
   cutter_.off();
+}
+
+/// After an alarm lines get no answer, so none waits any longer. A sender of Grbl waits for each.
+void Machine::forgetUnanswered() {
+  if (!out_.speaksGrbl()) forgetLines();
 }
 
 void Machine::forgetLines() {
@@ -95,6 +108,7 @@ void Machine::finishStop() {
   // A new stop may come meanwhile: it is answered, and this stop goes on.
   course_.take(Event::kStood);
   motors_.stayOn(false);
+  if (endsJog()) return;
   if (isHalted()) {
     place_.search(Search::kHalted);
     spindle_.turn(false);
@@ -108,41 +122,58 @@ void Machine::finishStop() {
 
 void Machine::resetSoftly() {
   stopNow();
-  changeFeed(gcode::Quick::kFeedUsual);
+  resetOverrides();
   out_.end();
   out_.line(FLASH("soft reset commanded"));
   greeting_.sayBoard();
   greeting_.sayReady();
 }
 
-void Machine::raiseAlarm(FlashText text) { raiseAlarm(text, FLASH(""), FLASH("")); }
-
-void Machine::raiseAlarm(FlashText text, FlashText more, FlashText end) {
+void Machine::raiseAlarm(Remedy remedy, FlashText text, FlashText more) {
   if (!course_.take(Event::kAlarm)) return;
-  forgetLines();
+  forgetUnanswered();
   cutter_.off();
   // A fault may have sped a motor up: it must not run on.
   axes_.brakeAll();
   planner_.forget();
   axes_.standStill();
-  out_ << FLASH("ALARM: ") << text << more;
-  out_.line(end);
+  out_.alarm(grbl::kAlarmOfFault) << text << more << FLASH(". ");
+  sayRemedy(remedy);
+  out_.line(FLASH("."));
+}
+
+void Machine::sayRemedy(Remedy remedy) {
+  switch (remedy) {
+    case Remedy::kOpen:
+      out_ << out_.toOpen();
+      break;
+    case Remedy::kLookForHold:
+      out_ << out_.toOpen() << FLASH(", then look for what holds it");
+      break;
+    case Remedy::kMendAndSet:
+      out_ << FLASH("Check the cables, ") << out_.alsoToOpen();
+      out_ << FLASH(", set the chains (B06 or B08), or z (G10 Z0)");
+      break;
+    case Remedy::kSwitchOff:
+      // Stop does not help: what the data hold may be wrong.
+      out_ << FLASH("Switch the Mega off and on, and report the line before this one");
+      break;
+  }
 }
 
 void Machine::watchStack() {
   if (clock_.isStackWhole() || course_.is(State::kFalling) || course_.is(State::kAlarm)) return;
   place_.doubt(kLeftAxis, settings::Doubt::kStack);
-  // Stop does not help: what the data hold may be wrong.
-  raiseAlarm(
-      FLASH("The firmware's stack ran into its data. Switch the Mega off and on, and report the "
-            "line before this one."));
+  raiseAlarm(Remedy::kSwitchOff, FLASH("The firmware's stack ran into its data"));
 }
 
 void Machine::watchAxes() {
-  if (wire_.lost() != 0) raiseAlarm(FLASH("Characters were lost on the serial line. Press Stop."));
+  if (wire_.lost() != 0)
+    raiseAlarm(Remedy::kOpen, FLASH("Characters were lost on the serial line"));
   if (hung_) {
     hung_ = false;
-    raiseAlarm(FLASH("The firmware was busy for too long; motors were switched off. Press Stop."));
+    raiseAlarm(Remedy::kOpen,
+               FLASH("The firmware was busy for too long; motors were switched off"));
   }
   if (yield_notice_.isDue(axes_.hasYielded() && !axis_tests_.isTesting(), isMoving(),
                           clock_.milliseconds()))
@@ -160,28 +191,22 @@ void Machine::watchEncoders() {
   for (uint8_t i = 0; i < kAxisCount; ++i) {
     if (!keeper_.trusts(Axis(i)) || !axes_.hasMissedSteps(Axis(i))) continue;
     keeper_.doubt(Axis(i), settings::Doubt::kCounts);
-    raiseAlarm(FLASH("An encoder missed steps (B30 says which), so its counts are wrong. "),
-               mendAndSet(), FLASH(""));
+    raiseAlarm(Remedy::kMendAndSet,
+               FLASH("An encoder missed steps (B30 says which), so its counts are wrong"));
   }
-}
-
-FlashText Machine::mendAndSet() {
-  return FLASH("Check the cables, press Stop, set the chains (B06 or B08), or z (G10 Z0).");
 }
 
 void Machine::raiseAlarmOf(motion::Fault fault) {
   const FlashText kFirst = FLASH("The sled is not keeping up with its expected position");
   if (fault == motion::Fault::kLeftBehind)
-    return raiseAlarm(kFirst, FLASH(" and has halted. Press Stop"),
-                      FLASH(", then look for what holds it."));
+    return raiseAlarm(Remedy::kLookForHold, kFirst, FLASH(" and has halted"));
   // Each of these faults proves counts wrong.
   place_.doubtCounts();
   if (fault == motion::Fault::kStands)
-    return raiseAlarm(kFirst, FLASH(": a motor is driven and its encoder stands still. "),
-                      mendAndSet());
-  raiseAlarm(kFirst,
-             FLASH(": a motor turns against its drive; it or its encoder is wired in reverse. "),
-             mendAndSet());
+    return raiseAlarm(Remedy::kMendAndSet, kFirst,
+                      FLASH(": a motor is driven and its encoder stands still"));
+  raiseAlarm(Remedy::kMendAndSet, kFirst,
+             FLASH(": a motor turns against its drive; it or its encoder is wired in reverse"));
 }
 
 void Machine::noteHang() {
@@ -189,11 +214,23 @@ void Machine::noteHang() {
   cutter_.off();
 }
 
-void Machine::changeFeed(gcode::Quick quick) {
-  if (!feed_.take(quick)) return;
-  axes_.goAt(uint16_t(feed_.shareOfPlan() * float(motion::Playback::kAllOfIt)));
-  planner_.boost(feed_.boost());
-  out_ << FLASH("[Feed: ") << int32_t(feed_.percent());
+void Machine::override(gcode::Quick quick) {
+  // A Maslow client knows the feed's only.
+  if (quick > gcode::Quick::kFeedDownOne && !out_.speaksGrbl()) return;
+  if (overrides_.take(quick)) applyOverrides();
+}
+
+void Machine::resetOverrides() {
+  if (overrides_.reset()) applyOverrides();
+}
+
+void Machine::applyOverrides() {
+  axes_.goAt(uint16_t(overrides_.shareOfPlan() * float(motion::Playback::kAllOfIt)));
+  planner_.boost(overrides_.boost(), float(overrides_.rapid()) * 0.01f);
+  cutter_.override(overrides_.spindle());
+  // A sender of Grbl reads them from the status.
+  if (out_.speaksGrbl()) return;
+  out_ << FLASH("[Feed: ") << int32_t(overrides_.feed());
   out_.line(FLASH(" %]"));
 }
 

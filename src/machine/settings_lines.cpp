@@ -10,13 +10,50 @@ struct PutLetter {
   void operator()(char letter) { out << letter; }
 };
 
+/// A number of Grbl's: one of the machine's own, or one that never changes.
+struct GrblSetting {
+  uint8_t number;
+  Setting own;
+  uint8_t fixed;  ///< where `own` is kSettingCount
+
+  bool isFixed() const { return own == kSettingCount; }
+};
+
+const GrblSetting kForGrbl[] PROGMEM = {
+    {10, kSettingCount, 1},      // the status says machine places
+    {13, kReportInches, 0},      //
+    {20, kSettingCount, 0},      // the sheet's edge stops the sled, whatever a sender sets
+    {21, kSettingCount, 0},      // no limit switches
+    {22, kSettingCount, 0},      // no homing
+    {30, kSpindleMost, 0},       //
+    {31, kSpindleLeast, 0},      //
+    {32, kSettingCount, 0},      // a laser is switched by M106
+    {110, kGreatestFeed, 0},     //
+    {111, kGreatestFeed, 0},     //
+    {120, kAccelerationXy, 0},   //
+    {121, kAccelerationXy, 0},   //
+    {122, kAccelerationZ, 0},    //
+    {130, kSheetWidth, 0},       //
+    {131, kSheetHeight, 0},      //
+};
+const uint8_t kGrblCount = sizeof kForGrbl / sizeof kForGrbl[0];
+
+GrblSetting grblAt(uint8_t index) {
+  GrblSetting row;
+  memcpy_P(&row, kForGrbl + index, sizeof row);
+  return row;
+}
+
 }  // namespace
 
-void SettingsLines::dump() {
+void SettingsLines::dump() { dumpFrom(0); }
+
+/// Says all listed settings, with numbers from `first` on.
+void SettingsLines::dumpFrom(uint16_t first) {
   PutLetter put = {out_};
   for (uint8_t i = 0; i < values_.count(); ++i) {
     if (values_.table().at(i).access != settings::Access::kListed) continue;
-    settings::putSetting(values_, i, put);
+    settings::putSetting(values_, i, first, put);
     out_.end();
     // Whatever else goes on, goes on; a stop ends the dump.
     waiting_.service();
@@ -24,21 +61,56 @@ void SettingsLines::dump() {
   }
 }
 
-bool SettingsLines::set(const char* text) {
-  // The published firmware passes over a letter in front of a number.
-  if (*text >= 'A' && *text <= 'Z') ++text;
-  const gcode::Number number = gcode::readNumber(text);
-  const bool has_number = number.fault == gcode::Fault::kNone && *text == '=';
-  if (has_number) ++text;
-  const gcode::Number value = gcode::readNumber(text);
-  if (!has_number || value.fault != gcode::Fault::kNone || *text != '\0')
-    return answers_.refuse(FLASH("Bad number format"));
-  if (!(number.value >= 0 && number.value <= 255) || number.value != float(uint8_t(number.value)))
-    return answers_.refuseStatement();
-  return setValue(uint8_t(number.value), value.value);
+void SettingsLines::dumpForGrbl() {
+  PutLetter put = {out_};
+  for (uint8_t i = 0; i < kGrblCount; ++i) {
+    const GrblSetting row = grblAt(i);
+    out_ << '$' << int32_t(row.number) << '=';
+    settings::putNumber(row.isFixed() ? row.fixed : values_.at(row.own), put);
+    out_.end();
+  }
+  dumpFrom(kFirstForGrbl);
 }
 
-bool SettingsLines::setValue(uint8_t number, float value) {
+bool SettingsLines::setForGrbl(const char* text) {
+  float number, value;
+  if (!read(text, number, value)) return false;
+  if (number >= kFirstForGrbl && number <= kFirstForGrbl + 255)
+    return setValue(uint8_t(number - kFirstForGrbl), value, kFirstForGrbl);
+  for (uint8_t i = 0; i < kGrblCount; ++i) {
+    const GrblSetting row = grblAt(i);
+    if (float(row.number) != number) continue;
+    if (!row.isFixed()) return setValue(values_.table().at(row.own).number, value, kFirstForGrbl);
+    return value == row.fixed ||
+           answers_.refuse(FLASH("this machine cannot change that number of Grbl's"));
+  }
+  return answers_.refuse(FLASH("this machine has no such number; its own begin at $1000"));
+}
+
+bool SettingsLines::set(const char* text) {
+  float number, value;
+  if (!read(text, number, value)) return false;
+  if (!(number >= 0 && number <= 255)) return answers_.refuseStatement();
+  return setValue(uint8_t(number), value, 0);
+}
+
+bool SettingsLines::read(const char* text, float& number, float& value) {
+  // The published firmware passes over a letter in front of a number.
+  if (*text >= 'A' && *text <= 'Z') ++text;
+  const gcode::Number left = gcode::readNumber(text);
+  const bool has_number = left.fault == gcode::Fault::kNone && *text == '=';
+  if (has_number) ++text;
+  const gcode::Number right = gcode::readNumber(text);
+  if (!has_number || right.fault != gcode::Fault::kNone || *text != '\0')
+    return answers_.refuse(FLASH("Bad number format"), grbl::kBadNumber);
+  if (!(left.value >= 0 && left.value < 2000) || left.value != float(uint16_t(left.value)))
+    return answers_.refuseStatement();
+  number = left.value;
+  value = right.value;
+  return true;
+}
+
+bool SettingsLines::setValue(uint8_t number, float value, uint16_t first) {
   const settings::Table& table = values_.table();
   const uint8_t meant = meantBy(number);
   if (meant == table.at(kChainSpeed).number && value > Planner::mostChainSpeed(values_))
@@ -50,7 +122,7 @@ bool SettingsLines::setValue(uint8_t number, float value) {
   }
   answers_.beginError();
   PutLetter put = {out_};
-  settings::putRefusal(table, number, refusal, put);
+  settings::putRefusal(table, number, refusal, first, put);
   out_.end();
   return false;
 }

@@ -23,9 +23,18 @@ class SettingsLines {
   void dump();
   /// Takes the text behind the `$`: a number, `=`, a value.
   bool set(const char* text);
+  /// For a sender of Grbl: Grbl's numbers that mean something here, and the machine's own from
+  /// 1000 on.
+  void dumpForGrbl();
+  bool setForGrbl(const char* text);
 
  private:
-  bool setValue(uint8_t number, float value);
+  enum : uint16_t { kFirstForGrbl = 1000 };
+
+  /// `$n=value` behind the `$`; false, with a refusal, if it is none.
+  bool read(const char* text, float& number, float& value);
+  void dumpFrom(uint16_t first);
+  bool setValue(uint8_t number, float value, uint16_t first);
   bool refuseChainSpeed();
 
   settings::Memory& memory_;

@@ -56,17 +56,18 @@ bool SledPlace::isSaid(Search why) {
 
 bool SledPlace::search(Search why) {
   const bool is_said = isSaid(why) && keeper_.trustsChains();
-  if (is_said) {
-    out_.line(FLASH("[Forward Calculating Position]"));
-    moved_by_ = 0;
-  }
+  if (is_said) moved_by_ = 0;
+  // A sender of Grbl reads the place from the status.
+  const bool is_shown = is_said && !out_.speaksGrbl();
+  if (is_shown) out_.line(FLASH("[Forward Calculating Position]"));
   const FoundPlace found = byChains(axes_.length(kLeftAxis), axes_.length(kRightAxis));
   hangs_ = found.found;
   axes_.standStill();
   sled_.x = hangs_ ? found.at.x : 0;
   sled_.y = hangs_ ? found.at.y : 0;
   standHere();
-  if (is_said) hangs_ ? say() : sayNowhere();
+  if (is_said && !hangs_) sayNowhere();
+  if (is_shown && hangs_) say();
   return hangs_;
 }
 
@@ -128,7 +129,7 @@ void SledPlace::lose(settings::Doubt why) {
   // Else the next move of z would start from chains of no length.
   standHere();
   // WebControl looks for the first two words.
-  out_ << FLASH("ALARM: Position Lost. ") << textOf(why) << FLASH(" Last known chain lengths: ");
+  out_.alarm(grbl::kAlarmOfFault) << FLASH("Position Lost. ") << textOf(why) << FLASH(" Last known chain lengths: ");
   sayLengths();
   out_.line(FLASH(" mm. Set them (B06 L R), or set the chains to their marks (B08)."));
 }
@@ -195,9 +196,13 @@ Place SledPlace::now(bool is_moving) {
     return sled_;
   }
   const SetPoint point = axes_.setPoint();
+  // A search that begins at its own result may end a digit next to it.
+  if (point.left == shown_left_ && point.right == shown_right_) return sled_;
   const FoundPlace found =
       byChains(motion::toMm<float>(point.left), motion::toMm<float>(point.right));
   if (found.found) {
+    shown_left_ = point.left;
+    shown_right_ = point.right;
     sled_.x = found.at.x;
     sled_.y = found.at.y;
   }

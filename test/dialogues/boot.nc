@@ -1,7 +1,7 @@
 ; What a fresh board says by itself, and that it says it soon enough.
 <- PCB v1.2 Detected
 <- FAKE_SERVO off
-<- Grbl v1.00
+<- Grbl 1.1h ['$' for help]
 <- Plumb *
 <- ready
 <- ok

@@ -6,7 +6,7 @@
 <- 
 <- soft reset commanded
 <- PCB v1.2 Detected
-<- Grbl v1.00
+<- Grbl 1.1h ['$' for help]
 <- Plumb *
 <- ready
 <- ok

@@ -5,7 +5,7 @@
 -> $RST=$
 <- Message: Restoring defaults 
 <- Laser off
-<* Grbl v1.00
+<* Grbl 1.1h ['$' for help]
 <* ok
 <* position loaded at:
 <* *

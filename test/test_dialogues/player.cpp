@@ -15,10 +15,12 @@ bool startsWith(const std::string& text, const std::string& start) {
   return text.compare(0, start.size(), start) == 0;
 }
 
-/// What ^ and a letter stand for: ^X ctrl-X, ^N a line's end, ^H hold, ^0 to ^4 the feed override.
+/// What ^ and a letter stand for: ^X ctrl-X, ^N a line's end, ^H hold, ^J the end of a jog, ^0 to ^9
+/// and ^A to ^D the overrides.
 char specialNamed(char name) {
-  if (name >= '0' && name <= '4') return char(0x90 + (name - '0'));
-  return name == 'X' ? '\x18' : name == 'H' ? '\x84' : '\n';
+  if (name >= '0' && name <= '9') return char(0x90 + (name - '0'));
+  if (name >= 'A' && name <= 'D') return char(0x9a + (name - 'A'));
+  return name == 'X' ? '\x18' : name == 'H' ? '\x84' : name == 'J' ? '\x85' : '\n';
 }
 
 std::string rawOf(const std::string& text) {
@@ -67,7 +69,7 @@ bool Player::passMillisecond() {
   hear();
   watchMotors();
   look();
-  if (now_ms_ - last_line_ms_ > kLongestGapMs && !is_silence_allowed_) fail("silence");
+  if (now_ms_ - last_line_ms_ > kLongestGapMs && !is_silence_allowed_ && !is_asked_for_) fail("silence");
   while (!is_power_cut_ && at_ < steps_.size() && takeStep(steps_[at_])) {
     ++at_;
     step_since_ms_ = now_ms_;
@@ -96,7 +98,7 @@ void Player::takeLine(const std::string& line) {
   last_line_ms_ = now_ms_;
   if (first_line_ms_ == 0) first_line_ms_ = now_ms_;
   if (startsWith(line, "<"))
-    status_ = line, status_ms_ = now_ms_;
+    status_ = line, status_ms_ = now_ms_, is_asked_for_ = line.find('|') != std::string::npos;
   else if (startsWith(line, "[PE:"))
     errors_ = line;
   else

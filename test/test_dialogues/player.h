@@ -64,6 +64,7 @@ class Player {
 
   std::deque<std::string> lines_;  ///< that came and are no reports
   bool is_silence_allowed_ = false;
+  bool is_asked_for_ = false;  ///< a status comes where `?` asks for it, and only there
   bool is_power_cut_ = false;
   long first_line_ms_ = 0;  ///< after the first power-on
 

@@ -7,6 +7,8 @@ using namespace gcode;
 
 namespace {
 
+const int kAllFree = 127;  // characters, as Maslow clients are told
+
 /// Puts a text in; the quick characters among it as a text: `!`, `~`, X for a reset, O an overflow.
 std::string put(Input& input, const std::string& text) {
   std::string quick;
@@ -70,10 +72,18 @@ TEST(Quick, CharactersFindRoomWhenNothingElseDoes) {
   EXPECT_EQ(125u + 1, lines(input).size());
 }
 
-TEST(Input, DropsAQuestionMark) {
+TEST(Quick, AQuestionMarkAsksForTheStatusOutsideComments) {
   Input input;
+  EXPECT_EQ(Quick::kStatus, input.put('?'));
+  EXPECT_FALSE(input.isInLine());
   put(input, "G?1 X5?\n");
   EXPECT_EQ("G1 X5|", lines(input));
+  put(input, "X1 (");
+  EXPECT_EQ(Quick::kNone, input.put('?'));
+  put(input, ") ;");
+  EXPECT_EQ(Quick::kNone, input.put('?'));
+  put(input, "\n?\n");
+  EXPECT_EQ("X1 (?) ;?||", lines(input)) << "its line feed ends a line";
 }
 
 TEST(Input, DropsControlCharactersInFrontOfALine) {
@@ -123,7 +133,7 @@ TEST(Input, DropsWhatIsLeftOfALineThatWasCut) {
     Input input;
     put(input, begun);
     input.clear();
-    EXPECT_EQ(Input::kRoom, input.room());
+    EXPECT_EQ(kAllFree, input.room());
     put(input, "Y50 (a) ;b\r F900\nG1 X5\n");
     EXPECT_EQ("G1 X5|", lines(input)) << begun;
   }
@@ -158,16 +168,16 @@ TEST(Quick, BytesOfALineThatWasCutOrIsTooLongStillHold) {
 
 TEST(Quick, BytesOfOtherMachinesAreDropped) {
   for (int byte = 0x80; byte < 0x100; ++byte) {
-    if (byte == 0x84 || (byte >= 0x90 && byte <= 0x94)) continue;
+    if (byte == 0x84 || byte == 0x85 || (byte >= 0x90 && byte <= 0x9d)) continue;
     Input input;
     EXPECT_EQ(Quick::kNone, input.put(char(byte)));
-    EXPECT_EQ(Input::kRoom, input.room()) << byte;
+    EXPECT_EQ(kAllFree, input.room()) << byte;
     EXPECT_EQ(Quick::kHold, input.put('\x84')) << byte;
     put(input, "G1 X5\n");
     EXPECT_EQ("G1 X5|", lines(input)) << byte;
   }
   Input input;
-  put(input, "G1 \x95X\xc2\xa0");
+  put(input, "G1 \x9eX\xc2\xa0");
   EXPECT_EQ(Quick::kFeedUp, input.put('\x91'));
   EXPECT_EQ(Quick::kNone, input.put('\xc2'));
   EXPECT_EQ(Quick::kHold, input.put('\x84'));
@@ -213,11 +223,28 @@ TEST(Input, HoldsTheHundredAndTwentySixBytesThatClientsSendAhead) {
 TEST(Input, OverflowsWhenLinesWaitAndNoRoomIsLeft) {
   Input input;
   put(input, "G1\n");
-  EXPECT_EQ("O", put(input, std::string(124, 'X')));
+  EXPECT_EQ("", put(input, std::string(125, 'X')));
+  EXPECT_EQ(0, input.room());
+  EXPECT_EQ("O", put(input, "X"));
   input.clear();
-  EXPECT_EQ(Input::kRoom, input.room());
+  EXPECT_EQ(kAllFree, input.room());
   put(input, "\nG2\n");
   EXPECT_EQ("G2|", lines(input));
+}
+
+TEST(Input, HoldsTheHundredAndTwentyEightCharactersOfGrblSenders) {
+  Input input;
+  const std::string line = "G1 X12345 Y1234";
+  std::string all, expected;
+  for (int i = 0; i < 8; ++i) all += line + "\n", expected += line + "|";
+  EXPECT_EQ(128u, all.size());
+  for (int round = 0; round < 9; ++round) {
+    EXPECT_EQ("", put(input, all));
+    EXPECT_EQ(8, input.lines());
+    EXPECT_EQ(expected, lines(input));
+    put(input, "G4\n");
+    lines(input);
+  }
 }
 
 TEST(Input, TakesALineOfAHundredAndTwentySixCharacters) {
@@ -247,7 +274,7 @@ TEST(Input, CountsItsRoomRoundTheRing) {
   for (int i = 0; i < 500; ++i) {
     EXPECT_EQ("", put(input, "G1 X1234567890 Y1234567890\n"));
     EXPECT_EQ("G1 X1234567890 Y1234567890|", lines(input));
-    ASSERT_EQ(Input::kRoom, input.room());
+    ASSERT_EQ(kAllFree, input.room());
   }
 }
 
@@ -300,7 +327,12 @@ TEST(Quick, BytesAbove127HoldAndChangeTheFeed) {
   EXPECT_EQ(Quick::kFeedDown, Input().put('\x92'));
   EXPECT_EQ(Quick::kFeedUpOne, Input().put('\x93'));
   EXPECT_EQ(Quick::kFeedDownOne, Input().put('\x94'));
-  for (const int byte : {0x83, 0x85, 0x8f, 0x95, 0xff})
+  EXPECT_EQ(Quick::kJogCancel, Input().put('\x85'));
+  EXPECT_EQ(Quick::kRapidFull, Input().put('\x95'));
+  EXPECT_EQ(Quick::kRapidQuarter, Input().put('\x97'));
+  EXPECT_EQ(Quick::kSpindleUsual, Input().put('\x99'));
+  EXPECT_EQ(Quick::kSpindleDownOne, Input().put('\x9d'));
+  for (const int byte : {0x83, 0x86, 0x8f, 0x9e, 0xff})
     EXPECT_EQ(Quick::kNone, Input().put(char(byte))) << byte;
   Input line;
   put(line, "G1 X");
@@ -328,7 +360,7 @@ TEST(Input, ShowsALineThatStays) {
   Input input;
   char line[Input::kRoom + 1];
   EXPECT_FALSE(input.peekLine(line));
-  EXPECT_EQ(Input::kRoom, input.room());
+  EXPECT_EQ(kAllFree, input.room());
   for (int round = 0; round < 40; ++round) {
     put(input, "G1 X5 Y6\nM0\n");
     EXPECT_TRUE(input.peekLine(line));

@@ -3,7 +3,7 @@
 
 #include "board_at_rest.h"
 #include "machine/course.h"
-#include "machine/feed_override.h"
+#include "machine/overrides.h"
 
 using namespace machine;
 using gcode::Quick;
@@ -106,24 +106,47 @@ TEST(Course, BrakesZOffThePathAndTakesNoEventThatTheTableLacks) {
   EXPECT_EQ(State::kHeld, course.state());
 }
 
-TEST(FeedOverride, GoesInStepsBetweenItsEnds) {
-  FeedOverride feed;
-  EXPECT_EQ(100, feed.percent());
-  EXPECT_FALSE(feed.take(Quick::kFeedUsual));
-  for (int i = 0; i < 12; ++i) feed.take(Quick::kFeedUp);
-  EXPECT_EQ(200, feed.percent());
-  EXPECT_FALSE(feed.take(Quick::kFeedUpOne));
-  EXPECT_FLOAT_EQ(2, feed.boost());
-  EXPECT_FLOAT_EQ(1, feed.shareOfPlan());
-  EXPECT_TRUE(feed.take(Quick::kFeedDownOne));
-  EXPECT_EQ(199, feed.percent());
-  EXPECT_TRUE(feed.take(Quick::kFeedUsual));
-  for (int i = 0; i < 12; ++i) feed.take(Quick::kFeedDown);
-  EXPECT_EQ(10, feed.percent());
-  EXPECT_FALSE(feed.take(Quick::kFeedDownOne));
-  EXPECT_FLOAT_EQ(1, feed.boost());
-  EXPECT_FLOAT_EQ(0.1f, feed.shareOfPlan());
-  EXPECT_TRUE(feed.take(Quick::kFeedUpOne));
-  EXPECT_EQ(11, feed.percent());
-  EXPECT_FALSE(feed.take(Quick::kStop));
+TEST(Overrides, FeedGoesInStepsBetweenItsEnds) {
+  Overrides all;
+  EXPECT_EQ(100, all.feed());
+  EXPECT_FALSE(all.take(Quick::kFeedUsual));
+  for (int i = 0; i < 12; ++i) all.take(Quick::kFeedUp);
+  EXPECT_EQ(200, all.feed());
+  EXPECT_FALSE(all.take(Quick::kFeedUpOne));
+  EXPECT_FLOAT_EQ(2, all.boost());
+  EXPECT_FLOAT_EQ(1, all.shareOfPlan());
+  EXPECT_TRUE(all.take(Quick::kFeedDownOne));
+  EXPECT_EQ(199, all.feed());
+  EXPECT_TRUE(all.take(Quick::kFeedUsual));
+  for (int i = 0; i < 12; ++i) all.take(Quick::kFeedDown);
+  EXPECT_EQ(10, all.feed());
+  EXPECT_FALSE(all.take(Quick::kFeedDownOne));
+  EXPECT_FLOAT_EQ(1, all.boost());
+  EXPECT_FLOAT_EQ(0.1f, all.shareOfPlan());
+  EXPECT_TRUE(all.take(Quick::kFeedUpOne));
+  EXPECT_EQ(11, all.feed());
+  EXPECT_EQ(100, all.spindle());
+}
+
+TEST(Overrides, RapidsHaveThreeSteps) {
+  Overrides all;
+  EXPECT_FALSE(all.take(Quick::kRapidFull));
+  EXPECT_TRUE(all.take(Quick::kRapidQuarter));
+  EXPECT_EQ(25, all.rapid());
+  EXPECT_TRUE(all.take(Quick::kRapidHalf));
+  EXPECT_EQ(50, all.rapid());
+  EXPECT_FALSE(all.take(Quick::kNoOverride));
+  EXPECT_EQ(50, all.rapid());
+  EXPECT_EQ(100, all.feed());
+}
+
+TEST(Overrides, TheSpindlesGoesAsTheFeedsAndAllGoBackAtOnce) {
+  Overrides all;
+  EXPECT_FALSE(all.reset());
+  EXPECT_TRUE(all.take(Quick::kSpindleUp));
+  EXPECT_TRUE(all.take(Quick::kSpindleDownOne));
+  EXPECT_EQ(109, all.spindle());
+  EXPECT_EQ(100, all.feed());
+  EXPECT_TRUE(all.reset());
+  EXPECT_EQ(100, all.spindle());
 }

@@ -22,14 +22,14 @@ struct Held {
 std::string line(const Values& values, uint8_t index) {
   std::string text;
   const auto put = [&](char c) { text += c; };
-  putSetting(values, index, put);
+  putSetting(values, index, 0, put);
   return text;
 }
 
 std::string refusalOf(Held& held, uint8_t number, float value) {
   std::string text;
   const auto put = [&](char c) { text += c; };
-  putRefusal(held.table, number, held.values.set(number, value), put);
+  putRefusal(held.table, number, held.values.set(number, value), 0, put);
   return text;
 }
 

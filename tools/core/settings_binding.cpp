@@ -118,7 +118,7 @@ void setAll(Values& values, const std::map<int, double>& given) {
     if (why == Refusal::kNone) continue;
     std::string text;
     const auto put = [&](char c) { text += c; };
-    putRefusal(values.table(), meantBy(uint8_t(number)), why, put);
+    putRefusal(values.table(), meantBy(uint8_t(number)), why, 0, put);
     throw nb::value_error(text.c_str());
   }
 }

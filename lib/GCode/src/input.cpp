@@ -8,8 +8,8 @@ const char kCtrlX = 24;
 // Marks a line that was too long to keep. No client can send it: kept() replaces this character. It
 // begins no word, so that in a hold the line waits as any line with a mistake.
 const char kTooLong = 127;
-// Replaces a byte that no line holds: in a comment it is harmless, elsewhere a mistake. A question
-// mark from the client is never stored.
+// Replaces a byte that no line holds: in a comment it is harmless, elsewhere a mistake. No question
+// mark of a client is stored outside comments.
 const char kUnreadable = '?';
 
 bool isControl(char character) { return uint8_t(character) < ' ' && character != '\t'; }
@@ -27,9 +27,8 @@ char kept(char character) {
 }  // namespace
 
 void Input::store(char character) {
-  static_assert(2 * kRoom <= UINT8_MAX, "the sum must fit");
   // Compared, not divided: a remainder costs 200 cycles.
-  const uint8_t at = uint8_t(first_ + used_);
+  const uint16_t at = uint16_t(first_ + used_);
   ring_[at < kRoom ? at : at - kRoom] = character;
   ++used_;
 }
@@ -40,14 +39,16 @@ Quick Input::quickOf(char character) {
   if (byte == '~') return Quick::kResume;
   if (byte == '`' || byte == kCtrlX) return Quick::kReset;
   if (isText()) return Quick::kNone;
+  if (byte == '?') return Quick::kStatus;
   if (byte == 0x84) return Quick::kHold;
-  if (byte < 0x90 || byte > 0x94) return Quick::kNone;
+  if (byte == 0x85) return Quick::kJogCancel;
+  if (byte < 0x90 || byte > 0x9d) return Quick::kNone;
   return Quick(uint8_t(Quick::kFeedUsual) + (byte - 0x90));
 }
 
 Quick Input::put(char character) {
   const Quick quick = quickOf(character);
-  if (quick >= Quick::kHold) return quick;
+  if (quick >= Quick::kStatus) return quick;
   const bool after_quick = after_quick_;
   after_quick_ = quick != Quick::kNone;
   if (quick == Quick::kResume) resumable_ = uint8_t(lines_ + 1);
@@ -58,7 +59,7 @@ Quick Input::put(char character) {
     if (line_ == Line::kCut) line_ = Line::kBegins;
     return Quick::kNone;
   }
-  if (character == '?' || (!isText() && isOfGrbl(uint8_t(character)))) return Quick::kNone;
+  if (!isText() && isOfGrbl(uint8_t(character))) return Quick::kNone;
   return take(character);
 }
 
@@ -104,7 +105,8 @@ Quick Input::take(char character) {
 
 Quick Input::keep(char character) {
   // The last place is reserved for a line's end.
-  if (used_ < kRoom - 1) {
+  const uint8_t most = lines_ == 0 ? uint8_t(kLongestLine) : uint8_t(kRoom - 1);
+  if (used_ < most) {
     store(character);
     return Quick::kNone;
   }

@@ -8,35 +8,49 @@ namespace gcode {
 /// What a character meant.
 enum class Quick : uint8_t {
   kNone,
-  kStop,         ///< `!`
-  kResume,       ///< `~`
-  kReset,        ///< ctrl-X or a backquote
-  kOverflow,     ///< the room for waiting lines was full: an ordinary character was lost
-  kHold,         ///< 0x84
-  kFeedUsual,    ///< 0x90: the program's feeds, unchanged
-  kFeedUp,       ///< 0x91: 10 percent more
-  kFeedDown,     ///< 0x92: 10 percent less
-  kFeedUpOne,    ///< 0x93: 1 percent more
-  kFeedDownOne,  ///< 0x94: 1 percent less
+  kStop,            ///< `!`
+  kResume,          ///< `~`
+  kReset,           ///< ctrl-X or a backquote
+  kOverflow,        ///< the room for waiting lines was full: an ordinary character was lost
+  kStatus,          ///< `?` outside a comment
+  kHold,            ///< 0x84
+  kJogCancel,       ///< 0x85
+  kFeedUsual,       ///< 0x90: the program's feeds, unchanged
+  kFeedUp,          ///< 0x91: 10 percent more
+  kFeedDown,        ///< 0x92: 10 percent less
+  kFeedUpOne,       ///< 0x93: 1 percent more
+  kFeedDownOne,     ///< 0x94: 1 percent less
+  kRapidFull,       ///< 0x95: G0 at its full speed
+  kRapidHalf,       ///< 0x96
+  kRapidQuarter,    ///< 0x97
+  kNoOverride,      ///< 0x98 means nothing
+  kSpindleUsual,    ///< 0x99: the program's S, unchanged
+  kSpindleUp,       ///< 0x9A: 10 percent more
+  kSpindleDown,     ///< 0x9B: 10 percent less
+  kSpindleUpOne,    ///< 0x9C: 1 percent more
+  kSpindleDownOne,  ///< 0x9D: 1 percent less
 };
 
-/// Room for 127 characters that wait; clients rely on 126.
+/// Room for 129 characters that wait. Maslow clients rely on 126, senders of Grbl on 128.
 ///
 /// Only the main program uses it. The line that comes in is in one of the states of Line.
-/// A line longer than the whole room is dropped to its end; a mark waits in its place, and
+/// A line of more than 126 characters is dropped to its end; a mark waits in its place, and
 /// wasTooLong() is true once that was taken.
 class Input {
  public:
-  enum : uint8_t { kRoom = 127 };
+  enum : uint8_t { kRoom = 129, kLongestLine = 126 };
 
   /// Takes a character.
   Quick put(char character);
 
-  /// Free characters, as the status reports it.
-  uint8_t room() const { return uint8_t(kRoom - used_); }
+  /// Free characters, as Maslow clients are told: at most 127.
+  uint8_t room() const { return used_ > kTold ? 0 : uint8_t(kTold - used_); }
 
   /// Whether something of a line came whose end has not come.
   bool isInLine() const { return line_ != Line::kBegins; }
+
+  /// How many complete lines wait.
+  uint8_t lines() const { return lines_; }
 
   /// Takes the oldest line, without its end; false if none is complete.
   bool takeLine(char (&line)[kRoom + 1]);
@@ -57,6 +71,8 @@ class Input {
   void clear();
 
  private:
+  enum : uint8_t { kTold = kLongestLine + 1 };
+
   /// The line that comes in.
   enum class Line : uint8_t {
     kBegins,   ///< nothing of it has come

@@ -18,12 +18,12 @@ class WorkOffsets {
 
   /// Where the coordinate of an axis begins [mm].
   float at(uint8_t system, uint8_t axis) const {
-    return stored_[system * kAxes + axis] + shiftAt(axis) + toolAt(axis);
+    return stored_[system * kAxes + axis] + shiftNow(axis) + toolAt(axis);
   }
 
   /// G10 L20: the number to store so that machine coordinate `machine` [mm] is called `word` [mm].
   float storedFor(uint8_t axis, float machine, float word) const {
-    return machine - word - shiftAt(axis) - toolAt(axis);
+    return machine - word - shiftNow(axis) - toolAt(axis);
   }
 
   /// G92: machine coordinate `machine` [mm] is called `word` [mm] in that system. All systems shift
@@ -39,9 +39,12 @@ class WorkOffsets {
 
   /// G43.1, G49: how far the tool's tip is beyond the tip with which z was set [mm].
   void setToolLength(float length) { tool_length_ = length; }
+  float toolLength() const { return tool_length_; }
+
+  /// How far G92 shifts an axis now [mm].
+  float shiftNow(uint8_t axis) const { return is_suspended_ ? 0 : shift_[axis]; }
 
  private:
-  float shiftAt(uint8_t axis) const { return is_suspended_ ? 0 : shift_[axis]; }
   float toolAt(uint8_t axis) const { return axis == kZ ? tool_length_ : 0; }
 
   const float* stored_;

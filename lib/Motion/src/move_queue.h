@@ -43,7 +43,8 @@ struct Move {
   float corner_squared;  ///< the same, as the corner before it allows
   uint16_t most_ticks;   ///< how long it lasts at most: from rest to rest
   Space space;
-  uint8_t beam;  ///< strength of a laser along it, at its feed
+  uint8_t beam;   ///< strength of a laser along it, at its feed
+  bool is_rapid;  ///< its feed is none of the program's
 };
 
 /// The moves that wait; the first is the move in progress.
@@ -75,11 +76,11 @@ class MoveQueue {
   /// Queues a move from the end of the last move, at z `z_from` [mm]; `feed` [mm/s] is over all
   /// axes.
   Added add(const Path<float>& path, float z_from, float z_to, float feed, Space space,
-            uint8_t beam = 0);
+            uint8_t beam = 0, bool is_rapid = false);
 
-  /// From now on multiplies feeds by `times`, up to `most_feed` [mm/s]. The limits of chains, z,
-  /// corners and arcs stay.
-  void boost(float times, float most_feed);
+  /// From now on multiplies feeds by `times`, up to `most_feed` [mm/s], and the speed of rapids by
+  /// `rapid` [1], at most 1. The limits of chains, z, corners and arcs stay.
+  void boost(float times, float most_feed, float rapid = 1);
 
   void dropFirst();
   void clear() { count_ = 0; }
@@ -96,6 +97,7 @@ class MoveQueue {
   Limits limits_;                    ///< per tick
   float seconds_;                    ///< that a tick lasts
   float boost_ = 1, most_feed_ = 0;  ///< the factor of feeds; their limit [mm/tick]
+  float rapid_ = 1;                  ///< the factor of rapids
   Sprockets<float> sprockets_;
 };
 
@@ -116,8 +118,8 @@ inline void MoveQueue::prepare(const Limits& limits, float seconds_per_tick) {
 /// Largest speed of a move.
 inline float MoveQueue::topOf(const Move& move) const {
   using queue_detail::smaller;
-  float top = move.feed;
-  if (boost_ != 1 && top < most_feed_) top = smaller(top * boost_, most_feed_);
+  float top = move.is_rapid ? move.feed * rapid_ : move.feed;
+  if (!move.is_rapid && boost_ != 1 && top < most_feed_) top = smaller(top * boost_, most_feed_);
   const float along = move.path.length / move.length;
   if (along < 1) top = smaller(top, limits_.z_speed / float(sqrt(1 - along * along)));
   if (along == 0) return top;
@@ -139,8 +141,9 @@ inline void MoveQueue::plan(Move& move) const {
   move.most_ticks = ticks < float(kMostTold) ? uint16_t(ticks) + 1 : uint16_t(kMostTold);
 }
 
-inline void MoveQueue::boost(float times, float most_feed) {
+inline void MoveQueue::boost(float times, float most_feed, float rapid) {
   boost_ = times;
+  rapid_ = rapid;
   most_feed_ = most_feed * seconds_;
   for (uint8_t i = 0; i < count_; ++i) {
     plan(at(i));
@@ -150,7 +153,7 @@ inline void MoveQueue::boost(float times, float most_feed) {
 }
 
 inline Added MoveQueue::add(const Path<float>& path, float z_from, float z_to, float feed,
-                            Space space, uint8_t beam) {
+                            Space space, uint8_t beam, bool is_rapid) {
   using queue_detail::smaller;
   const bool has_path = path.drawn == Drawn::kYes;
   const float rise = z_to - z_from;
@@ -166,6 +169,7 @@ inline Added MoveQueue::add(const Path<float>& path, float z_from, float z_to, f
   move.z_to = z_to;
   move.space = space;
   move.beam = beam;
+  move.is_rapid = is_rapid;
   const float along = move.path.length;
   move.length = rise == 0 ? along : float(sqrt(along * along + rise * rise));
   const float xy = rise == 0 ? 1 : along / move.length;

@@ -46,15 +46,16 @@ class Mover {
 
   /// Queues a move from the end of the last move; `z_to` [mm], `feed` [mm/s] over all axes.
   /// `beam`: strength of a laser at the move's feed; it is weaker where the move is slower.
+  /// `is_rapid`: the feed is none of the program's, so boost() slows the move otherwise.
   Added add(const Path<float>& path, float z_to, float feed, Space space = Space::kSheet,
-            uint8_t beam = 0);
+            uint8_t beam = 0, bool is_rapid = false);
 
   /// Fills the ring with set-points. `inverse`: Point<float> -> Lengths<float>.
   template <class Inverse>
   Filled fill(SetPoints& set_points, const Inverse& inverse);
 
   /// From now on multiplies feeds; see MoveQueue::boost.
-  void boost(float times, float most_feed);
+  void boost(float times, float most_feed, float rapid = 1);
   /// Drops the moves that wait: for when axes stand, motors are off, or something else moves them.
   void forget();
 

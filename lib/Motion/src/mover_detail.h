@@ -34,9 +34,9 @@ inline void Mover::standAt(const SetPoint& point) {
 }
 
 inline Added Mover::add(const Path<float>& path, float z_to, float feed, Space space,
-                        uint8_t beam) {
+                        uint8_t beam, bool is_rapid) {
   if (queue_.isEmpty()) z_from_ = z_end_;
-  const Added added = queue_.add(path, z_end_, z_to, feed, space, beam);
+  const Added added = queue_.add(path, z_end_, z_to, feed, space, beam, is_rapid);
   if (added != Added::kYes) return added;
   z_end_ = z_to;
   // The speed may be falling to a stop only because this move was missing.
@@ -55,8 +55,8 @@ inline void Mover::cutShort() {
   standStill();
 }
 
-inline void Mover::boost(float times, float most_feed) {
-  queue_.boost(times, most_feed);
+inline void Mover::boost(float times, float most_feed, float rapid) {
+  queue_.boost(times, most_feed, rapid);
   if (queue_.isEmpty()) return;
   cutShort();
   is_taken_up_ = false;

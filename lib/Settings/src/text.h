@@ -23,11 +23,12 @@ void putWord(const Table& table, Word which, Put& put) {
 }
 
 /// `$n=value (comment)`, without the line's end. The caller leaves out rows that are not listed.
+/// Numbers count from `first`.
 template <class Put>
-void putSetting(const Values& values, uint8_t index, Put& put) {
+void putSetting(const Values& values, uint8_t index, uint16_t first, Put& put) {
   const Table& table = values.table();
   put('$');
-  putNumber(table.at(index).number, put);
+  putNumber(float(first + table.at(index).number), put);
   put('=');
   putNumber(values.at(index), put);
   put(' ');
@@ -37,10 +38,11 @@ void putSetting(const Values& values, uint8_t index, Put& put) {
 }
 
 /// Why `$number=value` was not taken: the text that follows `error: `, without the line's end.
+/// Numbers count from `first`.
 template <class Put>
-void putRefusal(const Table& table, uint8_t number, Refusal why, Put& put) {
+void putRefusal(const Table& table, uint8_t number, Refusal why, uint16_t first, Put& put) {
   put('$');
-  putNumber(number, put);
+  putNumber(float(first + number), put);
   put(' ');
   switch (why) {
     case Refusal::kNone:

@@ -1,7 +1,7 @@
 ; The firmware as flashed: boot, settings, version, a setting kept over a reset, a move.
 <- PCB v1.2 Detected
 <- FAKE_SERVO off
-<- Grbl v1.00
+<- Grbl 1.1h ['$' for help]
 <- Plumb *
 <- ready
 <- ok
@@ -42,7 +42,7 @@
 ~~ power cut
 <- PCB v1.2 Detected
 <- FAKE_SERVO off
-<- Grbl v1.00
+<- Grbl 1.1h ['$' for help]
 <* ready
 <- ok
 <- [Forward Calculating Position]
