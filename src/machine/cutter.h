@@ -35,6 +35,7 @@ class Cutter {
   /// From now on a pulsed spindle turns at this percentage of S, within its limits.
   void override(uint8_t percent);
 
+  bool isArmed() const { return is_armed_; }
   /// M106 and M107, for moves that are queued from now on.
   void arm(bool yes);
   /// M106 without an S word: full strength.

@@ -8,6 +8,8 @@ namespace machine {
 void Machine::askStatus(bool is_in_line) {
   // Maslow clients never send it, so at the beginning of a line it says who is there.
   if (!out_.speaksGrbl() && is_in_line) return;
+  // It may have thrown away what was said at the start.
+  if (!out_.speaksGrbl()) is_loss_due_ = !place_.isKnown();
   out_.speak(Dialect::kGrbl);
   is_status_due_ = true;
 }
@@ -19,7 +21,8 @@ gcode::Quick Machine::meantByGrbl(gcode::Quick quick) const {
 }
 
 FlashText Machine::stateForGrbl() {
-  if (isHalted()) return FLASH("Alarm");
+  // No program begins from a place that nobody knows, and its place in the status is none.
+  if (isHalted() || !place_.isKnown()) return FLASH("Alarm");
   if (course_.isWaiting()) return axes_.isAtRest() ? FLASH("Hold:0") : FLASH("Hold:1");
   if (isJogging()) return FLASH("Jog");
   if (isMoving() || is_executing_) return FLASH("Run");
@@ -52,6 +55,8 @@ void Machine::answerStatus() {
        << int32_t(overrides_.spindle());
   if (aux_.probeTouches()) out_ << FLASH("|Pn:P");
   out_.line(FLASH(">"));
+  if (is_loss_due_) out_.line(place_.whatIsLost());
+  is_loss_due_ = false;
 }
 
 void Machine::resetAsGrbl() {
@@ -146,12 +151,12 @@ bool Machine::unlock() {
   out_.line(FLASH("[MSG:Caution: Unlocked]"));
   out_.plain(FLASH("ok"));
   answers_.setAnswered(true);
-  // What is still unknown is said once all stands.
+  const bool is_lost = keeper_.hasLost() || !place_.isKnown();
+  // The end of a stop says what was lost once all stands.
+  if (is_lost && !(isHalted() && keeper_.hasLost())) out_.line(place_.whatIsLost());
   if (isHalted()) {
     course_.take(Event::kStop);
     cutter_.off();
-  } else if (keeper_.hasLost()) {
-    out_.line(place_.whatIsLost());
   }
   return true;
 }

@@ -16,8 +16,9 @@ void Greeting::sayBoard() {
 }
 
 void Greeting::sayReady() {
-  sayWelcome();
-  out_.line(FLASH("Plumb " PLUMB_VERSION ", firmware for the Maslow CNC"));
+  // Nobody is known yet. A line that begins with Grbl, or a bare number behind a name, makes CNCjs
+  // ask for settings before its first question mark, and it takes $13 for inches.
+  out_.line(FLASH("Plumb v" PLUMB_VERSION ", firmware for the Maslow CNC"));
   out_.line(FLASH("ready"));
   out_.plain(FLASH("ok"));
 }

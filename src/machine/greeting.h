@@ -28,8 +28,7 @@ class Greeting {
   void sayStart();
   /// Says where the settings come from, unless they are as they were left.
   void saySource(const settings::Started& started);
-  /// The line by which senders of Grbl know what they talk to. GroundControl and WebControl look for
-  /// no such line.
+  /// After a reset by a sender of Grbl: the line for which it waits.
   void sayWelcome();
   /// Says the lines after which clients begin to send.
   void sayReady();

@@ -18,10 +18,15 @@ const char* digitsOf(uint32_t number, char (&room)[12]) {
 void Printer::put(char character) {
   if (line_ == Line::kNothing) {
     const bool is_data = character == '[' || character == '<' || character == '$';
-    line_ = is_data || !speaksGrbl() ? Line::kData : Line::kMessage;
-    if (line_ == Line::kMessage) putText(FLASH("[MSG:"));
+    line_ = Line::kData;
+    if (!is_data && speaksGrbl()) beginMessage();
   }
   wire_.write(character);
+}
+
+void Printer::beginMessage() {
+  putText(FLASH("[MSG:"));
+  line_ = Line::kMessage;
 }
 
 /// Writes a text to the wire as it is.
@@ -80,7 +85,7 @@ Printer& Printer::fixed(float number, uint8_t decimals) {
 }
 
 void Printer::end() {
-  if (line_ == Line::kNothing && speaksGrbl() && number_ == 0) return;
+  if (line_ == Line::kNothing && speaksGrbl()) return;
   if (line_ == Line::kMessage) wire_.write(']');
   endOnWire();
   if (number_ == 0) return;
@@ -104,6 +109,7 @@ void Printer::plain(FlashText text) {
 
 Printer& Printer::begin(FlashText words, FlashText verdict, uint8_t number) {
   if (!speaksGrbl()) return *this << words;
+  beginMessage();
   verdict_ = verdict;
   number_ = number;
   return *this;

@@ -75,6 +75,7 @@ class Printer {
   enum class Line : uint8_t { kNothing, kData, kMessage };
 
   Printer& begin(FlashText words, FlashText verdict, uint8_t number);
+  void beginMessage();
   void put(char character);
   void putText(FlashText text);
   void endOnWire();

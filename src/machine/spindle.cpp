@@ -40,8 +40,10 @@ bool Spindle::takeS(const gcode::Words& words) {
 }
 
 void Spindle::switchLaser(bool on) {
+  const bool changes = cutter_.isArmed() != on;
   cutter_.arm(on);
-  out_.line(on ? FLASH("Laser on") : FLASH("Laser off"));
+  // Maslow clients hear it at each stop.
+  if (changes || !out_.speaksGrbl()) out_.line(on ? FLASH("Laser on") : FLASH("Laser off"));
 }
 
 }  // namespace machine

@@ -1,8 +1,7 @@
 ; What a fresh board says by itself, and that it says it soon enough.
 <- PCB v1.2 Detected
 <- FAKE_SERVO off
-<- Grbl 1.1h ['$' for help]
-<- Plumb *
+<- Plumb v*
 <- ready
 <- ok
 <- Settings are the defaults. Chain lengths are not known yet*

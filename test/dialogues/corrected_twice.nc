@@ -66,8 +66,7 @@
 <- PCB v1.2 Detected
 <- FAKE_SERVO off
 <- Corrected twice: the machine adds $37 to $160. Set one of each pair to 0, in your client too.
-<- Grbl 1.1h ['$' for help]
-<- Plumb *
+<- Plumb v*
 <- ready
 <- ok
 <- [Forward Calculating Position]

@@ -81,7 +81,6 @@
 <- ok
 >> ^X
 <- Grbl 1.1h ['$' for help]
-<- [MSG:Laser off]
 >> ?
 ~~ status <Idle|MPos:100.000,0.000,0.000|* within 0.05
 -> $G
@@ -101,7 +100,6 @@
 <- [MSG:Caution: Unlocked]
 <- ok
 ~~ wait 0.5
-<- [MSG:Laser off]
 >> ?
 ~~ status <Idle|*
 -> G0 X99999
@@ -111,7 +109,6 @@
 <- error:9
 >> ^X
 <* Grbl 1.1h ['$' for help]
-<- [MSG:Laser off]
 -> G98
 <- ok
 ; Check mode does nothing.

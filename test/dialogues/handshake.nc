@@ -6,8 +6,7 @@
 <- 
 <- soft reset commanded
 <- PCB v1.2 Detected
-<- Grbl 1.1h ['$' for help]
-<- Plumb *
+<- Plumb v*
 <- ready
 <- ok
 <- Laser off

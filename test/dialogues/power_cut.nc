@@ -7,7 +7,6 @@
 ~~ wait 8
 ~~ power cut
 <* FAKE_SERVO off
-<- Grbl 1.1h ['$' for help]
 <* ok
 <- [Forward Calculating Position]
 <- position loaded at:

@@ -5,7 +5,7 @@
 -> $RST=$
 <- Message: Restoring defaults 
 <- Laser off
-<* Grbl 1.1h ['$' for help]
+<* Plumb v*
 <* ok
 <* position loaded at:
 <* *

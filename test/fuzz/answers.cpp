@@ -29,8 +29,28 @@ bool passNumbers(const std::string& text, std::size_t at, int count, const std::
   return text.compare(at, std::string::npos, rest) == 0;
 }
 
-void checkLine(const std::string& line) {
+/// Whether a line is one that senders of Grbl know.
+bool isKnownToGrbl(const std::string& line) {
+  for (const char* start : {"ok", "error:", "ALARM:", "<", "[", "$", "Grbl 1.1"})
+    if (startsWith(line, start)) return true;
+  return false;
+}
+
+/// Whether a character gets an answer of its own from a Maslow, and takes the line feed behind it.
+bool isQuick(char character) {
+  return character == '!' || character == '~' || character == '`' || character == '\x18';
+}
+
+/// Whether a line begins with a character, or goes on; no byte of a line is noise or a question.
+bool beginsLine(char character) {
+  return character == '\t' || (character >= ' ' && uint8_t(character) <= 126 && character != '?');
+}
+
+}  // namespace
+
+void Answers::checkLine(const std::string& line) {
   const std::size_t place = line.find(":") + 1;
+  if (is_of_grbl_) return must(isKnownToGrbl(line), "a line that no sender of Grbl knows: " + line);
   if (startsWith(line, "<"))
     must(line.find(",MPos:") != std::string::npos &&
              passNumbers(line, place, 3, ",WPos:0.000,0.000,0.000>"),
@@ -41,17 +61,18 @@ void checkLine(const std::string& line) {
     must(passNumbers(line, 10, 1, "]"), "a measurement that clients cannot read: " + line);
 }
 
-/// Whether a line begins with a character, or goes on; no byte of a line is noise or a question.
-bool beginsLine(char character) {
-  return character == '\t' || (character >= ' ' && uint8_t(character) <= 126 && character != '?');
-}
-
-}  // namespace
-
 void Answers::taken(char character) {
+  if (character == '?' && !is_in_line_) {
+    // A Maslow client had no answers after an alarm.
+    if (!is_of_grbl_ && is_locked_) broken_ = lines_ + quick_ - answered_;
+    is_of_grbl_ = true;
+    return;
+  }
   const bool follows_quick = after_quick_;
-  after_quick_ = character == '!' || character == '~' || character == '`' || character == '\x18';
-  if (after_quick_)
+  after_quick_ = isQuick(character);
+  if (is_of_grbl_ && (after_quick_ || uint8_t(character) == kHold))
+    takenByGrbl(character);
+  else if (after_quick_)
     takenQuick(character);
   else if (character == '\n')
     takenEnd(follows_quick);
@@ -77,14 +98,55 @@ void Answers::takenQuick(char character) {
   is_held_ = false;
 }
 
+void Answers::takenByGrbl(char character) {
+  is_idle_ = false;
+  is_held_ = character == '!' || uint8_t(character) == kHold;
+  if (character != '`' && character != '\x18') return;
+  dropLines();
+  is_locked_ = is_waiting_ = false;
+}
+
 void Answers::dropLines() {
   lines_ = answered_ - quick_;
-  resumed_ = 0;
+  resumed_ = broken_ = 0;
   is_cut_ = is_in_line_;
 }
 
 void Answers::said(const std::string& line) {
+  // B05 is echoed once it has turned the dialect off.
+  if (startsWith(line, "B05")) is_of_grbl_ = false;
   checkLine(line);
+  if (is_of_grbl_)
+    saidToGrbl(line);
+  else
+    saidToMaslow(line);
+  const std::size_t equals = line.find('=');
+  if (startsWith(line, "$") && equals != std::string::npos && std::isdigit(uint8_t(line[1]))) {
+    std::size_t at = equals + 1;
+    must(passNumber(line, at), "a setting that clients cannot read: " + line);
+    ++settings_;
+  }
+}
+
+void Answers::saidToGrbl(const std::string& line) {
+  if (line == "ok" || startsWith(line, "error:")) {
+    ++answered_;
+    must(answered_ <= lines_ + quick_ + resumed_, "an answer too many: " + line);
+  }
+  if (startsWith(line, "ALARM:")) {
+    ++broken_;
+    is_locked_ = true;
+    is_halted_ = line == "ALARM:2";
+  }
+  if (startsWith(line, "[MSG:Halted at ")) is_locked_ = is_halted_ = true;
+  if (line == "[MSG:Caution: Unlocked]") is_locked_ = false;
+  if (line == "[MSG:Maslow Paused]") is_waiting_ = true;
+  if (!startsWith(line, "<")) return;
+  is_idle_ = startsWith(line, "<Idle|");
+  is_waiting_ = startsWith(line, "<Hold:");
+}
+
+void Answers::saidToMaslow(const std::string& line) {
   if (line == "ok" || startsWith(line, "error:")) {
     ++answered_;
     must(answered_ <= lines_ + quick_ + resumed_, "an answer too many: " + line);
@@ -101,12 +163,6 @@ void Answers::said(const std::string& line) {
   }
   if (startsWith(line, "Z goes back to ")) is_waiting_ = true;
   if (startsWith(line, "FAKE_SERVO ")) is_simulated_ = line == "FAKE_SERVO on";
-  const std::size_t equals = line.find('=');
-  if (startsWith(line, "$") && equals != std::string::npos && std::isdigit(uint8_t(line[1]))) {
-    std::size_t at = equals + 1;
-    must(passNumber(line, at), "a setting that clients cannot read: " + line);
-    ++settings_;
-  }
 }
 
 void Answers::wentRound() {

@@ -6,6 +6,9 @@
 /// What clients rely on: an answer for each line and each quick character, but none for a line that
 /// a stop broke off, and none for a `~` that ends a hold by 0x84. In a pause, or too late to hold
 /// anything, 0x84 holds nothing, and the `~` behind it has its answer.
+///
+/// A sender of Grbl gets an answer for each line, also after an alarm, and none for quick
+/// characters. Only the line in which an alarm comes may have none.
 class Answers {
  public:
   /// The machine took a character from the wire.
@@ -17,7 +20,8 @@ class Answers {
   /// Power came back, and the greeting is over.
   void startAnew() { *this = Answers(); }
 
-  bool isComplete() const { return answered_ >= lines_ + quick_; }
+  bool isComplete() const { return answered_ >= lines_ + quick_ - broken_; }
+  bool isOfGrbl() const { return is_of_grbl_; }
   bool isLocked() const { return is_locked_; }
   /// After a halt the moves before it are finished; after an alarm nothing turns.
   bool mayDrive() const { return !is_locked_ || is_halted_; }
@@ -28,13 +32,19 @@ class Answers {
   int takeSettings();
 
  private:
+  void checkLine(const std::string& line);
+  void saidToMaslow(const std::string& line);
+  void saidToGrbl(const std::string& line);
+  void takenByGrbl(char character);
   void dropLines();
   void takenQuick(char character);
   void takenEnd(bool follows_quick);
 
   long lines_ = 0, quick_ = 0, answered_ = 0, answered_before_ = 0;
   long resumed_ = 0;  ///< `~` behind 0x84, which may have an answer
+  long broken_ = 0;   ///< lines that a Grbl alarm may have left without an answer
   int rounds_ = 0, settings_ = 0;
+  bool is_of_grbl_ = false;
   bool is_in_line_ = false, is_cut_ = false;  ///< part of a line came; its rest is dropped
   bool after_quick_ = false, is_locked_ = false, is_halted_ = false, is_simulated_ = false;
   // Lines wait without an answer in a hold, and behind it while z goes back: until a status no

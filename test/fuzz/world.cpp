@@ -22,6 +22,7 @@ const long kLastPatienceMs = 60000;  // for the settings after a stop
 const long kQuietMs = 3000;
 
 const char* const kStopAndAsk = "!\n$$\n";
+const char* const kResetAndAsk = "\x18\n$$\n";  // as a sender of Grbl
 
 const double kMainPerCount = 63.5 / 8113.73, kZPerCount = 3.17 / 7560;  // [mm]
 const double kMainTopSpeed = 26, kZTopSpeed = 1.1;                      // [mm/s]
@@ -119,7 +120,8 @@ class World : public Wire, public Drives, public Aux, public Clock {
 
   void idle() override {
     pass(story_.step_ms);
-    must(now_ms_ - last_line_ms_ <= kLongestGapMs + story_.step_ms, "silence for over 1.5 s");
+    must(answers_.isOfGrbl() || now_ms_ - last_line_ms_ <= kLongestGapMs + story_.step_ms,
+         "silence for over 1.5 s");
     if (!is_ending_ && isTold()) end();
     if (is_ending_) lookForEnd();
   }
@@ -202,17 +204,16 @@ class World : public Wire, public Drives, public Aux, public Clock {
     is_ending_ = true;
     end_ms_ = now_ms_;
     answers_.takeSettings();
-    wire_ = kStopAndAsk;
+    askAtTheEnd();
   }
+
+  void askAtTheEnd() { wire_ = answers_.isOfGrbl() ? kResetAndAsk : kStopAndAsk; }
 
   void lookForEnd() {
     must(now_ms_ - end_ms_ < kLastPatienceMs, "no settings after a stop");
     if (!wire_.empty() || !answers_.isComplete()) return;
     // A motor that is held may raise its alarm while it brakes, and that drops the question.
-    if (answers_.isLocked()) {
-      wire_ = kStopAndAsk;
-      return;
-    }
+    if (answers_.isLocked()) return askAtTheEnd();
     must(answers_.takeSettings() > 40, "not all settings are shown after a stop");
     throw TheEnd();
   }

@@ -216,7 +216,7 @@ TEST(Input, HoldsTheHundredAndTwentySixBytesThatClientsSendAhead) {
   ASSERT_EQ(126u, sent.size());
   EXPECT_EQ("", put(input, sent));
   EXPECT_EQ(1, input.room());
-  EXPECT_EQ("", put(input, "\n"));
+  EXPECT_EQ("", put(input, "\n\n\n"));
   EXPECT_EQ("O", put(input, "\n"));
 }
 

@@ -134,7 +134,7 @@ Signature howItMoves(const Values& values) {
   geometry.prepare(usual.values);
   Planner planner;
   planner.setGeometry(geometry);
-  planner.boost(1.5f);
+  planner.boost(1.5f, 1);
   planner.prepare(values, axes.secondsPerTick());
   const motion::Lengths<float> from = geometry.inverse({0, 0});
   axes.declare(kLeftAxis, from.left);

@@ -24,8 +24,8 @@ struct Queued {
   void lineBy(float dx, float dy, float dz, float feed = 30) {
     add(line(at, {at.x + dx, at.y + dy}), dz, feed);
   }
-  void add(const Path<float>& path, float dz, float feed = 30) {
-    EXPECT_EQ(Added::kYes, queue.add(path, z, z + dz, feed, Space::kSheet));
+  void add(const Path<float>& path, float dz, float feed = 30, bool is_rapid = false) {
+    EXPECT_EQ(Added::kYes, queue.add(path, z, z + dz, feed, Space::kSheet, 0, is_rapid));
     at = path.to;
     z += dz;
   }
@@ -168,6 +168,18 @@ TEST(Queue, LooksBackAgainWhereTheFeedIsBoosted) {
   EXPECT_NEAR(double(queued.queue.exitSquared()), 16, 1e-3) << "what was asked for stays";
   queued.queue.boost(0.5f, 30);
   EXPECT_NEAR(double(queued.queue.exitSquared()), 4, 1e-3);
+}
+
+TEST(Queue, SlowsRapidsAlone) {
+  Queued queued;
+  queued.lineBy(10, 0, 0, 8);
+  queued.add(line(queued.at, {queued.at.x + 10, queued.at.y}), 0, 8, true);
+  queued.queue.boost(1, 8, 0.25f);
+  EXPECT_NEAR(double(queued.queue.second().entry_squared), 4, 1e-3) << "a quarter of its feed";
+  EXPECT_NEAR(double(queued.queue.first().top), 8, 1e-5);
+  queued.queue.boost(2, 30, 0.5f);
+  EXPECT_NEAR(double(queued.queue.second().top), 4, 1e-5) << "feeds alone are boosted";
+  EXPECT_NEAR(double(queued.queue.first().top), 16, 1e-5);
 }
 
 TEST(Queue, LastsAsLongAsItsTrapezoids) {

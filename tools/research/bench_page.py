@@ -28,7 +28,7 @@ from tables import markdown_table
 
 INTRODUCTION = """# How often the diagnosis is right
 
-Written by `tools/research/bench_page.py --boards 100 --write docs/bench.md`; run it to see the same
+Written by `tools/research/bench_page.py --boards 40 --seed 4242 --write docs/bench.md`; run it to see the same
 with other boards (`--seed`).
 
 The settings that cut each board know the frame, chain sag and stretch. The judge (tools/judge,

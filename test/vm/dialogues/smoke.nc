@@ -1,8 +1,7 @@
 ; The firmware as flashed: boot, settings, version, a setting kept over a reset, a move.
 <- PCB v1.2 Detected
 <- FAKE_SERVO off
-<- Grbl 1.1h ['$' for help]
-<- Plumb *
+<- Plumb v*
 <- ready
 <- ok
 <- Settings are the defaults. Chain lengths are not known yet*
@@ -42,7 +41,6 @@
 ~~ power cut
 <- PCB v1.2 Detected
 <- FAKE_SERVO off
-<- Grbl 1.1h ['$' for help]
 <* ready
 <- ok
 <- [Forward Calculating Position]

@@ -19,10 +19,12 @@ from plumb.text.errors import InputError
 AHEAD = 126  # characters on their way at most
 SILENCE = 5.0  # [s] the machine reports five times a second, so this long a silence has a reason
 START = 12.0  # [s] a board that was reset by the line takes up to six
+SILENT = 1.5  # [s] a Maslow reports five times a second; after a sender of Grbl it does not
+VERSION = b"B05\n"  # the question that turns its reports on
 HOLD, GO_ON, STOP = b"\x84", b"~\n", b"!\n"
 ANSWERS = ("ok", "error:")
 WRONG = ("ALARM", "error:")  # how lines begin that nobody may miss
-QUESTIONS = ("$$", "B05", "B10 L", "B10 R", "?")  # move nothing, and power no motor
+QUESTIONS = ("$$", "B05", "B10 L", "B10 R")  # move nothing, and power no motor
 PAUSED = "Pause"  # what a machine reports that holds
 HALTED = "Stop"  # what a machine reports that waits for Stop; it answers questions alone
 PATIENT = 5  # reports, a second of them
@@ -78,16 +80,23 @@ class Sender:
 
     def await_start(self) -> None:
         """Wait until the machine reports; of its greeting only what is wrong is heard."""
-        begin = self.port.seconds()
+        begin = asked = self.port.seconds()
         greeted, said = list[str](), self.said
         self.said = greeted.append
         while self.status is None:
             self.listen()
+            if self.port.seconds() - asked > SILENT:
+                asked = self.port.seconds()
+                self.port.write(VERSION)
             if self.port.seconds() - begin > START:
                 raise LostError(
                     "the machine does not answer: check the cable, its power, and that no other "
                     "program has the line"
                 )
+        # Answers to that question belong to no line.
+        watch = Watch(self)
+        while asked != begin and not watch.has_lasted(REPORTS):
+            self.listen()
         self.said = said
         self.greeting += tuple(greeted)
         for line in greeted:

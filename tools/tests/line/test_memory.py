@@ -21,7 +21,7 @@ def test_a_board_without_numbers_is_no_machine():
 def test_the_version_is_the_line_that_names_the_firmware():
     machine = NumbersMachine()
     assert version_of(Sender(machine)) == "Firmware Version 1.28"
-    machine.says = ["Grbl 1.1h ['$' for help]"]
+    machine.says = ["Plumb v0.1"]
     assert version_of(Sender(machine)) == ""
 
 

@@ -140,7 +140,7 @@ def test_a_silent_machine_is_named():
 def test_a_greeting_counts_for_no_line():
     said = []
     board = Board()
-    board.read = iter([b"Grbl 1.1h ['$' for help]\r\nready\r\nok\r\n", REPORT.encode()]).__next__
+    board.read = iter([b"Plumb v0.1\r\nready\r\nok\r\n", REPORT.encode()]).__next__
     sender = Sender(board, said.append)
     sender.await_start()
     assert said == []
