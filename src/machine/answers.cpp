@@ -98,7 +98,8 @@ bool Answers::refuseMistake(gcode::Mistake mistake) {
   return endRefusal();
 }
 
-/// Begins the words. A halt is an alarm, but to a sender of Grbl a mistake in a line stays an error.
+/// Begins the words. A halt is an alarm, but to a sender of Grbl a mistake in a line stays an
+/// error.
 void Answers::beginRefusal(bool is_motion, uint8_t number) {
   if (halts() && (is_motion || !out_.speaksGrbl()))
     out_.alarm(grbl::kAlarmOfTarget);

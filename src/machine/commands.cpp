@@ -86,9 +86,7 @@ bool Machine::execute(char* line) {
 }
 
 /// A line comes after an alarm: only a sender of Grbl counts on an answer.
-bool Machine::refuseHalted() {
-  return out_.speaksGrbl() && answers_.refuseBare(grbl::kLocked);
-}
+bool Machine::refuseHalted() { return out_.speaksGrbl() && answers_.refuseBare(grbl::kLocked); }
 
 void Machine::echo(const char* line) {
   uint8_t length = 0;

@@ -1,5 +1,5 @@
 // What a sender of Grbl asks for: the status at each `?`, and lines with a `$`. How lines look to
-// such a sender is the printer's; jogs have a file of their own, jogs.cpp.
+// such a sender is the printer's; jogs are in jogs.cpp.
 #include "machine.h"
 #include "version.h"
 

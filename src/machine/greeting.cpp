@@ -42,7 +42,8 @@ void Greeting::saySource(const settings::Started& started) {
     case Source::kStored:
       return;
     case Source::kStoredInPart:
-      return out_.error(0).line(FLASH("Some settings were out of today's limits and have defaults."));
+      return out_.error(0).line(
+          FLASH("Some settings were out of today's limits and have defaults."));
     case Source::kImported:
       return out_.line(FLASH("Settings of the published firmware were taken over."));
     case Source::kDefaults:

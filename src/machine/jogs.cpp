@@ -15,7 +15,7 @@ bool Machine::jog(const char* text) {
   answers_.serve(false);
   modal_ = program;
   if (answers_.isAnswered()) return done;
-  // At once, for a sender waits with the next one; and also where 0x85 ended the wait for room.
+  // At once, for a sender waits with its next jog; and also where 0x85 ended the wait for room.
   out_.plain(FLASH("ok"));
   answers_.setAnswered(true);
   return done;

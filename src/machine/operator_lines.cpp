@@ -26,8 +26,8 @@ gcode::Input& OperatorLines::inputFor(char character) {
   const uint32_t kFirstMs = 300;  // a sender that has not noticed may go on for a moment
   if (character != '\n' && !coming_->isInLine()) {
     // To a sender of Grbl a line in a hold is one of the program, to be done after it.
-    const bool is_own = !out_.speaksGrbl() && isOperatorsTurn() &&
-                        clock_.milliseconds() - since_ms_ >= kFirstMs;
+    const bool is_own =
+        !out_.speaksGrbl() && isOperatorsTurn() && clock_.milliseconds() - since_ms_ >= kFirstMs;
     coming_ = is_own ? &typed_ : &input_;
   }
   return *coming_;

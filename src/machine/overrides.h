@@ -48,7 +48,7 @@ class Overrides {
       rapid_ = uint8_t(100 >> (uint8_t(quick) - uint8_t(Quick::kRapidFull)));
     return rapid_ != was;
   }
-  /// Back to the program's own numbers; false if nothing changes.
+  /// Back to the program's numbers; false if nothing changes.
   bool reset() {
     const bool changes = feed() != Percent::kUsual || rapid_ != 100 || spindle() != Percent::kUsual;
     *this = Overrides();

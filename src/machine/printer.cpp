@@ -79,8 +79,7 @@ Printer& Printer::fixed(float number, uint8_t decimals) {
   if (decimals == 0) return *this;
   put('.');
   const uint32_t fraction = scaled % scale;
-  for (uint32_t place = scale / 10; place != 0; place /= 10)
-    put(char('0' + fraction / place % 10));
+  for (uint32_t place = scale / 10; place != 0; place /= 10) put(char('0' + fraction / place % 10));
   return *this;
 }
 

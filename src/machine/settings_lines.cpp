@@ -10,31 +10,31 @@ struct PutLetter {
   void operator()(char letter) { out << letter; }
 };
 
-/// A number of Grbl's: one of the machine's own, or one that never changes.
+/// A number of Grbl's: another name of a setting, or one that never changes.
 struct GrblSetting {
   uint8_t number;
-  Setting own;
-  uint8_t fixed;  ///< where `own` is kSettingCount
+  Setting setting;
+  uint8_t fixed;  ///< where `setting` is kSettingCount
 
-  bool isFixed() const { return own == kSettingCount; }
+  bool isFixed() const { return setting == kSettingCount; }
 };
 
 const GrblSetting kForGrbl[] PROGMEM = {
-    {10, kSettingCount, 1},      // the status says machine places
-    {13, kReportInches, 0},      //
-    {20, kSettingCount, 0},      // the sheet's edge stops the sled, whatever a sender sets
-    {21, kSettingCount, 0},      // no limit switches
-    {22, kSettingCount, 0},      // no homing
-    {30, kSpindleMost, 0},       //
-    {31, kSpindleLeast, 0},      //
-    {32, kSettingCount, 0},      // a laser is switched by M106
-    {110, kGreatestFeed, 0},     //
-    {111, kGreatestFeed, 0},     //
-    {120, kAccelerationXy, 0},   //
-    {121, kAccelerationXy, 0},   //
-    {122, kAccelerationZ, 0},    //
-    {130, kSheetWidth, 0},       //
-    {131, kSheetHeight, 0},      //
+    {10, kSettingCount, 1},     // the status says machine places
+    {13, kReportInches, 0},     //
+    {20, kSettingCount, 0},     // the sheet's edge stops the sled, whatever a sender sets
+    {21, kSettingCount, 0},     // no limit switches
+    {22, kSettingCount, 0},     // no homing
+    {30, kSpindleMost, 0},      //
+    {31, kSpindleLeast, 0},     //
+    {32, kSettingCount, 0},     // a laser is switched by M106
+    {110, kGreatestFeed, 0},    //
+    {111, kGreatestFeed, 0},    //
+    {120, kAccelerationXy, 0},  //
+    {121, kAccelerationXy, 0},  //
+    {122, kAccelerationZ, 0},   //
+    {130, kSheetWidth, 0},      //
+    {131, kSheetHeight, 0},     //
 };
 const uint8_t kGrblCount = sizeof kForGrbl / sizeof kForGrbl[0];
 
@@ -66,7 +66,7 @@ void SettingsLines::dumpForGrbl() {
   for (uint8_t i = 0; i < kGrblCount; ++i) {
     const GrblSetting row = grblAt(i);
     out_ << '$' << int32_t(row.number) << '=';
-    settings::putNumber(row.isFixed() ? row.fixed : values_.at(row.own), put);
+    settings::putNumber(row.isFixed() ? row.fixed : values_.at(row.setting), put);
     out_.end();
   }
   dumpFrom(kFirstForGrbl);
@@ -80,11 +80,12 @@ bool SettingsLines::setForGrbl(const char* text) {
   for (uint8_t i = 0; i < kGrblCount; ++i) {
     const GrblSetting row = grblAt(i);
     if (float(row.number) != number) continue;
-    if (!row.isFixed()) return setValue(values_.table().at(row.own).number, value, kFirstForGrbl);
+    if (!row.isFixed())
+      return setValue(values_.table().at(row.setting).number, value, kFirstForGrbl);
     return value == row.fixed ||
            answers_.refuse(FLASH("this machine cannot change that number of Grbl's"));
   }
-  return answers_.refuse(FLASH("this machine has no such number; its own begin at $1000"));
+  return answers_.refuse(FLASH("this machine has no such number; its settings begin at $1000"));
 }
 
 bool SettingsLines::set(const char* text) {

@@ -23,8 +23,8 @@ class SettingsLines {
   void dump();
   /// Takes the text behind the `$`: a number, `=`, a value.
   bool set(const char* text);
-  /// For a sender of Grbl: Grbl's numbers that mean something here, and the machine's own from
-  /// 1000 on.
+  /// For a sender of Grbl: Grbl's numbers that mean something here, and the settings from 1000
+  /// on.
   void dumpForGrbl();
   bool setForGrbl(const char* text);
 

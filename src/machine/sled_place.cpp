@@ -129,7 +129,8 @@ void SledPlace::lose(settings::Doubt why) {
   // Else the next move of z would start from chains of no length.
   standHere();
   // WebControl looks for the first two words.
-  out_.alarm(grbl::kAlarmOfFault) << FLASH("Position Lost. ") << textOf(why) << FLASH(" Last known chain lengths: ");
+  out_.alarm(grbl::kAlarmOfFault) << FLASH("Position Lost. ") << textOf(why)
+                                  << FLASH(" Last known chain lengths: ");
   sayLengths();
   out_.line(FLASH(" mm. Set them (B06 L R), or set the chains to their marks (B08)."));
 }
@@ -196,7 +197,7 @@ Place SledPlace::now(bool is_moving) {
     return sled_;
   }
   const SetPoint point = axes_.setPoint();
-  // A search that begins at its own result may end a digit next to it.
+  // A search that begins at its last result may end a digit next to it.
   if (point.left == shown_left_ && point.right == shown_right_) return sled_;
   const FoundPlace found =
       byChains(motion::toMm<float>(point.left), motion::toMm<float>(point.right));

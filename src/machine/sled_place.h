@@ -110,11 +110,11 @@ class SledPlace {
   settings::Memory& memory_;
   const gcode::Modal& modal_;
   ProgramPlace& program_;
-  Place sled_ = {0, 0, 0};     ///< where the tool was at the last search or call of now()
+  Place sled_ = {0, 0, 0};  ///< where the tool was at the last search or call of now()
   int32_t shown_left_ = 0, shown_right_ = 0;  ///< set-points of `sled_` while it moves [counts]
-  Place left_at_ = {0, 0, 0};  ///< where the motors left the tool
-  float moved_by_ = 0;         ///< [mm]
-  bool hangs_ = false;         ///< whether a sled can hang on the chains as last searched
+  Place left_at_ = {0, 0, 0};                 ///< where the motors left the tool
+  float moved_by_ = 0;                        ///< [mm]
+  bool hangs_ = false;  ///< whether a sled can hang on the chains as last searched
 };
 
 }  // namespace machine

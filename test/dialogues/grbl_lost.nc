@@ -40,7 +40,7 @@
 -> $22=0
 <- ok
 -> $5=1
-<- [MSG:this machine has no such number; its own begin at $1000]
+<- [MSG:this machine has no such number; its settings begin at $1000]
 <- error:3
 -> $1043=1
 <- [MSG:$1043 is set by B codes only *

@@ -36,7 +36,7 @@ bool isKnownToGrbl(const std::string& line) {
   return false;
 }
 
-/// Whether a character gets an answer of its own from a Maslow, and takes the line feed behind it.
+/// Whether a character gets an answer from a Maslow, and takes the line feed behind it.
 bool isQuick(char character) {
   return character == '!' || character == '~' || character == '`' || character == '\x18';
 }

@@ -15,8 +15,8 @@ bool startsWith(const std::string& text, const std::string& start) {
   return text.compare(0, start.size(), start) == 0;
 }
 
-/// What ^ and a letter stand for: ^X ctrl-X, ^N a line's end, ^H hold, ^J the end of a jog, ^0 to ^9
-/// and ^A to ^D the overrides.
+/// What ^ and a letter stand for: ^X ctrl-X, ^N a line's end, ^H hold, ^J the end of a jog, ^0 to
+/// ^9 and ^A to ^D the overrides.
 char specialNamed(char name) {
   if (name >= '0' && name <= '9') return char(0x90 + (name - '0'));
   if (name >= 'A' && name <= 'D') return char(0x9a + (name - 'A'));
@@ -69,7 +69,8 @@ bool Player::passMillisecond() {
   hear();
   watchMotors();
   look();
-  if (now_ms_ - last_line_ms_ > kLongestGapMs && !is_silence_allowed_ && !is_asked_for_) fail("silence");
+  if (now_ms_ - last_line_ms_ > kLongestGapMs && !is_silence_allowed_ && !is_asked_for_)
+    fail("silence");
   while (!is_power_cut_ && at_ < steps_.size() && takeStep(steps_[at_])) {
     ++at_;
     step_since_ms_ = now_ms_;

@@ -7,7 +7,7 @@ using namespace gcode;
 
 namespace {
 
-const int kAllFree = 127;  // characters, as Maslow clients are told
+const int kAllFree = 127;  // characters, in the report for Maslow clients
 
 /// Puts a text in; the quick characters among it as a text: `!`, `~`, X for a reset, O an overflow.
 std::string put(Input& input, const std::string& text) {

@@ -28,8 +28,8 @@ from tables import markdown_table
 
 INTRODUCTION = """# How often the diagnosis is right
 
-Written by `tools/research/bench_page.py --boards 40 --seed 4242 --write docs/bench.md`; run it to see the same
-with other boards (`--seed`).
+Written by `tools/research/bench_page.py --boards 40 --seed 4242 --write docs/bench.md`; run it to
+see the same with other boards (`--seed`).
 
 The settings that cut each board know the frame, chain sag and stretch. The judge (tools/judge,
 exact elastic catenaries that share no formula with the model) says where the sled really went, with

@@ -43,7 +43,7 @@ class Input {
   /// Takes a character.
   Quick put(char character);
 
-  /// Free characters, as Maslow clients are told: at most 127.
+  /// Free characters in the report for Maslow clients: at most 127.
   uint8_t room() const { return used_ > kTold ? 0 : uint8_t(kTold - used_); }
 
   /// Whether something of a line came whose end has not come.

@@ -33,8 +33,8 @@ inline void Mover::standAt(const SetPoint& point) {
   forget();
 }
 
-inline Added Mover::add(const Path<float>& path, float z_to, float feed, Space space,
-                        uint8_t beam, bool is_rapid) {
+inline Added Mover::add(const Path<float>& path, float z_to, float feed, Space space, uint8_t beam,
+                        bool is_rapid) {
   if (queue_.isEmpty()) z_from_ = z_end_;
   const Added added = queue_.add(path, z_end_, z_to, feed, space, beam, is_rapid);
   if (added != Added::kYes) return added;
