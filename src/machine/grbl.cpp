@@ -46,7 +46,7 @@ void Machine::answerStatus() {
   const float a_minute = 60 * float(ticks_per_second_) * overrides_.shareOfPlan();
   const float speed = axes_.isPathAtRest() ? 0 : planner_.speed() * a_minute;
   out_ << '<' << stateForGrbl() << FLASH("|MPos:");
-  sayPlace(place_.now(isMoving()));
+  sayPlace(placeNow());
   out_ << FLASH("|FS:");
   out_.fixed(inches ? speed / gcode::kMmPerInch : speed, inches ? 1 : 0) << ',';
   out_.fixed(spindle_.isOn() ? cutter_.s() : 0, 0) << FLASH("|WCO:");

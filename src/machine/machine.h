@@ -90,6 +90,7 @@ class Machine : private Waiting, private Dispatch {
   void resetOverrides();
   void applyOverrides();
   bool isHalted() const { return course_.isHalted(); }
+  Place placeNow();
   bool isFarAhead() const;
 
   // commands.cpp: turns a line into pieces.

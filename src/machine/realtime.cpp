@@ -31,9 +31,12 @@ void Machine::keepReporting() {
   reports_.sayStatus(course_.isWaiting() ? FLASH("Pause")
                      : isHalted()        ? FLASH("Stop")
                                          : FLASH("Idle"),
-                     place_.now(isMoving()));
+                     placeNow());
   reports_.sayErrors();
 }
+
+/// Where the tool is. A stop drops the path before it works out where the program begins next.
+Place Machine::placeNow() { return place_.now(isMoving() || isStopping()); }
 
 bool Machine::isFarAhead() const {
   const float ahead =

@@ -111,6 +111,20 @@
 <* Grbl 1.1h ['$' for help]
 -> G98
 <- ok
+; A reset in a move tells no goal as the place.
+-> $J=G91X0F100
+<- ok
+-> G1 X300 F600
+~~ wait 2
+>> !
+~~ wait 1
+>> ^X??
+<- Grbl 1.1h ['$' for help]
+~~ status <Run|MPos:119.000,0.000,0.000|* within 2
+~~ wait 1
+-> G0 X100
+<- ok
+~~ wait 3
 ; Check mode does nothing.
 -> $C
 <- [MSG:Enabled]

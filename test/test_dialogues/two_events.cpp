@@ -21,6 +21,7 @@ const Step kEvents[] = {
     {Step::kSendRaw, "^1", ""},      {Step::kSendRaw, "^2", ""},
     {Step::kSend, "G0 Z2", ""},      {Step::kSend, "G1 X-20 Y10 F900", ""},
     {Step::kAsk, "power cut", ""},   {Step::kAsk, "unplug left", ""},
+    {Step::kSendRaw, "?^J", ""},     {Step::kSend, "$J=G91 X-40 F900", ""},
 };
 
 /// What the machine does before both events.
@@ -47,6 +48,9 @@ const std::vector<Step> kScenes[] = {
      {Step::kSendRaw, "~", ""}},
     {{Step::kSend, "G4 P2000", ""}, {Step::kSend, "G1 X30 F900", ""}, {Step::kSend, "M0", ""}},
     {{Step::kSend, "G1 X60 F900", ""}, {Step::kSend, "G33 X5", ""}},
+    {{Step::kSendRaw, "?", ""},
+     {Step::kSend, "$J=G91 X60 F900", ""},
+     {Step::kSend, "$J=G91 Y40 Z-2 F900", ""}},
 };
 
 }  // namespace

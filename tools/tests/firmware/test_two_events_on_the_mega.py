@@ -16,7 +16,7 @@ from board import FIRMWARE  # noqa: E402
 from kept import kept  # noqa: E402
 from played import pair_player, ram_places  # noqa: E402
 
-EVENTS = 10
+EVENTS = 12
 
 
 @pytest.mark.slow
