@@ -126,4 +126,63 @@ def test_the_lab_is_built_again_when_the_machine_or_the_sources_change(build, tm
 def test_an_unknown_set_is_refused_before_anything_happens():
     done = subprocess.run([ROOT / "tools/setup", "lba"], capture_output=True, text=True)
     assert (done.returncode, done.stdout) == (1, "")
-    assert done.stderr == 'setup: knows no set "lba"; use tools/setup or tools/setup lab\n'
+    sets = "tools/setup, tools/setup lab or tools/setup senders"
+    assert done.stderr == f'setup: knows no set "lba"; use {sets}\n'
+
+
+# The step of the senders where a registry cannot be reached, and what setup would write.
+SENDERS = """
+set -euo pipefail
+root=$1 log=$1/log
+say() { echo "says: $1"; }
+stop() { echo "stops: $1"; exit 1; }
+fingerprint() { echo mark; }
+same_as() { [ -f "$1" ] && [ "$(<"$1")" = "$2" ]; }
+cd "$root"
+source "$2/tools/setup_steps/senders.sh"
+setup_senders senders
+"""
+
+
+@pytest.fixture
+def senders(tmp_path):
+    """Runs the step in a folder whose npm and pip end so; gives what it says."""
+    (tmp_path / ".venv/bin").mkdir(parents=True)
+    (tmp_path / "tools/tests/senders/programs").mkdir(parents=True)
+    for name in ("package.json", "package-lock.json"):
+        (tmp_path / "tools/tests/senders/programs" / name).write_text("{}")
+
+    def step(**scripts: str) -> list[str]:
+        for name, script in scripts.items():
+            path = tmp_path / ".venv/bin" / name
+            path.write_text(f"#!/usr/bin/env bash\n{script}\n")
+            path.chmod(0o755)
+        command = ["bash", "-c", SENDERS, "step", tmp_path, ROOT]
+        done = subprocess.run(command, capture_output=True, text=True)
+        assert not done.stderr
+        return done.stdout.splitlines()
+
+    return step
+
+
+def test_the_senders_are_installed_once(senders):
+    assert senders(npm="true", pip="true") == ["says: installs CNCjs and bCNC, which tests drive"]
+    assert senders() == []
+
+
+@pytest.mark.parametrize(
+    ("npm", "pip", "why"),
+    [
+        ("echo npm error ENOTFOUND; exit 1", "true", "CNCjs: npm error ENOTFOUND"),
+        ("true", "echo ERROR: no such host; exit 1", "bCNC: ERROR: no such host"),
+    ],
+)
+def test_a_registry_that_cannot_be_reached_is_a_line_that_the_tests_repeat(
+    senders, tmp_path, npm, pip, why
+):
+    line = f"cannot install {why} (all of it in .setup.log)"
+    assert senders(npm=npm, pip=pip)[-1] == f"stops: {line}"
+    assert (tmp_path / ".build/senders/failure").read_text() == f"{line}\n"
+    assert not (tmp_path / ".build/senders/note").exists()
+    assert senders(npm="true", pip="true") == ["says: installs CNCjs and bCNC, which tests drive"]
+    assert not (tmp_path / ".build/senders/failure").exists()

@@ -1,0 +1,98 @@
+"""A virtual machine at a serial port, in a thread of the test.
+
+It keeps what the judge sees, and each byte that passed.
+"""
+
+import threading
+import time
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+from plumb.bench.causes import MAKER
+from plumb.vm.pseudo_terminal import Pace, PseudoTerminal
+from usual_machine import declaration, switched_on, usual_machine
+
+SPEED = 2  # times real time
+KEPT = 10_000  # [ms] after which the place is in the memory
+STANDS = 0.05  # [mm] in a second of a machine that does not move
+
+
+def until(true: Callable[[], object], why: str, seconds: float = 30.0) -> None:
+    """Wait until something is true; `seconds` of this computer."""
+    end = time.monotonic() + seconds
+    while not true():
+        assert time.monotonic() < end, f"not within {seconds:g} s: {why}"
+        time.sleep(0.02)
+
+
+@dataclass
+class Tap:
+    """The machine's line, on which somebody listens."""
+
+    machine: object
+    sent: bytearray = field(default_factory=bytearray)  # by the sender
+    said: bytearray = field(default_factory=bytearray)  # by the machine
+    passed: list[tuple[float, str, bytes]] = field(default_factory=list)  # [s], direction, bytes
+
+    def __getattr__(self, name: str):
+        return getattr(self.machine, name)
+
+    def send(self, characters: bytes) -> None:
+        """Hand on what the sender sends."""
+        self.sent += characters
+        self.passed.append((self.machine.seconds, ">", bytes(characters)))
+        self.machine.send(characters)
+
+    def take_said(self) -> bytes:
+        """Hand on what the machine says."""
+        said = self.machine.take_said()
+        self.said += said
+        if said:
+            self.passed.append((self.machine.seconds, "<", bytes(said)))
+        return said
+
+
+class Board:
+    """A machine with numbers and chains, its bit in the middle of the sheet, at a port."""
+
+    def __init__(self, elf: str | None):
+        machine = usual_machine(elf=elf)
+        sender = switched_on(machine, MAKER)
+        sender.stream([declaration(machine)])
+        machine.advance(KEPT)
+        machine.take_said()
+        self.tap = Tap(machine)
+        self.terminal = PseudoTerminal(self.tap)
+        self.port = self.terminal.path
+        self.sled, self.seconds = machine.sled, machine.seconds
+        self._ended = threading.Event()
+        self._thread = threading.Thread(target=self._serve)
+        self._thread.start()
+
+    def _serve(self) -> None:
+        pace = Pace(SPEED)
+        while not self._ended.is_set():
+            self.terminal.pass_time(pace.due())
+            self.sled, self.seconds = self.tap.machine.sled, self.tap.machine.seconds
+        self.terminal.close()
+
+    def end(self) -> None:
+        """Take the machine away."""
+        self._ended.set()
+        self._thread.join()
+
+    def wait(self, seconds: float) -> None:
+        """Let so much [s] of the machine's time pass."""
+        end = self.seconds + seconds
+        until(lambda: self.seconds >= end, "the machine's time passes", 60)
+
+    def moved(self, seconds: float = 1.0) -> float:
+        """[mm] How far the sled goes in this time [s]."""
+        x, y = self.sled
+        self.wait(seconds)
+        return abs(self.sled[0] - x) + abs(self.sled[1] - y)
+
+    def rest(self) -> tuple[float, float]:
+        """[mm] Where the sled is when it stands."""
+        until(lambda: self.moved() < STANDS, "the sled stands", 90)
+        return self.sled
