@@ -139,8 +139,10 @@ class Cncjs:
 
     def shown(self) -> Shown:
         status = self._state["status"]
+        # Its page takes places for inches when $13 is not 0.
+        unit = 25.4 if float(self._settings["settings"].get("$13", 0)) > 0 else 1.0
         place, work = (
-            tuple(float(status[which][axis]) for axis in "xyz") for which in ("mpos", "wpos")
+            tuple(unit * float(status[which][axis]) for axis in "xyz") for which in ("mpos", "wpos")
         )
         overrides = tuple(int(each) for each in status.get("ov", (0, 0, 0)))
         feed = float(status.get("feedrate", -1))

@@ -162,9 +162,9 @@ class Ugs:
             return
         self._console.append(text)
         if text.startswith(("ok", "error", "ALARM")):
-            if not self._on_the_way:
+            if not self._on_the_way and self._is_ready:
                 self._console.append(f"UGS: an unexpected answer: {text}")
-            else:
+            elif self._on_the_way:
                 self._on_the_way.popleft()
             if text.startswith("error") and (self._waiting or self._on_the_way):
                 self._is_paused = True
@@ -199,9 +199,6 @@ class Ugs:
         line.close()
         self._status = ""
 
-    def _is_idle(self) -> bool:
-        return self._status.startswith("<Idle")
-
     def shown(self) -> Shown:
         status = self._status
         fields = dict(part.split(":", 1) for part in status[1:-1].split("|")[1:])
@@ -232,7 +229,7 @@ class Ugs:
         self._stream()
 
     def ended(self) -> bool:
-        return self._is_idle() and not self._waiting and not self._on_the_way
+        return self._status.startswith("<Idle") and not self._waiting and not self._on_the_way
 
     def hold(self) -> None:
         self._line.write(HOLD)
@@ -254,12 +251,13 @@ class Ugs:
         def stands() -> bool:
             time.sleep(POLL_EVERY)
             places.append(self._status.partition("|")[2].partition("|")[0])
-            return self._is_idle() or (
+            # In an alarm it gives up after ten seconds, and its user presses Unlock.
+            return self._status.startswith(("<Idle", "<Alarm")) or (
                 self._status.startswith("<Hold") and len(places) > 1 and places[-2] == places[-1]
             )
 
-        until(stands, "UGS sees Idle, or Hold at one place, before it resets", 20)
-        if not self._is_idle():
+        until(stands, "UGS sees Hold at one place before it resets", 20)
+        if self._status.startswith("<Hold"):
             self._line.write(RESET)
         with self._lock:
             self._empty()
