@@ -7,6 +7,7 @@ import socket
 import subprocess
 import threading
 import urllib.request
+from collections.abc import Sequence
 from pathlib import Path
 
 from grbl_board import until
@@ -33,7 +34,15 @@ def free_port() -> int:
 class CncjsServer:
     """The program `cncjs`, with a folder for its settings."""
 
-    def __init__(self, folder: Path):
+    def __init__(self, folder: Path, ports: Sequence[str] = ()):
+        """`ports`: what its page offers besides ports on USB."""
+        named = [{"path": port, "manufacturer": "virtual machine"} for port in ports]
+        kept = {"ports": named, "state": {"checkForUpdates": False}}
+        (folder / "cncrc").write_text(json.dumps(kept))
+        # It asks udev for the ports on USB, which a container lacks, and would then offer none.
+        udev = folder / "udevadm"
+        udev.write_text("#!/bin/sh\n")
+        udev.chmod(0o755)
         self.tcp_port = free_port()
         self.site = f"http://127.0.0.1:{self.tcp_port}"
         words = ["--host", "127.0.0.1", "--port", str(self.tcp_port)]
@@ -41,7 +50,7 @@ class CncjsServer:
             self.process = subprocess.Popen(
                 [NODE, SERVER, *words, "--config", folder / "cncrc"],
                 cwd=folder,
-                env={**os.environ, "HOME": str(folder)},
+                env={**os.environ, "HOME": str(folder), "PATH": f"{folder}:{os.environ['PATH']}"},
                 stdin=subprocess.DEVNULL,
                 stdout=log,
                 stderr=log,
@@ -74,8 +83,8 @@ class Cncjs:
     name = "CNCjs"
     lacks = frozenset()
 
-    def __init__(self, folder: Path):
-        self.server = CncjsServer(folder)
+    def __init__(self, folder: Path, ports: Sequence[str] = ()):
+        self.server = CncjsServer(folder, ports)
         query = f"EIO=3&transport=websocket&token={self.server.token()}"
         address = f"ws://127.0.0.1:{self.server.tcp_port}/socket.io/?{query}"
         self.socket = connect(address, legacy=True)
