@@ -35,7 +35,7 @@ class CncjsServer:
     """The program `cncjs`, with a folder for its settings."""
 
     def __init__(self, folder: Path, ports: Sequence[str] = ()):
-        """`ports`: what its page offers besides ports on USB."""
+        """`ports`: ports that its page offers in addition to those on USB."""
         named = [{"path": port, "manufacturer": "virtual machine"} for port in ports]
         kept = {"ports": named, "state": {"checkForUpdates": False}}
         (folder / "cncrc").write_text(json.dumps(kept))

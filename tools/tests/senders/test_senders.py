@@ -102,7 +102,7 @@ def test_a_program_to_its_end(connected, board):
     await_state(connected, "Idle")
     assert board.rest() == pytest.approx(start, abs=AT_PLACE)
     await_place(connected, board)
-    assert took < 1.15 * 60 * way / FEED + 3, f"{took:.1f} s for {way:.0f} mm"
+    assert took < 1.05 * 60 * way / FEED + 2, f"{took:.1f} s for {way:.0f} mm"
     assert complaints(connected) == []
 
 
