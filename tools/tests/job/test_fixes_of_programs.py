@@ -40,8 +40,8 @@ def with_lines_put_in(lines, put_in):
         slanting = here.cut & (here["length"] > 0)
         if len(before) and before["z_to"][-1] > 0 and CODED.match(line) and not slanting.any():
             place = {axis: before[f"to_{axis}"][-1] / unit for axis in "xy"}
-            beside = place["x"] + 1
-            result += [each.format(**numbers, **place, beside=beside) for each in put_in]
+            x_beside = place["x"] + 1
+            result += [each.format(**numbers, **place, beside=x_beside) for each in put_in]
             count += 1
         result.append(line)
     return result, count
