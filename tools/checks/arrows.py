@@ -120,7 +120,11 @@ SCRIPT_IMPORT = re.compile(r"^\s*(?:import|export)\b[^;]*?[\"']([^\"']+)[\"']", 
 RESEARCH = "tools/research"
 
 # What tools/calibration_grid.py runs without an installation.
-STANDARD_LIBRARY_ONLY = ("tools/plumb/grid", "tools/plumb/text/errors.py")
+STANDARD_LIBRARY_ONLY = (
+    "tools/plumb/grid",
+    "tools/plumb/text/errors.py",
+    "tools/plumb/text/values.py",
+)
 # The judge shares nothing with the model, so only the bench may ask it; only the virtual machine's
 # room has the world that it hangs in.
 ONLY = {"_dry_run": "job", "_judge": "bench", "_vm": "vm"}

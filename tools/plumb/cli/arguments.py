@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import argparse
 import math
-import re
 from pathlib import Path
 
 from plumb.settings.machine import CONTROLLERS
 from plumb.text.files import read_bytes
+from plumb.text.values import typed_length
 
 
 def add_settings(parser: argparse.ArgumentParser) -> None:
@@ -127,7 +127,18 @@ def file(path: str) -> str:
 
 
 def length(text: str) -> float:
-    """Return a length above zero [mm]."""
+    """Return a length above zero [mm], typed in mm or with its unit."""
+    try:
+        value = typed_length(text)
+    except ValueError:
+        value = math.nan
+    if not (math.isfinite(value) and value > 0):
+        raise argparse.ArgumentTypeError(f"'{text}' is not a length above zero, like 100 or 4in")
+    return value
+
+
+def positive(text: str) -> float:
+    """Return a number above zero."""
     value = float(text)
     if not (math.isfinite(value) and value > 0):
         raise argparse.ArgumentTypeError(f"'{text}' is not a number above zero")
@@ -179,8 +190,6 @@ def add_port(parser: argparse.ArgumentParser) -> None:
 
 # What commands on a job share: the program, the machine, where it begins.
 
-PLACE = re.compile(r"\s*([-+.\d]+)\s*,\s*([-+.\d]+)\s*")
-
 
 def add_machine(parser: argparse.ArgumentParser) -> None:
     """JOB, SETTINGS, --start and --set."""
@@ -191,7 +200,7 @@ def add_machine(parser: argparse.ArgumentParser) -> None:
         metavar="X,Y",
         type=place,
         default=(0.0, 0.0),
-        help="where the bit is when the program begins, mm from mid sheet [0,0]",
+        help="where the bit is when the program begins, mm or like 4in,-2in from mid sheet [0,0]",
     )
     parser.add_argument(
         "--set",
@@ -204,10 +213,9 @@ def add_machine(parser: argparse.ArgumentParser) -> None:
 
 
 def place(text: str) -> tuple[float, float]:
-    """Read X,Y [mm]."""
-    match = PLACE.fullmatch(text)
+    """Read X,Y [mm], typed in mm or with their units."""
     try:
-        x, y = (float(part) for part in match.groups()) if match else (math.nan, math.nan)
+        x, y = map(typed_length, text.split(","))
     except ValueError:
         x = y = math.nan
     if not (math.isfinite(x) and math.isfinite(y)):

@@ -22,15 +22,12 @@ from plumb.cli.screen import (
 )
 from plumb.diagnosis import Diagnosis, diagnose
 from plumb.diagnosis.answer import SHOWN, Together, odds_words
+from plumb.diagnosis.unseen import unseen_by
 from plumb.model.catalogue import every_effect
 from plumb.model.plain import noun_of, plain_size, plainly, ranked
 from plumb.plan import Proposal, propose
 from plumb.text.values import worded
 
-HIDING = (
-    "These causes may act too, unseen by these marks. Up to: by how much each may move the marks, "
-    "RMS. Taken up: the share of it that other numbers of the motors would make up for."
-)
 COLUMNS = (
     "Odds: that this is right, against all else. Leaves: the RMS error once it is added. Noise: "
     "what reading errors alone would leave."
@@ -122,7 +119,7 @@ def details(diagnosis: Diagnosis) -> list[str]:
             parts.append(_reasons(diagnosis))
         parts.append(_remedies(diagnosis))
     parts.append(sentences([diagnosis.noise.sentence], mark=""))
-    parts.append(_hiding(diagnosis))
+    parts.append(_unseen(diagnosis))
     if diagnosis.warnings:
         parts.append(sentences(diagnosis.warnings))
     return [part for part in parts if part]
@@ -180,33 +177,12 @@ def _remedies(diagnosis: Diagnosis) -> str:
     return sentences(said)
 
 
-def _hiding(diagnosis: Diagnosis) -> str:
+def _unseen(diagnosis: Diagnosis) -> str:
     """Return how large effects could still be that are no suspects."""
-    others = [hidden for hidden in diagnosis.could_hide if hidden.effect not in diagnosis.suspects]
-    hiding = ranked(others, lambda hidden: -(hidden.mm or 0.0))
-    shares = {ranked.effect: ranked.hidden_share for ranked in diagnosis.ranking}
-    rows = [
-        [
-            noun_of(hidden.effect),
-            worded(hidden.mm, 1),
-            percent_of(shares[hidden.effect]),
-        ]
-        for hidden in hiding[:SHOWN]
-        if hidden.mm
-    ]
-    blind = [hidden.effect for hidden in others if hidden.mm is None]
-    parts = []
-    if rows:
-        parts.append(sentences([HIDING], mark=""))
-        parts.append(table(["may act too", "up to", "taken up"], rows))
-    if blind:
-        parts.append(sentences([f"these marks say nothing of {plainly(blind)}"]))
-    return "\n".join(parts)
-
-
-def percent_of(share: float | None) -> str:
-    """Return a share for people; a dash where there is none."""
-    return "-" if share is None else f"{100 * share:.0f} %"
+    unseen = unseen_by(diagnosis, SHOWN)
+    rows = [[cause.noun, worded(cause.mm, 1), cause.taken_up] for cause in unseen.causes]
+    parts = [sentences([unseen.words], mark=""), table(unseen.header, rows)] if rows else []
+    return "\n".join([*parts, *([sentences([unseen.silent])] if unseen.silent else [])])
 
 
 # The arguments of `plumb diagnose`.

@@ -38,7 +38,7 @@ from plumb.job.slip import repair_program
 from plumb.settings.machine import MachineSettings
 from plumb.text.answers import Internal, json_of
 from plumb.text.errors import InputError
-from plumb.text.values import bare, signed, unit, worded
+from plumb.text.values import bare, signed, typed_length, unit, worded
 
 
 @dataclass(frozen=True)
@@ -315,9 +315,9 @@ def touch(text: str) -> tuple[str | Point, Point]:
 
 
 def point(text: str) -> Point:
-    """Read x,y [mm, from the middle of the sheet, y up]."""
+    """Read x,y [mm, from the middle of the sheet, y up], typed in mm or with their units."""
     try:
-        x, y = map(float, text.split(","))
+        x, y = map(typed_length, text.split(","))
     except ValueError:
         x = y = math.nan
     if not (math.isfinite(x) and math.isfinite(y)):

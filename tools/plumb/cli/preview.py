@@ -20,6 +20,7 @@ from plumb.cli.arguments import (
 from plumb.cli.inputs import picture_form
 from plumb.cli.output import write_outputs
 from plumb.cli.screen import next_step, print_json, sentences, table
+from plumb.diagnosis.unseen import share_words
 from plumb.fit.inputs import settings_in
 from plumb.fit.problem import USUAL_SIGMA, priors_with
 from plumb.grid.options import APPROACH
@@ -121,7 +122,6 @@ def as_text(outlook: Preview) -> str:
 def _outline_table(outlook: Preview) -> str:
     rows = []
     for place, outline in enumerate(outlook.outlines, 1):
-        hidden = "-" if outline.hidden_share is None else f"{100 * outline.hidden_share:.0f} %"
         alike = ", ".join(map(noun_of, outline.alike[:ALIKE]))
         more = len(outline.alike) - ALIKE
         rows.append(
@@ -129,12 +129,12 @@ def _outline_table(outlook: Preview) -> str:
                 str(place),
                 noun_of(outline.effect),
                 bare(outline.raw),
-                hidden,
+                share_words(outline.hidden_share),
                 _smallest(outline),
                 f"{alike} +{more}" if more > 0 else alike or "-",
             ]
         )
-    header = ["", "effect", f"usual, {unit()}", "in frame", "found from", "taken for"]
+    header = ["", "effect", f"usual, {unit()}", "taken up", "found from", "taken for"]
     note = (
         f"found from: the smallest size that is found in {100 * POWER:.0f} % of all cases, times "
         "the usual size"

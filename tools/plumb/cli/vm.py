@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 from rich.live import Live
 
-from plumb.cli.arguments import add_json, length
+from plumb.cli.arguments import add_json, length, positive
 from plumb.cli.screen import console, print_json
 from plumb.line.sender import Sender
 from plumb.settings.machine import MachineSettings
@@ -263,8 +263,8 @@ def add_pace(parser: argparse.ArgumentParser, when: str = "") -> None:
     parser.add_argument(
         "--speed",
         metavar="N",
-        type=length,
+        type=positive,
         default=1.0,
         help=f"{when}how many times as fast as real time [%(default)g]",
     )
-    parser.add_argument("--seconds", metavar="S", type=length, help=f"{when}end after S seconds")
+    parser.add_argument("--seconds", metavar="S", type=positive, help=f"{when}end after S seconds")

@@ -26,6 +26,7 @@ from plumb.grid.options import (
     pairs,
 )
 from plumb.grid.program import FIRST_LINE, as_ini, is_webcontrol, marks_list, program
+from plumb.text.values import typed_length
 
 COMPLAINT = "calibration grid: {}; --help lists the options\n"
 
@@ -42,7 +43,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> argparse._ArgumentGroup:
     group = parser.add_argument_group("which marks [15, and 8 of them again 20 mm further in]")
     either = group.add_mutually_exclusive_group()
     either.add_argument("--preset", choices=PRESETS, help="a way to measure, without repeats")
-    places = "marks there, in this order: mm from the sheet's middle (--places='-900,400 0,0')"
+    places = "marks there, in this order: from the sheet's middle (--places='-900,400 0,4in')"
     either.add_argument("--places", type=pairs, metavar="PLACES", help=places)
     _add_number(group, "margin")
     group = parser.add_argument_group("how they are made")
@@ -65,7 +66,16 @@ def add_arguments(parser: argparse.ArgumentParser) -> argparse._ArgumentGroup:
 
 def _add_number(group: argparse._ArgumentGroup, name: str) -> None:
     meaning = f"{NUMBERS[name].meaning} [{Grid._field_defaults[name]:g}]"
-    group.add_argument(f"--{name.replace('_', '-')}", help=meaning, type=float, metavar="N")
+    kind = float if name == "feed" else _length
+    group.add_argument(f"--{name.replace('_', '-')}", help=meaning, type=kind, metavar="N")
+
+
+def _length(text: str) -> float:
+    """Return a length [mm], typed in mm or with its unit."""
+    try:
+        return typed_length(text)
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"'{text}' is not a length, like 100 or 4in") from None
 
 
 def read_settings(path: str) -> dict[str, float]:

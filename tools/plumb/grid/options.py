@@ -8,6 +8,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from plumb.text.errors import to_do
+from plumb.text.values import typed_length
 
 # Upwards friction moves a sled least: 0.4 mm in a lower corner, against 2.5 mm sideways.
 APPROACH = (0.0, 40.0)  # [mm] the way into every mark
@@ -98,8 +99,8 @@ MACHINE_KEYS = (
 
 
 def pair(text: str) -> tuple[float, float]:
-    """Two numbers with a comma between them."""
-    across, up = map(float, text.split(","))
+    """Two lengths [mm] with a comma between them."""
+    across, up = map(typed_length, text.split(","))
     return across, up
 
 

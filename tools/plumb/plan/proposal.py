@@ -243,19 +243,23 @@ def headline_of(best: Proposal) -> str:
 
 def steps_of(best: Proposal) -> list[str]:
     """Return what to do, and what it tells, in sentences."""
-    return [
-        *map(in_inches, best.option.do),
-        *dict.fromkeys(_difference(*pair) for pair in best.parts),
-    ]
+    return [*map(in_inches, best.option.do), *_shown_by(best.parts)]
 
 
-def _difference(first: str, second: str) -> str:
-    """Return which effects are tried by a measurement that separates two explanations."""
-    names = [side.split(" + ") if side else [] for side in (first, second)]
-    left, right = ([name for name in names[i] if name not in names[1 - i]] for i in (0, 1))
-    if left and right:
-        return f"It tells {plainly(left)} from {plainly(right)}."
-    return f"It shows whether {plainly(left or right)} acts too."
+def _shown_by(parts: Sequence[tuple[str, str]]) -> list[str]:
+    """Return in a sentence which effects are tried by a measurement that separates these pairs of
+    explanations.
+    """
+    sets = [[set(side.split(" + ") if side else ()) for side in pair] for pair in parts]
+    tried = dict.fromkeys(
+        name
+        for pair, (left, right) in zip(parts, sets, strict=True)
+        for name in " + ".join(pair).split(" + ")
+        if name and name in left ^ right
+    )
+    if len(tried) == 1:
+        return [f"It shows whether {plainly(tried)} acts."]
+    return [f"It shows which of these act: {', '.join(map(noun_of, tried))}."] if tried else []
 
 
 def promise_of(proposal: Proposal) -> str:

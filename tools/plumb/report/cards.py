@@ -12,6 +12,7 @@ from plumb.diagnosis.answer import Ranked
 from plumb.diagnosis.explanation import Explanation
 from plumb.diagnosis.sizes import Size
 from plumb.diagnosis.suspect_curves import fingerprint_of
+from plumb.diagnosis.unseen import share_words
 from plumb.fit.expected import plausible_range
 from plumb.model.catalogue import every_effect, place_of
 from plumb.model.plain import plain_range, plain_size, plainly, ranked
@@ -67,7 +68,7 @@ class Card:
     summary: str
     pattern: str
     sizes: tuple[SizeBar, ...]
-    hidden: str  # how much of it the refitted frame takes
+    taken_up: str  # how much of it the refitted frame takes
     rms_after: str
     look_alikes: str
     remedy: str
@@ -92,7 +93,7 @@ def _card(findings: Findings, effect: str) -> Card:
         summary=words["summary"],
         pattern=words["pattern"],
         sizes=tuple(_size_bar(effect, size) for size in _sizes(findings, ranked)),
-        hidden=hidden_words(ranked.hidden_share),
+        taken_up=share_words(ranked.hidden_share),
         rms_after=worded(ranked.rms_after),
         look_alikes=_look_alikes(findings, effect, words["look_alikes"]),
         remedy=words["remedy"],
@@ -105,11 +106,6 @@ def _check_words(check: CheckWords | None) -> str:
     if not check or not check["title"]:
         return ""
     return f"{check['title']}, about {check['minutes']:.0f} minutes"
-
-
-def hidden_words(share: float | None) -> str:
-    """Return how much of an effect the frame takes, for people."""
-    return "not felt by these marks" if share is None else f"{100 * share:.0f} %"
 
 
 def _explanation_with(findings: Findings, effect: str) -> Explanation:

@@ -12,6 +12,7 @@ import numpy as np
 
 from plumb.diagnosis.answer import odds_words
 from plumb.diagnosis.outliers import Outlier
+from plumb.diagnosis.unseen import Unseen, unseen_by
 from plumb.model.plain import plainly
 from plumb.model.predict import REACH_WORDS, USABLE
 from plumb.model.reach import percent
@@ -29,12 +30,10 @@ from plumb.report.findings import (
 )
 from plumb.report.maps import SUSPECTS, chain_map, expected_map, reach_maps, style
 from plumb.report.tables import (
-    Hiding,
     Readings,
     Round,
     Setting,
     Source,
-    hiding_in,
     history_sentence,
     readings_of,
     rounds_of,
@@ -45,6 +44,7 @@ from plumb.report.tables import (
 from plumb.text.values import unit, worded
 
 SIDES = ("Left chain", "Right chain")
+MOST_UNSEEN = 10
 # By verdict: a sign, and what it means in few words.
 VERDICTS = {
     "nothing_provable": ("○", "No cause shown"),
@@ -137,7 +137,7 @@ class Page:
     new_stages: int  # of the history, at its end: what the new settings leave
     expected: Expected | None
     reach: Reach
-    hiding: tuple[Hiding, ...]
+    unseen: Unseen
     readings: Readings
     readings_note: str
     sources: tuple[Source, ...]
@@ -151,6 +151,7 @@ def report(findings: Findings, *, commands: Sequence[Command], again: str) -> by
     here = resources.files("plumb.report")
     environment = jinja2.Environment(autoescape=True, undefined=jinja2.StrictUndefined)
     environment.filters["sentence"] = _sentence
+    environment.filters["worded"] = worded
     template = environment.from_string(here.joinpath("page.html").read_text("utf-8"))
     css = here.joinpath("page.css").read_text("utf-8")
     page = page_of(findings, commands=commands, again=again)
@@ -194,7 +195,7 @@ def page_of(findings: Findings, *, commands: Sequence[Command], again: str) -> P
         new_stages=2 if auto.addition else 0,
         expected=_expected(findings),
         reach=_reach(findings),
-        hiding=hiding_in(findings),
+        unseen=unseen_by(findings.diagnosis, MOST_UNSEEN),
         readings=readings_of(findings),
         readings_note=_readings_note(findings),
         sources=sources_of(findings),
@@ -334,7 +335,7 @@ def _expected(findings: Findings) -> Expected | None:
     return Expected(
         f"With the new settings expect {worded(expected.rms)} RMS over the sheet, and "
         f"{worded(expected.worst)} at the worst place: so well do these readings settle the "
-        f"numbers.{rivals}{place} What could still hide is not counted.",
+        f"numbers.{rivals}{place} What may act unseen is not counted.",
         expected_map(expected, sheet=sheet, name="expected"),
     )
 

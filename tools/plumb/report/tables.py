@@ -1,4 +1,4 @@
-"""The report's tables: settings, what could hide, rounds, readings, and where all of it is from."""
+"""The report's tables: settings, rounds, readings, and where all of it is from."""
 
 from __future__ import annotations
 
@@ -12,14 +12,12 @@ import numpy as np
 from plumb.diary.history import DiaryFit
 from plumb.fit.compare import Comparison
 from plumb.model.catalogue import parameter_words
-from plumb.model.plain import noun_of, plain_before, plain_size, ranked
-from plumb.report.cards import hidden_words
+from plumb.model.plain import plain_before, plain_size, ranked
 from plumb.report.findings import Findings
 from plumb.settings.toml import FitRecord
 from plumb.text.values import bare, signed, worded
 
 MOST_READINGS = 60  # rows; of more, those that are farthest off
-MOST_HIDING = 10
 PACKAGES = ("plumb", "numpy", "scipy", "matplotlib")
 
 
@@ -33,15 +31,6 @@ class Setting:
     exact: str  # in house units, with its interval
     number: str  # of the machine's setting; empty if none holds it
     note: str
-
-
-@dataclass(frozen=True)
-class Hiding:
-    """An effect that is no suspect, and how large it could be."""
-
-    noun: str
-    up_to: str
-    hidden: str
 
 
 @dataclass(frozen=True)
@@ -102,21 +91,6 @@ def settings_of(findings: Findings) -> tuple[Setting, ...]:
 
 def _number(words: Mapping[str, object] | None) -> str:
     return f"${words['setting']}" if words and words["setting"] is not None else ""
-
-
-def hiding_in(findings: Findings) -> tuple[Hiding, ...]:
-    """Return what could still hide, the largest first."""
-    diagnosis = findings.diagnosis
-    shares = {ranked.effect: ranked.hidden_share for ranked in diagnosis.ranking}
-    known = [
-        (hidden.mm, hidden.effect)
-        for hidden in diagnosis.could_hide
-        if hidden.mm and hidden.effect not in diagnosis.suspects
-    ]
-    return tuple(
-        Hiding(noun_of(effect), worded(size, 1), hidden_words(shares[effect]))
-        for size, effect in ranked(known, lambda pair: -pair[0])[:MOST_HIDING]
-    )
 
 
 def rounds_of(findings: Findings) -> tuple[Round, ...]:

@@ -215,6 +215,20 @@ def length_in(text: str, *, unit: float = 1.0) -> float:
     return unit * (-size if match["sign"] == "-" else size)
 
 
+_TYPED = re.compile(r"(.*?)\s*(mm|in|inch|inches|\")?")
+
+
+def typed_length(text: str) -> float:
+    """Return the length [mm] that an option takes: `120`, `120mm`, `4-3/4in` or `3/4"`; without a
+    unit it is in mm. ValueError for anything else.
+    """
+    match = _TYPED.fullmatch(text.strip())
+    size, unit = match.groups() if match else ("", None)
+    if unit in (None, "mm") and "/" in size:
+        raise ValueError(f"'{text}' is a fraction: write {size}in")
+    return length_in(size, unit=1.0 if unit in (None, "mm") else INCH)
+
+
 def length(value: object, *, unit: float = 1.0) -> float:
     """Return the length [mm] that a TOML value is: a number, or a fraction of inches in quotes."""
     if isinstance(value, str) and "/" in value:

@@ -213,7 +213,7 @@ def test_tensions_agree_with_published_ones():
 REFUSALS = [
     ("--margin 20", "the lead-in of mark 11 at x -1199.2 y -629.6 is outside the sheet: raise"),
     ("--margin 610", "--margin is 610"),
-    ("--margin nan", "--margin is nan"),
+    ("--margin nan", "--margin: 'nan' is not a length, like 100 or 4in"),
     ("--feed 0", "--feed is 0"),
     ("--feed 1e9", "--feed is 1e+09"),
     ("--depth 0", "--depth is 0"),

@@ -282,7 +282,10 @@ def test_error_to_expect_and_what_could_hide_are_the_same(said):
     expected = said.reported["expected"]
     assert_same(match_in(rf"expect {LENGTH} RMS", said.parts["reach"]), expected["rms_mm"])
     assert_same(match_in(rf"and {LENGTH} at the worst", said.parts["reach"]), expected["worst_mm"])
-    assert said.verdict["could_hide"]
-    for each in said.verdict["could_hide"]:
-        stated = f"{each['noun']} {each['mm']:.1f} mm"
+    unseen = said.verdict["unseen"]
+    assert unseen["causes"]
+    for words in (unseen["words"], " ".join(unseen["header"])):
+        assert words in said.diagnose and words in said.report
+    for each in unseen["causes"]:
+        stated = f"{each['noun']} {each['mm']:.1f} mm {each['taken_up']}"
         assert stated in said.diagnose and stated in said.report

@@ -38,7 +38,7 @@ def test_it_says_what_the_command_line_says(client, tmp_path):
     largest = max(
         each.mm or 0 for each in diagnosis.could_hide if each.effect not in diagnosis.suspects
     )
-    assert verdict["could_hide"][0]["mm"] == pytest.approx(largest)
+    assert verdict["unseen"]["causes"][0]["mm"] == pytest.approx(largest)
 
 
 def test_each_state_has_all_marks_with_what_is_left_of_them(client, tmp_path):

@@ -1,6 +1,7 @@
 """Sizes in a maker's words: the size that is meant, its sign, its interval, and no more figures."""
 
 import math
+from dataclasses import replace
 
 import pytest
 from plumb.model.catalogue import every_effect, parameter_words
@@ -11,7 +12,9 @@ from plumb.model.plain import (
     plain_size,
     plainly,
 )
+from plumb.model.predict import judged, with_parameters
 from plumb.text.values import shown_in
+from synthetic import BELIEVED
 
 
 @pytest.mark.parametrize(
@@ -99,3 +102,23 @@ def test_a_size_before_is_as_fine_as_the_size_now(shown, now, before):
     with shown_in(shown):
         assert f"motors {now} (" in plain_size("motor_gap", 2980.18, *interval)
         assert plain_before("motor_gap", 2978.4, *interval) == before
+
+
+@pytest.mark.parametrize("feed", ["top", "bottom"])
+@pytest.mark.parametrize(("side", "inwards"), [("left", 1), ("right", -1)])
+@pytest.mark.parametrize("size", [0.1, -0.1])
+@pytest.mark.parametrize("wave", ["sine", "cosine"])
+def test_the_high_spot_of_a_sprocket_is_said_where_the_judge_has_its_middle(
+    feed, side, inwards, size, wave
+):
+    name = f"sprocket_runout.{side}_{wave}"
+    numbers = judged(with_parameters(replace(BELIEVED, feed=feed), {name: size}))
+    x, y = (numbers[f"{side}.eccentric_{axis}"] for axis in "xy")
+    clockwise = inwards if feed == "top" else -inwards  # as chain is paid out
+    if wave == "sine":
+        said = "high spot up" if y > 0 else "high spot down"
+    else:  # a clockwise turn lifts what is left of the axis
+        said = "that rises" if x * clockwise < 0 else "that sinks"
+    assert max(abs(x), abs(y)) == pytest.approx(0.1)
+    assert plain_size(name, size).endswith(said)
+    assert plain_size(name, size).startswith(f"{side} sprocket 0.100 mm off its middle")

@@ -92,24 +92,22 @@ def test_without_such_rooms_a_promise_is_a_chance():
     assert promise_of(proposal(SETTLE, rooms=ROOMS)) == "40 %"
 
 
-def test_steps_tell_what_is_parted_without_what_both_have():
+def test_a_step_names_each_cause_that_it_tries_once_in_one_sentence():
     assert steps_of(proposal()) == ["Cut four."]
     pairs = (
         ("chain_sag + motor_level", "frame_lean + motor_level"),
         ("chain_pitch + tape_scale", "chain_sag"),
-        ("chain_sag", "frame_lean"),
         ("chain_sag", "frame_lean + chain_sag"),
         ("", "chain_sag"),
     )
     sag, lean, pitch, tape = map(noun_of, ("chain_sag", "frame_lean", "chain_pitch", "tape_scale"))
-    said = steps_of(proposal(parts=pairs))
-    assert said == [
+    assert steps_of(proposal(parts=pairs)) == [
         "Cut four.",
-        f"It tells {sag} from {lean}.",
-        f"It tells {pitch} and {tape} from {sag}.",
-        f"It shows whether {lean} acts too.",
-        f"It shows whether {sag} acts too.",
+        f"It shows which of these act: {sag}, {lean}, {pitch}, {tape}.",
     ]
+    assert steps_of(proposal(parts=pairs[2:3]))[1:] == [f"It shows whether {lean} acts."]
+    assert steps_of(proposal(parts=pairs[3:]))[1:] == [f"It shows whether {sag} acts."]
+    assert steps_of(proposal(parts=(("chain_sag", "chain_sag"),)))[1:] == []
 
 
 def test_the_rate_is_what_is_gained_for_each_minute_with_a_round_more():

@@ -99,7 +99,7 @@ HANG, BARE = "tools/judge/reference/hang.h", "tools/plumb/grid/pattern.py"
         ("tools/lab/src/shell/a.ts", 'import { Step } from "../steps/step";'),
         ("tools/lab/src/attic/a.ts", "const a = 1;"),
         (BARE, "import numpy"),
-        (BARE, "from plumb.text.values import worded"),
+        (BARE, "from plumb.text.files import read_bytes"),
         (BARE, "from . import other"),
         ("tools/plumb/fit/problem.py", "from plumb import _judge"),
         (MODEL, "from plumb.fit.fit import fit"),

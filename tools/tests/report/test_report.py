@@ -194,7 +194,7 @@ def test_cards_say_what_diagnose_says(made):
     for name in answer["diagnosis"]["suspects"]:
         card = text[text.index(f" {name} ") :]
         share, after = ranking[name]["hidden_share"], ranking[name]["rms_after_mm"]
-        assert f"Hidden in the frame {100 * share:.0f} % of it" in card
+        assert f"Taken up by other numbers of the motors {100 * share:.0f} %" in card
         assert f"Alone, the error falls to {after:.2f} mm" in card
     sizes = {}
     for explanation in answer["diagnosis"]["explanations"]:
@@ -210,7 +210,7 @@ def test_cards_say_what_diagnose_says(made):
 
 def test_what_could_hide_is_in_the_order_of_its_size(made):
     _, answer, page = made("cannot_tell")
-    part = Page(page.part("hiding")).text
+    part = Page(page.part("unseen")).text
     suspects = answer["diagnosis"]["suspects"]
     sizes = [
         each["mm"]

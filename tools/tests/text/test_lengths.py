@@ -1,7 +1,7 @@
 """Lengths as people type them: fractions, inches, and hints for decimal commas."""
 
 import pytest
-from plumb.text.values import INCH, length, length_in, point
+from plumb.text.values import INCH, length, length_in, point, typed_length
 
 
 @pytest.mark.parametrize(
@@ -54,3 +54,25 @@ def test_a_point_with_decimal_commas_is_explained():
     for wrong in ([1], "1, 2", [1, 2, 3, 4, 5]):
         with pytest.raises(ValueError, match=r"two numbers are needed, as \[x, y\]"):
             point(wrong)
+
+
+@pytest.mark.parametrize(
+    ("typed", "mm"),
+    [
+        ("120", 120.0),
+        ("-7.5 mm", -7.5),
+        ("5in", 127.0),
+        ('3/4"', 19.05),
+        ("4-3/4in", 120.65),
+        ("-1 1/2 inch", -38.1),
+        ("2 inches", 50.8),
+    ],
+)
+def test_an_option_takes_a_length_with_its_unit(typed, mm):
+    assert typed_length(typed) == pytest.approx(mm)
+
+
+@pytest.mark.parametrize("typed", ["", "in", "3/4", "3/4mm", "1/0in", "4ft", "nan", "inf in"])
+def test_an_option_takes_no_other_length(typed):
+    with pytest.raises(ValueError):
+        typed_length(typed)

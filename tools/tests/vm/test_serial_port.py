@@ -103,8 +103,10 @@ def test_a_program_ends_when_the_place_is_kept(end, served, tmp_path):
 
 def test_what_was_not_cut_is_resumed_by_the_command_that_is_printed(served, tmp_path):
     served()
-    # So long that a busy computer too has seen enough reports behind the first two lines.
-    moves = MOVES.replace("P500", "P1200")
+    # A line is done 15 reports behind its answer ($71 and LATE). The way of 28 mm takes 11 reports,
+    # and G1 is answered in its 6th. So the dwell of 7 is in the middle of what leaves G1 open: with
+    # 500 ms the second line was open too on every other day, by the phase of the reports.
+    moves = MOVES.replace("P500", "P1300")
     (tmp_path / "job.nc").write_text(f"(a job)\n{moves}G0 X--5\n")
     said = plumb("send", "--port", "maslow", "job.nc", folder=tmp_path, code=2)
     line = int(re.search(r"All before line (\d) of job.nc is done", said)[1])

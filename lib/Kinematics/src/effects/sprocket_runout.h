@@ -19,7 +19,9 @@ const double kQuarterTurn = 1.57079632679489662;  // [rad]
 /// fro with each turn. Seen along the chain, the sprocket has turned by b = length / radius since
 /// the chain's far end was at its tangent point: the wrap follows the chain's direction and drops
 /// out. So the length is wrong by sine * sin(b) + cosine * cos(b), where sine and cosine are the
-/// two parameters. The chain may leave over the top or off the bottom.
+/// two parameters. The chain may leave over the top or off the bottom. At length zero a positive
+/// sine has the middle below the axis, and a positive cosine at the side that rises as chain is
+/// paid out.
 template <class Real>
 struct SprocketRunout : Effect<Real> {
   enum { kLeftSine, kLeftCosine, kRightSine, kRightCosine, kParamCount };
@@ -37,16 +39,29 @@ struct SprocketRunout : Effect<Real> {
   }
   static ParamInfo param(uint8_t i) {
     static const char* const kNames[] = {"left_sine", "left_cosine", "right_sine", "right_cosine"};
-    return {kNames[i], "mm", -0.5,
-            0.5,       0.1,  "amplitude of the length error, by the turn of the sprocket",
+    const bool across = i == kLeftCosine || i == kRightCosine;
+    return {kNames[i],
+            "mm",
+            -0.5,
+            0.5,
+            0.1,
+            across ? "how far off its middle, at chain length 0, to the side that rises as chain "
+                     "is paid out"
+                   : "how far off its middle, at chain length 0, downwards",
             0};
   }
   static const char* noun() { return "sprockets off their middle"; }
   static PlainInfo plain(uint8_t i) {
-    if (i == kLeftSine) return {"left sprocket # off its middle (sine)", "", "mm"};
-    if (i == kLeftCosine) return {"left sprocket # off its middle (cosine)", "", "mm"};
-    if (i == kRightSine) return {"right sprocket # off its middle (sine)", "", "mm"};
-    return {"right sprocket # off its middle (cosine)", "", "mm"};
+    static const PlainInfo kPlain[] = {
+        {"left sprocket # off its middle, high spot down",
+         "left sprocket # off its middle, high spot up", "mm"},
+        {"left sprocket # off its middle, high spot at the side that rises",
+         "left sprocket # off its middle, high spot at the side that sinks", "mm"},
+        {"right sprocket # off its middle, high spot down",
+         "right sprocket # off its middle, high spot up", "mm"},
+        {"right sprocket # off its middle, high spot at the side that rises",
+         "right sprocket # off its middle, high spot at the side that sinks", "mm"}};
+    return kPlain[i];
   }
 
   /// None: hardly anybody reads the phase of a runout right from a dial gauge.

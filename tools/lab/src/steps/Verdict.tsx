@@ -12,10 +12,10 @@ import { useProject } from "../shell/project";
 import { Screen } from "../shell/Screen";
 import { Refused } from "./correct/Refused";
 import { useWriting } from "./correct/useWriting";
-import { CouldHide } from "./verdict/CouldHide";
 import { HalfTyped } from "./verdict/HalfTyped";
 import { NextStep } from "./verdict/NextStep";
 import { SuspectCard } from "./verdict/SuspectCard";
+import { UnseenCauses } from "./verdict/UnseenCauses";
 import type { VerdictAnswer } from "./verdict/words";
 import "./verdict/verdict.css";
 
@@ -104,7 +104,7 @@ export function Verdict() {
           {verdict.more_cards > 0 && <p>{verdict.more_cards} more are less likely.</p>}
         </section>
       )}
-      <CouldHide verdict={verdict} units={units} />
+      <UnseenCauses verdict={verdict} units={units} />
       <TakeAlong name="report.html">Save the report</TakeAlong>
     </Screen>
   );

@@ -1,4 +1,4 @@
-"""The verdict: a sentence, a card for each suspect, and what could hide."""
+"""The verdict: a sentence, a card for each suspect, and what may act unseen."""
 
 from __future__ import annotations
 
@@ -13,6 +13,7 @@ from plumb.cure.live_board import BoardView, LiveBoard
 from plumb.diagnosis.answer import SHOWN, Diagnosis, Together, odds_words
 from plumb.diagnosis.diagnosis import diagnose
 from plumb.diagnosis.sizes import Size
+from plumb.diagnosis.unseen import Unseen, share_words, unseen_by
 from plumb.fit.compare import ComparedMark, Comparison
 from plumb.fit.expected import plausible_range
 from plumb.lab.background import Background, Progress, key_of
@@ -21,7 +22,7 @@ from plumb.lab.residuals import State, as_set, fitted_state
 from plumb.lab.rounds import board_words, command, inputs_of, known_words, unit_words
 from plumb.lab.routes.project import TheProject
 from plumb.model.catalogue import every_effect
-from plumb.model.plain import noun_of, plain_range, plain_size, plainly, ranked
+from plumb.model.plain import plain_range, plain_size, plainly, ranked
 from plumb.text.values import shown_in, worded
 
 router = APIRouter(tags=["verdict"])
@@ -48,7 +49,7 @@ class EffectAnswer(BaseModel):
     noun: str
     summary: str
     sizes: list[SizeAnswer]
-    hidden_share: float | None  # that the refitted frame swallows
+    taken_up: str  # how much of it the refitted frame takes up
     remedy: str
     check: str  # how it is measured directly; empty if nobody can
 
@@ -66,14 +67,6 @@ class Card(BaseModel):
     looks_like: list[str]
 
 
-class Hidden(BaseModel):
-    """An effect that is no suspect and may act all the same."""
-
-    noun: str
-    mm: float
-    share: float | None  # in the frame
-
-
 class Verdict(BaseModel):
     """What the marks say."""
 
@@ -86,8 +79,7 @@ class Verdict(BaseModel):
     noise: str  # a sentence
     cards: list[Card]
     more_cards: int
-    could_hide: list[Hidden]
-    blind: str  # what these marks say nothing of
+    unseen: Unseen
     slips: list[str]
     notes: list[str]
 
@@ -147,8 +139,6 @@ def verdict_of(inputs: api.Inputs, diagnosis: Diagnosis, auto: AutoAddition) -> 
     """Return a diagnosis as the page shows it."""
     raw = api.compare(inputs)
     shown = list(diagnosis.explanations)[:MOST_CARDS]
-    others = [each for each in diagnosis.could_hide if each.effect not in diagnosis.suspects]
-    blind = [each.effect for each in others if each.mm is None]
     return Verdict(
         verdict=diagnosis.verdict,
         sentence=diagnosis.sentence,
@@ -159,8 +149,7 @@ def verdict_of(inputs: api.Inputs, diagnosis: Diagnosis, auto: AutoAddition) -> 
         noise=diagnosis.noise.sentence,
         cards=[_card(diagnosis, i, each) for i, each in enumerate(shown)],
         more_cards=max(len(diagnosis.explanations) - MOST_CARDS, 0),
-        could_hide=_could_hide(diagnosis),
-        blind=f"these marks say nothing of {plainly(blind)}" if blind else "",
+        unseen=unseen_by(diagnosis, SHOWN),
         slips=[slip.sentence for slip in diagnosis.outliers],
         notes=[*diagnosis.disagreements, *diagnosis.warnings],
     )
@@ -177,16 +166,6 @@ def _states(raw: Comparison, auto: AutoAddition) -> list[State]:
         fits.append((f"+ {plainly(addition.effects_added)}", addition.after_fit))
     view = BoardView(LiveBoard(auto.inputs, noise=noise))
     return [*states, *(fitted_state(title, fitted, view) for title, fitted in fits)]
-
-
-def _could_hide(diagnosis: Diagnosis) -> list[Hidden]:
-    shares = {ranked.effect: ranked.hidden_share for ranked in diagnosis.ranking}
-    hidden = [
-        Hidden(noun=noun_of(each.effect), mm=each.mm, share=shares[each.effect])
-        for each in diagnosis.could_hide
-        if each.effect not in diagnosis.suspects and each.mm
-    ]
-    return ranked(hidden, lambda each: -each.mm)[:SHOWN]
 
 
 def _card(diagnosis: Diagnosis, index: int, together: Together) -> Card:
@@ -224,7 +203,7 @@ def _effect(diagnosis: Diagnosis, name: str, together: Together) -> EffectAnswer
         noun=words["noun"],
         summary=words["summary"],
         sizes=[_size(name, size) for size in together.sizes[name]],
-        hidden_share=ranked.hidden_share,
+        taken_up=share_words(ranked.hidden_share),
         remedy=words["remedy"],
         check=f"{check['title']}, about {check['minutes']:.0f} minutes"
         if check and check["title"]

@@ -26,12 +26,8 @@ export function SuspectCard({ card, units, isLaid, lay }: CardParts) {
             <SizeBar key={size.said} size={size} />
           ))}
           <dl>
-            {effect.hidden_share !== null && (
-              <>
-                <dt>hidden in the frame</dt>
-                <dd>{Math.round(100 * effect.hidden_share)} %</dd>
-              </>
-            )}
+            <dt>taken up by other numbers of the motors</dt>
+            <dd>{effect.taken_up}</dd>
             <dt>to be sure</dt>
             <dd>{effect.check || capital(effect.remedy)}</dd>
           </dl>

@@ -1,0 +1,41 @@
+"""Options take a length in inches as they take it in mm."""
+
+import argparse
+
+import pytest
+from plumb.cli.arguments import length, place
+from plumb.cli.home import touch
+from plumb.grid.command import add_arguments, from_arguments
+
+
+def grid_of(*words):
+    """The grid of these options."""
+    parser = argparse.ArgumentParser()
+    add_arguments(parser)
+    return from_arguments(parser.parse_args(words))[0]
+
+
+def test_a_grid_is_the_same_in_inches():
+    said = grid_of("--margin=5in", '--depth=1/8"', "--safe-height=1/4in", "--feed", "500")
+    assert said == grid_of("--margin=127", "--depth=3.175", "--safe-height=6.35", "--feed=500")
+    places = grid_of("--places=-30-1/2in,4in 0,100").places
+    assert places == ((pytest.approx(-774.7), pytest.approx(101.6)), (0.0, 100.0))
+
+
+def test_places_and_lengths_of_a_command_are_the_same_in_inches():
+    assert place("4in,-2 1/2in") == pytest.approx((101.6, -63.5))
+    assert length('1/32"') == pytest.approx(0.79375)
+    hole, shown = touch("-36in,10in:-35 7/8in,254")
+    assert hole == pytest.approx((-914.4, 254)) and shown == pytest.approx((-911.225, 254))
+
+
+@pytest.mark.parametrize("typed", ["0", "-1in", "3/4", "nan", "abc"])
+def test_what_is_no_length_above_zero_is_refused_with_an_example(typed):
+    with pytest.raises(argparse.ArgumentTypeError, match="is not a length above zero, like 100"):
+        length(typed)
+
+
+@pytest.mark.parametrize("typed", ["4in", "1,2,3", "3/4,1", "nan,0"])
+def test_what_is_no_place_is_refused_with_an_example(typed):
+    with pytest.raises(argparse.ArgumentTypeError, match="is not X,Y, like 100,-50"):
+        place(typed)
