@@ -39,10 +39,10 @@ class State(BaseModel):
     ranked: Ranked
 
 
-def as_set(raw: Comparison, sigma: float) -> State:
+def as_set(raw: Comparison, sigma: float, *, title: str = "as set") -> State:
     """Return the marks against the settings as they stand; sigma [mm] is that of a reading."""
     return State(
-        title="as set",
+        title=title,
         fit_rms=raw.rms,
         noise_rms=None,
         errors=[mark.error for mark in raw.marks],

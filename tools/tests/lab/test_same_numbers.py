@@ -132,7 +132,7 @@ def test_error_as_set_is_the_same(said):
         match_in(rf"As set: {LENGTH} RMS", said.parts["maps"]),
         match_in(rf"These readings, as set {LENGTH}", said.parts["history"]),
         said.verdict["states"][0]["fit_rms"],
-        said.correction["rms_set"],
+        said.correction["as_set"]["fit_rms"],
         said.stairs[0]["fit_rms"],
     )
 
@@ -215,7 +215,7 @@ def test_error_of_what_is_added_is_the_same(said):
             rf"(?:from [\d.]+ to|{re.escape(card['title'])} {card['odds']}) {LENGTH}", accounts
         ),
         said.verdict["states"][-1]["fit_rms"],
-        said.correction["rms_all"],
+        said.correction["whole"]["fit_rms"],
     )
     named = said.named["after"]["fit_rms_mm"]
     assert_same(named, said.bench["fit_rms"], said.stairs[-1]["fit_rms"])

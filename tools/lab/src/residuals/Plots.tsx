@@ -50,14 +50,15 @@ export function Plots(parts: PlotsParts) {
         <span class="key left">left chain</span> <span class="key right">right chain</span>
         {drawn && <span class="key laid">{drawn.noun}, fitted</span>}
       </p>
-      <div class="grid">
+      {/* biome-ignore lint/a11y/noNoninteractiveTabindex: on a narrow page it is a strip that keys move */}
+      <section class="grid" tabIndex={0} aria-label="Plots">
         {sorted
           .filter((each) => !isSame(each))
           .map((each) => (
             <AgainstCovariate key={each.name} {...parts} covariate={each} most={most} />
           ))}
         <AgainstNoise {...parts} />
-      </div>
+      </section>
       {same.length > 0 && <p class="same">Not drawn: {same.map(saidSame).join("; ")}.</p>}
     </section>
   );
