@@ -92,7 +92,7 @@ class Person:
 
     def go_to(self, step):
         fold = self.page.locator("nav .fold")
-        if fold.is_visible():
+        if fold.is_visible() and fold.get_attribute("aria-expanded") == "false":
             fold.click()
         self.page.get_by_role("navigation").get_by_role("link", name=step).click()
 
