@@ -21,16 +21,23 @@ class Quantiles:
     """The coordinates of residuals, the smallest first."""
 
     order: NDArray[np.int_]  # (2k,) whose coordinate it is: that of x or y, 2 * mark + 0 or 1
+    values: Array  # (2k,) [mm] how large it is
     at: Array  # (2k,) [mm] what noise alone would make of it
     low: Array  # (2k,) [mm] band that noise leaves at no point, 95 times of 100
     high: Array  # (2k,) [mm]
+
+    @property
+    def beyond(self) -> NDArray[np.bool_]:
+        """Which coordinates lie outside of the band."""
+        return (self.values < self.low) | (self.values > self.high)
 
 
 def quantiles(errors: Array, noise_rms: float) -> Quantiles:
     """Return residuals (k, 2) [mm] against noise that leaves `noise_rms` [mm] of their vectors."""
     at, low, high = _of_noise(errors.size)
     sigma = noise_rms / np.sqrt(2)
-    return Quantiles(ascending(errors.ravel()), sigma * at, sigma * low, sigma * high)
+    order = ascending(errors.ravel())
+    return Quantiles(order, errors.ravel()[order], sigma * at, sigma * low, sigma * high)
 
 
 @lru_cache(maxsize=8)

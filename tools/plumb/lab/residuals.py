@@ -25,6 +25,7 @@ class Ranked(BaseModel):
     at: list[float]  # what noise alone would make of it
     low: list[float]  # noise leaves this band with no point, 95 times of 100
     high: list[float]
+    beyond: list[bool]  # whether it lies outside of the band
 
 
 class State(BaseModel):
@@ -38,10 +39,10 @@ class State(BaseModel):
     ranked: Ranked
 
 
-def as_set(raw: Comparison, sigma: float) -> State:
+def as_set(raw: Comparison, sigma: float, *, title: str = "as set") -> State:
     """Return the marks against the settings as they stand; sigma [mm] is that of a reading."""
     return State(
-        title="as set",
+        title=title,
         fit_rms=raw.rms,
         noise_rms=None,
         errors=[mark.error for mark in raw.marks],
@@ -70,6 +71,7 @@ def _ranked(errors: Array, noise_rms: float) -> Ranked:
         at=placed.at.round(MICROMETRE).tolist(),
         low=placed.low.round(MICROMETRE).tolist(),
         high=placed.high.round(MICROMETRE).tolist(),
+        beyond=placed.beyond.tolist(),
     )
 
 

@@ -29,6 +29,7 @@ from plumb.report.findings import (
     stairs_of,
 )
 from plumb.report.maps import SUSPECTS, chain_map, expected_map, reach_maps, style
+from plumb.report.noise_plots import NoisePlot, noise_plots
 from plumb.report.tables import (
     Readings,
     Round,
@@ -124,6 +125,7 @@ class Page:
     chains: tuple[tuple[str, str], ...]
     covariates: CovariateSheet | None
     legend: tuple[Legend, ...]
+    against_noise: tuple[NoisePlot, ...]
     slips: tuple[Outlier, ...]
     cards_title: str
     accounts: tuple[Account, ...]
@@ -182,6 +184,7 @@ def page_of(findings: Findings, *, commands: Sequence[Command], again: str) -> P
             Legend(colour, plainly(each.effects))
             for each, colour in zip(findings.curves, SUSPECTS, strict=False)
         ),
+        against_noise=_against_noise(findings),
         slips=diagnosis.outliers,
         cards_title="Suspects" if diagnosis.suspects else "What was added",
         accounts=_accounts(findings),
@@ -290,6 +293,17 @@ def _covariates(findings: Findings) -> CovariateSheet | None:
         findings.curves,
         sigma=findings.diagnosis.noise.sigma,
     )
+
+
+def _against_noise(findings: Findings) -> tuple[NoisePlot, ...]:
+    """Return the frame's residuals, and those of all that was added."""
+    addition = findings.auto.addition
+    if addition is None:
+        return ()
+    fits = {"Frame fitted": addition.before_fit}
+    if addition.by_effect:
+        fits[f"With {plainly(addition.effects_added)}"] = addition.after_fit
+    return noise_plots(fits)
 
 
 def _accounts(findings: Findings) -> tuple[Account, ...]:

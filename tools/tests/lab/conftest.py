@@ -5,6 +5,7 @@ import threading
 
 import pytest
 from folder import with_settings
+from journeys import Garage
 from playwright.sync_api import expect, sync_playwright
 from plumb.vm.garage import hide, random_garage
 from plumb.vm.owner import VirtualOwner
@@ -90,3 +91,11 @@ def cable(cable_machine):
     yield terminal.path, pulled
     pulled.set()
     thread.join()
+
+
+@pytest.fixture
+def garage():
+    """A machine at a serial port, with an effect hidden in it, its sheet and a tape."""
+    garage = Garage()
+    yield garage
+    garage.pull_out()

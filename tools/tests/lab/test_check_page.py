@@ -43,12 +43,16 @@ def test_two_check_marks_hold_then_miss_and_others_are_planned(lab, page):
     type_off(page, 1, 0.3, 0.1)
     type_off(page, 2, -0.2, 0.4)
     expect(page.locator(JUDGED)).to_contain_text("The settings hold.", timeout=PATIENCE)
+    within = page.locator(".sheet .arrow.within")
+    expect(within).to_have_count(2)
     offs = page.locator("table.checked tbody td:last-child").all_inner_texts()
     assert all(0 < float(off.removesuffix(" mm")) < 1.5 for off in offs) and len(offs) == 2
     fallen = page.locator(".off-target td").all_inner_texts()
     assert [text.strip() for text in fallen] == ["8.95 mm", "0.39 mm"]
     type_off(page, 2, -4, 0.4)
     expect(page.locator(JUDGED)).to_contain_text("More than noise, at mark 2", timeout=PATIENCE)
+    expect(within).to_have_count(1)
+    expect(page.locator(".sheet svg > g > g .arrow.beyond")).to_have_count(1)
     page.get_by_role("button", name="Let the verdict go by these marks too").click()
     expect(page.get_by_role("button", name="Let the verdict")).to_have_count(0, timeout=PATIENCE)
     assert json.loads((lab.folder / "lab.json").read_text())["marks"] == [

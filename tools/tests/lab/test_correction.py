@@ -81,13 +81,13 @@ def test_what_a_setting_holds(name, expected):
 
 def test_written_opened_and_taken_back(client, tmp_path):
     before = shown(client)["correction"]
-    assert before["rms_accepted"] is None and not before["is_written"]
+    assert before["accepted"] is None and not before["is_written"]
     names = [number["name"] for number in before["numbers"]]
     gap = before["numbers"][names.index("motor_gap")]
     assert gap["unit"] == "mm" and float(gap["margin"]) > 0 and gap["possible"]
     choose(client, accepted=names)
     after = shown(client)["correction"]
-    assert after["rms_accepted"] == pytest.approx(before["rms_all"])
+    assert after["accepted"]["fit_rms"] == pytest.approx(before["whole"]["fit_rms"])
     written = client.post("/api/correction", json=known(client)).json()
     assert set(written["files"]) >= {"machine.toml", "machine.nc", "machine-groundcontrol.ini"}
     project = client.get("/api/project").json()
@@ -95,13 +95,13 @@ def test_written_opened_and_taken_back(client, tmp_path):
     assert read_settings(tmp_path / "machine.toml").motor_gap == pytest.approx(
         float(gap["after"]), abs=1
     )
-    assert compared(tmp_path).rms == pytest.approx(before["rms_all"], abs=0.02)
+    assert compared(tmp_path).rms == pytest.approx(before["whole"]["fit_rms"], abs=0.02)
     (entry,) = read_diary(tmp_path).of_kind("fit")
     assert entry.content["machine"] == "machine.toml"
     assert shown(client)["correction"]["is_written"]
     undone = client.post("/api/correction/undo", json=known(client)).json()
     assert undone["file"] == "groundcontrol.ini"
-    assert compared(tmp_path).rms == pytest.approx(before["rms_set"])
+    assert compared(tmp_path).rms == pytest.approx(before["as_set"]["fit_rms"])
     assert (tmp_path / "machine.toml").exists()
 
 

@@ -53,7 +53,16 @@ class Said:
         self.report = words_of(page)
         self.parts = {
             name: words_of(page.split(f'aria-labelledby="{name}"')[1].split("<section")[0])
-            for name in ("verdict", "fall", "maps", "suspects", "settings", "history", "reach")
+            for name in (
+                "verdict",
+                "fall",
+                "maps",
+                "noise",
+                "suspects",
+                "settings",
+                "history",
+                "reach",
+            )
         }
         client = asked(folder)
         choose(client, settings=files[0], marks=[files[1]])
@@ -123,7 +132,7 @@ def test_error_as_set_is_the_same(said):
         match_in(rf"As set: {LENGTH} RMS", said.parts["maps"]),
         match_in(rf"These readings, as set {LENGTH}", said.parts["history"]),
         said.verdict["states"][0]["fit_rms"],
-        said.correction["rms_set"],
+        said.correction["as_set"]["fit_rms"],
         said.stairs[0]["fit_rms"],
     )
 
@@ -159,6 +168,13 @@ def test_error_of_the_fitted_frame_is_the_same(said):
         said.stairs[1]["fit_rms"],
         said.verdict["states"][1]["fit_rms"],
     )
+
+
+def test_as_many_coordinates_are_beyond_noise_in_the_report_as_on_the_page(said):
+    counts = re.findall(r"(\d+) of (\d+) coordinates are beyond noise", said.parts["noise"])
+    drawn = [state["ranked"]["beyond"] for state in said.verdict["states"][1:]]
+    assert counts == [(str(sum(beyond)), str(len(beyond))) for beyond in drawn]
+    assert sum(drawn[0]) > 0
 
 
 def test_what_noise_alone_leaves_is_the_same(said):
@@ -199,7 +215,7 @@ def test_error_of_what_is_added_is_the_same(said):
             rf"(?:from [\d.]+ to|{re.escape(card['title'])} {card['odds']}) {LENGTH}", accounts
         ),
         said.verdict["states"][-1]["fit_rms"],
-        said.correction["rms_all"],
+        said.correction["whole"]["fit_rms"],
     )
     named = said.named["after"]["fit_rms_mm"]
     assert_same(named, said.bench["fit_rms"], said.stairs[-1]["fit_rms"])

@@ -97,7 +97,7 @@ def test_the_correction(client, tmp_path, capsys, accepted):
     for name in written:
         (tmp_path / name).unlink()
     said = said_by(shown["command"], capsys)
-    assert said["after"]["fit_rms_mm"] == pytest.approx(shown["correction"]["rms_accepted"])
+    assert said["after"]["fit_rms_mm"] == pytest.approx(shown["correction"]["accepted"]["fit_rms"])
     assert sorted(said["written"]) == sorted(written)
     there = tomllib.loads((tmp_path / "machine.toml").read_text())
     assert there == tomllib.loads(here.pop("machine.toml"))

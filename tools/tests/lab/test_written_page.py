@@ -72,3 +72,22 @@ def test_what_noise_alone_would_leave_stands_at_each_error_of_a_fit(lab, page):
     expect(errors.nth(0)).not_to_contain_text("noise")
     by_hand = page.get_by_role("region", name="By hand").inner_text()
     assert "too long: no firmware" in by_hand and "_" not in by_hand
+
+
+def test_the_sheet_shows_what_the_new_numbers_would_do_and_what_is_written(lab, page):
+    measured_machine(lab.folder)
+    page.goto(f"{lab.url}#/correct")
+    errors = page.locator("dl.errors dd")
+    states = page.get_by_role("group", name="What is drawn").get_by_role("radio")
+    expect(states).to_have_count(2, timeout=PATIENCE)  # nothing is accepted yet
+    expect(states.nth(1)).to_be_checked()
+    page.get_by_role("checkbox", name="gap between the motors").check()
+    expect(states).to_have_count(3, timeout=PATIENCE)
+    expect(states.nth(1)).to_be_checked()
+    said = page.get_by_role("group", name="What is drawn").locator("b").all_inner_texts()
+    assert said == [figure.partition("\n")[0].strip() for figure in errors.all_inner_texts()]
+    beyond = page.locator(".sheet .arrow.beyond")
+    assert beyond.count() > 20
+    page.locator(".sheet .board").press("]")
+    expect(states.nth(2)).to_be_checked()
+    assert beyond.count() < 4

@@ -50,14 +50,15 @@ export function Plots(parts: PlotsParts) {
         <span class="key left">left chain</span> <span class="key right">right chain</span>
         {drawn && <span class="key laid">{drawn.noun}, fitted</span>}
       </p>
-      <div class="grid">
+      {/* biome-ignore lint/a11y/noNoninteractiveTabindex: on a narrow page it is a strip that keys move */}
+      <section class="grid" tabIndex={0} aria-label="Plots">
         {sorted
           .filter((each) => !isSame(each))
           .map((each) => (
             <AgainstCovariate key={each.name} {...parts} covariate={each} most={most} />
           ))}
         <AgainstNoise {...parts} />
-      </div>
+      </section>
       {same.length > 0 && <p class="same">Not drawn: {same.map(saidSame).join("; ")}.</p>}
     </section>
   );
@@ -151,11 +152,10 @@ function CurvePath({ curve, kind, x, y, ends }: CurveParts) {
 /** Both coordinates of all errors, the smallest first, against what noise alone would make of each. */
 function AgainstNoise({ state, units, selected, select }: PlotsParts) {
   const unit = units === "inch" ? INCH : 1;
-  const { order, at, low, high } = state.ranked;
+  const { order, at, low, high, beyond } = state.ranked;
   const both = order.map((place) => state.errors[Math.floor(place / 2)]?.[place % 2] ?? 0);
   const [first = 0, last = 0] = [at[0], at.at(-1)];
   const most = 1.1 * Math.max(...[...both, ...low, ...high].map(Math.abs), 1e-6);
-  const isOut = (i: number) => (both[i] ?? 0) < (low[i] ?? 0) || (both[i] ?? 0) > (high[i] ?? 0);
   const dots = (kind: string, keep: (i: number) => boolean) => ({
     kind,
     places: both.map((value, i) =>
@@ -166,10 +166,10 @@ function AgainstNoise({ state, units, selected, select }: PlotsParts) {
   return (
     <Plot
       title={`if it were noise, ${units}`}
-      label={`Errors against noise: ${both.filter((_, i) => isOut(i)).length} of ${both.length} coordinates are beyond it`}
+      label={`Errors against noise: ${beyond.filter(Boolean).length} of ${beyond.length} coordinates are beyond it`}
       across={[first / unit, last / unit]}
       most={most / unit}
-      dots={[dots("inside", (i) => !isOut(i)), dots("outside", isOut)]}
+      dots={[dots("inside", (i) => !beyond[i]), dots("outside", (i) => !!beyond[i])]}
       selected={selected}
       select={select}
       below={(x, y) => {

@@ -75,12 +75,12 @@ interface LegendParts {
   units: Unit;
   /** How many times longer than life arrows are; undefined without arrows. */
   factor: number | undefined;
-  sigma: number | undefined; // [mm] of a reading
-  radius: number; // [px] of the circle of the noise
+  /** What a circle around a mark holds; undefined without circles. */
+  circle: "noise" | "promised" | undefined;
 }
 
 /** What an arrow, a circle and a line of the drawing mean, below it. */
-export function Legend({ units, factor, sigma, radius }: LegendParts) {
+export function Legend({ units, factor, circle }: LegendParts) {
   const { plot, px } = useScale();
   const unit = units === "inch" ? INCH : 1;
   const long = (most: number) => rounded(most / unit) * unit; // [mm]
@@ -91,7 +91,6 @@ export function Legend({ units, factor, sigma, radius }: LegendParts) {
   const isNarrow = factor !== undefined && plot.right - plot.left + 60 < ROOMY;
   const below = y + (isNarrow ? LINE : 0);
   const noise = isNarrow ? plot.left + 8 : plot.left + 310;
-  const circle = Math.min(radius, 8);
   return (
     <g class="legend-of-sheet">
       {factor !== undefined && (
@@ -103,11 +102,11 @@ export function Legend({ units, factor, sigma, radius }: LegendParts) {
           </text>
         </>
       )}
-      {factor !== undefined && sigma !== undefined && (
+      {circle && (
         <>
-          <circle class="noise" cx={noise} cy={below} r={circle} />
+          <circle class="noise" cx={noise} cy={below} r={8} />
           <text x={noise + 14} y={below + 5}>
-            noise
+            {circle}
           </text>
         </>
       )}

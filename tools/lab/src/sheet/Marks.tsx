@@ -1,7 +1,7 @@
 // The marks of a state: their noise, what an effect draws, their arrows, and their names.
 import { useMemo } from "preact/hooks";
 import { arrowPath } from "./Axes";
-import type { Mark } from "./marks";
+import type { Mark, State } from "./marks";
 import { written } from "./names";
 import { useScale } from "./scale";
 import type { Pair } from "./view";
@@ -12,7 +12,7 @@ const FEW = 30; // marks that all have their names, if there is room
 
 interface MarksParts {
   marks: readonly Mark[];
-  errors: readonly (Pair | null)[] | undefined;
+  state: State | undefined;
   ghosts: readonly (Pair | null)[] | undefined;
   /** What an effect draws, below the errors. */
   print: readonly Pair[] | undefined;
@@ -22,10 +22,9 @@ interface MarksParts {
 }
 
 export function Marks(parts: MarksParts) {
-  const { marks, errors, ghosts, print, factor, sigma = 0, selected } = parts;
+  const { marks, state, ghosts, print, factor, sigma = 0, selected } = parts;
   const { at, px } = useScale();
   const tip = ({ target: [x, y] }: Mark, [dx, dy]: Pair) => at([x + dx * factor, y + dy * factor]);
-  const noise = Math.max(2, BEYOND_NOISE * sigma * factor * px);
   return (
     <>
       {print && (
@@ -38,12 +37,15 @@ export function Marks(parts: MarksParts) {
       )}
       {marks.map((mark, i) => {
         const [x, y] = at(mark.target);
-        const error = errors?.[i];
+        const error = state?.errors[i];
         const ghost = ghosts?.[i];
-        const isBeyond = error && Math.hypot(...error) > BEYOND_NOISE * sigma;
+        const usual = state?.promised?.[i] ?? BEYOND_NOISE * sigma;
+        const isBeyond = error && Math.hypot(...error) > usual;
         return (
           <g key={i}>
-            {error && sigma > 0 && <circle class="noise" cx={x} cy={y} r={noise} />}
+            {error && usual > 0 && (
+              <circle class="noise" cx={x} cy={y} r={Math.max(2, usual * factor * px)} />
+            )}
             {ghost && <path class="arrow ghost" d={arrowPath([x, y], tip(mark, ghost))} />}
             {error ? (
               <path

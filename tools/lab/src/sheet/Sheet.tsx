@@ -54,7 +54,7 @@ export function Sheet(parts: SheetParts) {
   const scale = useMemo(() => scaleOf(size, zoom.view, wide), [size[0], size[1], zoom.view, wide]);
   const [chosen, setFactor] = useState<number>();
   const state = states[shown];
-  const factor = state && (chosen ?? usualFactor(marks, states, shown, size[0]));
+  const factor = state && (chosen ?? usualFactor(parts, shown));
   const pointing = usePointing(parts, scale, zoom, factor ?? 0, drawing);
   const { selected } = pointing;
   const frame = {
@@ -62,7 +62,7 @@ export function Sheet(parts: SheetParts) {
     role: "group" as const,
     "aria-label": `The sheet: arrow keys choose a mark, plus and minus enlarge${states.length > 1 ? ", [ and ] change the state" : ""}`,
   };
-  const { plot, px } = scale;
+  const { plot } = scale;
   const high = plot.bottom + legendHeight(wide, state !== undefined);
   const isWhole = zoom.view.times === 1;
   const title = `${document.title}: ${state?.title ?? label}`;
@@ -95,7 +95,7 @@ export function Sheet(parts: SheetParts) {
               {!acts && (
                 <Marks
                   marks={marks}
-                  errors={state?.errors}
+                  state={state}
                   ghosts={parts.ghosts?.errors}
                   print={parts.print}
                   factor={factor ?? 0}
@@ -108,8 +108,7 @@ export function Sheet(parts: SheetParts) {
             <Legend
               units={units}
               factor={factor}
-              sigma={state && sigma}
-              radius={BEYOND_NOISE * (sigma ?? 0) * (factor ?? 0) * px}
+              circle={state?.promised ? "promised" : state && sigma ? "noise" : undefined}
             />
           </ScaleContext.Provider>
         </svg>
@@ -180,15 +179,11 @@ function cornerOf({ at, plot }: Scale, mark: Mark | undefined): string {
 }
 
 /** As set has its scale; all that is fitted has that of the fitted frame. */
-function usualFactor(
-  marks: readonly Mark[],
-  states: readonly State[],
-  shown: number,
-  width: number,
-): number {
-  const errors = states[Math.min(shown, 1)]?.errors ?? [];
+function usualFactor({ marks, states = NONE, sigma = 0, size }: SheetParts, shown: number): number {
+  const state = states[Math.min(shown, 1)];
   return factorFor(
-    errors.map((error, i) => (marks[i]?.isDoubted ? null : error)),
-    width,
+    (state?.errors ?? []).map((error, i) => (marks[i]?.isDoubted ? null : error)),
+    size[0],
+    Math.max(BEYOND_NOISE * sigma, ...(state?.promised ?? [])),
   );
 }

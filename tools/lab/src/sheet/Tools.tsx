@@ -33,7 +33,7 @@ export function Tools({ zoom, factor, setFactor, save }: ToolsParts) {
           >
             {FACTORS.map((each) => (
               <option key={each} value={each}>
-                arrows × {each}
+                × {each}
               </option>
             ))}
           </select>

@@ -23,6 +23,8 @@ export interface State {
   chains?: readonly Ends[];
   fit_rms?: number;
   noise_rms?: number | null;
+  /** How far off each mark may be [mm], where that is promised; else it is as far as noise alone makes it. */
+  promised?: readonly number[];
 }
 
 const COLUMNS =

@@ -42,10 +42,16 @@ test("a mark that is chosen comes into view, and the view stays if it was seen",
 });
 
 test("arrows are the longest that a sixth of the sheet allows, by a round factor", () => {
-  assert.equal(factorFor([[3, 4], null], 2440), 50);
-  assert.equal(factorFor([[0, -8]], 2440), 20);
-  assert.equal(factorFor([[900, 0]], 2440), 1);
-  assert.equal(factorFor([], 2440), 500);
+  assert.equal(factorFor([[3, 4], null], 2440, 0), 50);
+  assert.equal(factorFor([[0, -8]], 2440, 0), 20);
+  assert.equal(factorFor([[900, 0]], 2440, 0), 1);
+  assert.equal(factorFor([], 2440, 0), 500);
+});
+
+test("a circle of noise has a sixteenth of the sheet at most, however short the arrows are", () => {
+  assert.equal(factorFor([[1, 0]], 2440, 1.2), 100);
+  assert.equal(factorFor([[1, 0]], 2440, 1.5), 50);
+  assert.equal(factorFor([[8, 0]], 2440, 1.2), 20);
 });
 
 test("ticks are round, few, and from end to end whichever end comes first", () => {

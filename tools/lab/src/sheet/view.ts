@@ -13,6 +13,7 @@ const ROOM = 0.05; // of the width on each side, for arrows that leave the sheet
 const MOST_TIMES = 40;
 const FACTORS = [1, 2, 5, 10, 20, 50, 100, 200, 500];
 const LONGEST = 0.16; // of the sheet's width, for the longest arrow
+const WIDEST = 0.06; // of the sheet's width, for the radius of a circle of noise
 
 /** Width and height [mm] that a view shows. */
 export function extent([width, height]: Pair, times: number): Pair {
@@ -51,9 +52,14 @@ export function showing(size: Pair, view: View, [x, y]: Pair): View {
 }
 
 /** How many times longer than life arrows are drawn: a round number at which the longest is easy to see. */
-export function factorFor(errors: readonly (Pair | null)[], width: number): number {
+export function factorFor(
+  errors: readonly (Pair | null)[],
+  width: number,
+  circle: number, // [mm] radius, the same number of times larger
+): number {
   const longest = Math.max(1e-6, ...errors.map((error) => (error ? Math.hypot(...error) : 0)));
-  return FACTORS.filter((factor) => factor * longest <= LONGEST * width).at(-1) ?? 1;
+  const most = Math.min((LONGEST * width) / longest, (WIDEST * width) / Math.max(1e-6, circle));
+  return FACTORS.filter((factor) => factor <= most).at(-1) ?? 1;
 }
 
 /** The largest of 1, 2, 5, 10, ... that is no more than this. */

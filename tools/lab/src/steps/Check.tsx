@@ -2,7 +2,7 @@
 
 import { useEffect } from "preact/hooks";
 import { type Project, type Schemas, send } from "../api/client";
-import { namedLength, shownLength } from "../controls/lengths";
+import { shownLength } from "../controls/lengths";
 import { useDo } from "../shell/doing";
 import { useReadOnly } from "../shell/editor";
 import { isReady, useMachine } from "../shell/machine";
@@ -12,6 +12,7 @@ import { Screen } from "../shell/Screen";
 import { CheckMap } from "./check/CheckMap";
 import { CheckReadings } from "./check/CheckReadings";
 import { OffTarget } from "./check/OffTarget";
+import { Promised } from "./check/Promised";
 import { Refused } from "./correct/Refused";
 import { useWriting } from "./correct/useWriting";
 import "./check/check.css";
@@ -49,6 +50,7 @@ export function Check() {
       why={<Why />}
       command={answer.command}
       stage={<CheckMap answer={answer} />}
+      fieldsFirst
     >
       {answer.sentence && (
         <p class={answer.holds ? "judged holds" : "judged misses"} role="status">
@@ -106,26 +108,7 @@ export function Check() {
         {refusal}
       </p>
       {answer.is_saved && <CheckReadings file={answer.form} />}
-      {answer.marks.length > 0 && (
-        <table class="checked">
-          <thead>
-            <tr>
-              <th scope="col">mark</th>
-              <th scope="col">promised within</th>
-              <th scope="col">off</th>
-            </tr>
-          </thead>
-          <tbody>
-            {answer.marks.map((mark) => (
-              <tr key={mark.name}>
-                <th scope="row">{mark.name}</th>
-                <td>{namedLength(mark.promised, units, 2)}</td>
-                <td>{namedLength(mark.off, units, 2)}</td>
-              </tr>
-            ))}
-          </tbody>
-        </table>
-      )}
+      {answer.marks.length > 0 && <Promised marks={answer.marks} units={units} />}
     </Screen>
   );
 }

@@ -9,6 +9,7 @@ import { useProject } from "../shell/project";
 import { Screen } from "../shell/Screen";
 import { useHeld } from "../shell/useHeld";
 import { asked } from "./correct/asked";
+import { CorrectMap } from "./correct/CorrectMap";
 import { GoBack } from "./correct/GoBack";
 import { Numbers } from "./correct/Numbers";
 import { Refused } from "./correct/Refused";
@@ -94,16 +95,18 @@ function Question(parts: Parts) {
       }
       why={<Why made={made} />}
       command={answer.command}
+      stage={
+        <CorrectMap
+          made={made}
+          states={[made.as_set, made.accepted, made.whole].filter((each) => each !== null)}
+        />
+      }
+      fieldsFirst
     >
       <dl class="errors">
-        <ErrorFigure name={`as ${made.settings} says`} mm={made.rms_set} units={units} />
-        <ErrorFigure
-          name="with what you accepted"
-          mm={made.rms_accepted}
-          noise={made.noise_accepted}
-          units={units}
-        />
-        <ErrorFigure name="with all of it" mm={made.rms_all} noise={made.noise_all} units={units} />
+        <ErrorFigure name={`as ${made.settings} says`} state={made.as_set} units={units} />
+        <ErrorFigure name="with what you accepted" state={made.accepted} units={units} />
+        <ErrorFigure name="with all of it" state={made.whole} units={units} />
       </dl>
       <Numbers made={made} busy={!current} />
       {made.cures.length > 0 && <ByHand cures={made.cures} />}
@@ -143,6 +146,8 @@ function Written(parts: Parts) {
       }
       why={<Why made={made} />}
       command={answer.command}
+      stage={<CorrectMap made={made} states={current && made.as_set ? [made.as_set] : []} />}
+      fieldsFirst
     >
       {writing.written && !isHeld && (
         <p role="status">
@@ -152,7 +157,7 @@ function Written(parts: Parts) {
       <dl class="errors" aria-busy={!current}>
         <ErrorFigure
           name={`as ${settings} says`}
-          mm={current ? made.rms_set : null}
+          state={current ? made.as_set : null}
           units={units}
         />
       </dl>
@@ -174,20 +179,18 @@ function Written(parts: Parts) {
 
 interface ErrorParts {
   name: string;
-  mm: number | null;
-  noise?: number | null; // [mm] that noise alone would leave
+  state: Schemas["State"] | null;
   units: "mm" | "inch";
 }
 
-function ErrorFigure({ name, mm, noise, units }: ErrorParts) {
+function ErrorFigure({ name, state, units }: ErrorParts) {
+  const noise = state?.noise_rms;
   return (
     <div>
       <dt>{name}</dt>
       <dd>
-        {mm === null ? "–" : namedLength(mm, units, 2)}
-        {mm !== null && noise != null && (
-          <small> noise alone leaves {shownLength(noise, units, 2)}</small>
-        )}
+        {state ? namedLength(state.fit_rms, units, 2) : "–"}
+        {noise != null && <small> noise alone leaves {shownLength(noise, units, 2)}</small>}
       </dd>
     </div>
   );

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import partial
 from pathlib import Path
 
 from fastapi import APIRouter
@@ -10,7 +11,7 @@ from pydantic import BaseModel, ConfigDict
 
 from plumb.cure.add import Addition, Parameter
 from plumb.cure.auto import AutoAddition, add_auto
-from plumb.cure.live_board import refuse_other_origin
+from plumb.cure.live_board import BoardView, LiveBoard, refuse_other_origin
 from plumb.cure.machine_file import (
     Correction,
     correct,
@@ -21,11 +22,13 @@ from plumb.cure.machine_file import (
 )
 from plumb.diary.file import FIT, fit_entry, keep
 from plumb.firmware.client_files import CLIENT_FILES, ClientFiles, client_files
+from plumb.fit.compare import ComparedMark
 from plumb.fit.inputs import Inputs
 from plumb.fit.problem import Checked
 from plumb.lab.background import Progress, key_of
 from plumb.lab.machine_line import TheLine, refuse_unanswered
 from plumb.lab.project import FILE, Choices, Project, choices_text
+from plumb.lab.residuals import State, as_set, fitted_state
 from plumb.lab.rounds import board_words, command, inputs_of, known_words, unit_words
 from plumb.lab.routes.project import TheProject
 from plumb.lab.routes.verdict import TheBackground
@@ -67,11 +70,11 @@ class CorrectionParts(BaseModel):
     intervals: str = ""  # for which noise they hold
     settings: str = ""  # name of the file that these numbers would change
     is_written: bool = False  # that file was fitted to just these marks
-    rms_set: float | None = None  # [mm] as that file stands
-    rms_accepted: float | None = None
-    noise_accepted: float | None = None  # [mm] that noise alone would leave
-    rms_all: float | None = None
-    noise_all: float | None = None
+    marks: tuple[ComparedMark, ...] = ()
+    sigma: float | None = None  # [mm] of a reading
+    as_set: State | None = None  # the marks as that file stands
+    accepted: State | None = None  # with what is accepted; None: nothing is
+    whole: State | None = None  # with all of it
     left_out: float | None = None  # [mm] of marks that took no part, with what is accepted
 
 
@@ -204,6 +207,8 @@ def _parts(
 ) -> CorrectionParts:
     whole, some = made.whole, made.accepted
     accepted = [number for number in some.parameters if has_setting(number.name)] if some else []
+    noise = auto.diagnosis.noise
+    left = partial(fitted_state, view=BoardView(LiveBoard(auto.inputs, noise=noise)))
     return CorrectionParts(
         reasons=list(auto.said),
         numbers=[_number(number, choices) for number in made.numbers],
@@ -213,11 +218,11 @@ def _parts(
         intervals=(some or whole).intervals_said,
         settings=choices.settings,
         is_written=is_written,
-        rms_set=whole.raw.rms,
-        rms_accepted=some.after.fit_rms if some else None,
-        noise_accepted=some.after.noise_rms if some else None,
-        rms_all=whole.after.fit_rms,
-        noise_all=whole.after.noise_rms,
+        marks=whole.raw.marks,
+        sigma=noise.sigma,
+        as_set=as_set(whole.raw, noise.sigma, title=f"as {choices.settings} says"),
+        accepted=left("with what you accepted", some.after_fit) if some else None,
+        whole=left("with all of it", whole.after_fit),
         left_out=some.after.left_out_rms if some else None,
         add=_add_words(made, auto.diagnosis.usual, choices),
     )

@@ -1,0 +1,33 @@
+// What the new numbers would do to the marks: as the file says, with what is accepted, with all of it.
+import { useState } from "preact/hooks";
+import type { Schemas } from "../../api/client";
+import { Sheet } from "../../sheet/Sheet";
+import { useProject } from "../../shell/project";
+
+interface MapParts {
+  made: Schemas["CorrectionParts"];
+  /** What is compared: nothing while the numbers are fitted to another file. */
+  states: readonly Schemas["State"][];
+}
+
+export function CorrectMap({ made, states }: MapParts) {
+  const { project } = useProject();
+  const [chosen, show] = useState<string>();
+  if (made.marks.length === 0) return null;
+  const found = states.findIndex(({ title }) => title === chosen);
+  // What is accepted is compared, or else all of it.
+  const shown = found < 0 ? Math.min(1, states.length - 1) : found;
+  return (
+    <Sheet
+      size={project.machine?.sheet ?? [2440, 1220]}
+      label={`Errors of ${made.marks.length} marks, ${states[shown]?.title ?? "being fitted"}`}
+      name="correction"
+      units={project.choices.units ?? "mm"}
+      marks={made.marks}
+      states={states}
+      shown={shown}
+      show={(index) => show(states[index]?.title)}
+      sigma={made.sigma ?? undefined}
+    />
+  );
+}
