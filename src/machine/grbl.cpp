@@ -8,8 +8,7 @@ namespace machine {
 void Machine::askStatus(bool is_in_line) {
   // Maslow clients never send it, so at the beginning of a line it says who is there.
   if (!out_.speaksGrbl() && is_in_line) return;
-  // It may have thrown away what was said at the start.
-  if (!out_.speaksGrbl()) is_loss_due_ = !place_.isKnown();
+  if (!out_.speaksGrbl()) is_new_to_grbl_ = true;
   out_.speak(Dialect::kGrbl);
   is_status_due_ = true;
 }
@@ -55,8 +54,12 @@ void Machine::answerStatus() {
        << int32_t(overrides_.spindle());
   if (aux_.probeTouches()) out_ << FLASH("|Pn:P");
   out_.line(FLASH(">"));
-  if (is_loss_due_) out_.line(place_.whatIsLost());
-  is_loss_due_ = false;
+  if (!is_new_to_grbl_) return;
+  is_new_to_grbl_ = false;
+  // CNCjs asks for numbers before its first question mark, and never again. From the dump for Maslow
+  // clients it would learn that places are in inches ($13).
+  settings_lines_.sayGrblNumbers();
+  if (!place_.isKnown()) out_.line(place_.whatIsLost());
 }
 
 void Machine::resetAsGrbl() {

@@ -16,8 +16,8 @@ void Greeting::sayBoard() {
 }
 
 void Greeting::sayReady() {
-  // Nobody is known yet. A line that begins with Grbl, or a bare number behind a name, makes CNCjs
-  // ask for settings before its first question mark, and it takes $13 for inches.
+  // Nobody is known yet: bCNC fails at a Grbl with another version, and CNCjs at a name with a
+  // number, which it takes for Grbl's.
   out_.line(FLASH("Plumb v" PLUMB_VERSION ", firmware for the Maslow CNC"));
   out_.line(FLASH("ready"));
   out_.plain(FLASH("ok"));

@@ -221,7 +221,7 @@ class Machine : private Waiting, private Dispatch {
   Aux& aux_;
   uint8_t ticks_per_second_ = 100;
   bool is_status_due_ = false;     ///< a `?` came
-  bool is_loss_due_ = false;       ///< a sender of Grbl is to hear that the place is lost
+  bool is_new_to_grbl_ = false;    ///< a sender of Grbl has asked for the first time
   bool is_executing_ = false;      ///< a line of a program is in execution
   bool is_checking_ = false;       ///< `$C`: lines are read and not done
   bool is_jogging_ = false;        ///< the moves in the queue are jogs

@@ -62,6 +62,11 @@ void SettingsLines::dumpFrom(uint16_t first) {
 }
 
 void SettingsLines::dumpForGrbl() {
+  sayGrblNumbers();
+  dumpFrom(kFirstForGrbl);
+}
+
+void SettingsLines::sayGrblNumbers() {
   PutLetter put = {out_};
   for (uint8_t i = 0; i < kGrblCount; ++i) {
     const GrblSetting row = grblAt(i);
@@ -69,7 +74,6 @@ void SettingsLines::dumpForGrbl() {
     settings::putNumber(row.isFixed() ? row.fixed : values_.at(row.setting), put);
     out_.end();
   }
-  dumpFrom(kFirstForGrbl);
 }
 
 bool SettingsLines::setForGrbl(const char* text) {

@@ -26,6 +26,7 @@ class SettingsLines {
   /// For a sender of Grbl: Grbl's numbers that mean something here, and the settings from 1000
   /// on.
   void dumpForGrbl();
+  void sayGrblNumbers();
   bool setForGrbl(const char* text);
 
  private:

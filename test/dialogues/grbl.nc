@@ -7,6 +7,9 @@
 ~~ status <Idle,MPos:*
 >> ?
 ~~ status <Idle|MPos:0.000,0.000,0.000|FS:0,0|WCO:0.000,0.000,0.000|Ov:100,100,100> within 0.01
+<- $10=1
+<- $13=0
+<* $131=1219.2
 ; No report comes that nobody asked for.
 ~~ wait 3
 ~~ quiet
@@ -58,12 +61,17 @@
 ~~ wait 2
 >> !?
 ~~ status <Hold:0|MPos:29.500,0.000,0.000|FS:0,0|WCO:-10.000,-5.000,0.000|Ov:100,100,100> within 1.5
+; Unlike that of an operator of a Maslow, a line in a hold waits.
 ~~ answers from now
+-> G4 P10
+~~ wait 1
+~~ answers 0
 >> ~
 ~~ wait 1
 ~~ answers 0
 >> ?
 ~~ status <Run|*
+<* ok
 <* ok
 ~~ wait 2
 >> ?

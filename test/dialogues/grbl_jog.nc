@@ -2,6 +2,7 @@
 ~~ include setup.inc
 >> ?
 ~~ status <Idle|*
+<* $131=1219.2
 ; Modes of a jog are its own; the answer comes at once.
 -> $J=G91 G21 X10 F600
 <- ok within 0

@@ -4,6 +4,9 @@
 <* Settings are the defaults. Chain lengths are not known yet*
 >> ?^N
 ~~ status <Alarm|*
+<- $10=1
+<- $13=0
+<* $131=1219.2
 <- [MSG:Position Lost: set the chain lengths first (B06 or B08)]
 <- ok
 >> ?

@@ -100,6 +100,19 @@ TEST(Spindle, IsPulsedByItsSpeed) {
   EXPECT_EQ(0, bench.spindle());
 }
 
+TEST(Spindle, AnOverrideSlowsAPulsedSpindle) {
+  Bench bench({{17, 4}, {60, 6000}, {61, 24000}});
+  bench.cutter.override(50);
+  EXPECT_EQ(-1, bench.spindle()) << "it does not turn";
+  bench.cutter.takeS(24000);
+  bench.cutter.setSpindle(true);
+  EXPECT_EQ(128, bench.spindle());
+  bench.cutter.override(200);
+  EXPECT_EQ(255, bench.spindle());
+  bench.cutter.override(10);
+  EXPECT_EQ(64, bench.spindle()) << "no slower than it may";
+}
+
 TEST(Spindle, ByRelayKnowsNoSpeed) {
   for (const float kind : {2.0f, 3.0f}) {
     Bench bench({{17, kind}});
