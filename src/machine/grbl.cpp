@@ -56,8 +56,8 @@ void Machine::answerStatus() {
   out_.line(FLASH(">"));
   if (!is_new_to_grbl_) return;
   is_new_to_grbl_ = false;
-  // CNCjs asks for numbers before its first question mark, and never again. From the dump for Maslow
-  // clients it would learn that places are in inches ($13).
+  // CNCjs asks for numbers before its first question mark, and never again. From the dump for
+  // Maslow clients it would learn that places are in inches ($13).
   settings_lines_.sayGrblNumbers();
   if (!place_.isKnown()) out_.line(place_.whatIsLost());
 }
