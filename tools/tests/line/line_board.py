@@ -4,10 +4,13 @@ REPORT = "<Idle,MPos:1.00,-2.50,0.00,WPos:0.000,0.000,0.000>\r\n[PE:0.00,0.00,12
 
 
 class Board:
-    """A machine that answers a line each time it is heard, and reports meanwhile."""
+    """A machine that answers a line each time it is heard, and reports meanwhile.
 
-    def __init__(self, answers=lambda line: "ok", *, deaf=False):
-        self.answers, self.deaf = answers, deaf
+    deaf: it never speaks. left_by_grbl: a sender of Grbl was here, so it reports from B05 on.
+    """
+
+    def __init__(self, answers=lambda line: "ok", *, deaf=False, left_by_grbl=False):
+        self.answers, self.deaf, self.reports = answers, deaf, not left_by_grbl
         self.waiting: list[str] = []
         self.most = 0
         self.time = 0.0
@@ -28,10 +31,12 @@ class Board:
         self.time += 0.2
         if self.deaf:
             return b""
-        said = REPORT
+        said = ""
         if self.waiting:
-            said = self.answers(self.waiting.pop(0)) + "\r\n" + said
-        return said.encode()
+            line = self.waiting.pop(0)
+            self.reports = self.reports or line == "B05"
+            said = self.answers(line) + "\r\n"
+        return (said + REPORT * self.reports).encode()
 
     def seconds(self) -> float:
         return self.time

@@ -137,6 +137,34 @@ def test_a_silent_machine_is_named():
         Sender(Board(deaf=True)).stream(["G0 X1"])
 
 
+def test_a_machine_that_a_sender_of_grbl_left_reports_again():
+    said = []
+    board = Board(lambda line: f"this is {line}\r\nok", left_by_grbl=True)
+    sender = Sender(board, said.append)
+    sender.await_start()
+    assert board.written == b"B05\n"
+    assert 1.5 < board.time < 3.1
+    assert said == []
+    assert sender.ask("$$") == ["this is $$"]
+
+
+def test_the_late_answer_of_a_machine_that_was_asked_to_report_belongs_to_no_line():
+    board = Board(lambda line: f"this is {line}\r\nok", left_by_grbl=True)
+    at_once, late = board.read, []
+
+    def read():
+        heard = at_once()
+        if b"this is B05" in heard:
+            late.append(heard[: heard.index(b"<")])
+            return heard[heard.index(b"<") :]
+        return late.pop() + heard if late else heard
+
+    board.read = read
+    sender = Sender(board)
+    sender.await_start()
+    assert sender.ask("$$") == ["this is $$"]
+
+
 def test_a_greeting_counts_for_no_line():
     said = []
     board = Board()
