@@ -5,13 +5,19 @@
 
 namespace machine {
 
-const char* digitsOf(uint32_t number, char (&room)[12]) {
+/// Four digits at a time: a division of 16 bits takes a third of the time of 32 bits.
+const char* digitsOf(uint32_t number, char (&room)[12], uint8_t decimals) {
   char* at = room + sizeof room - 1;
   *at = '\0';
-  do {
-    *--at = char('0' + number % 10);
-    number /= 10;
-  } while (number != 0);
+  for (uint8_t count = 0; number != 0 || count <= decimals;) {
+    uint16_t four = uint16_t(number % 10000);
+    number /= 10000;
+    for (uint8_t i = 0; i < 4 && (number != 0 || four != 0 || count <= decimals); ++i, ++count) {
+      if (count == decimals && decimals != 0) *--at = '.';
+      *--at = char('0' + four % 10);
+      four /= 10;
+    }
+  }
   return at;
 }
 
@@ -75,12 +81,8 @@ Printer& Printer::fixed(float number, uint8_t decimals) {
   for (uint8_t i = 0; i < decimals; ++i) scale *= 10;
   const uint32_t scaled = uint32_t(lround(fabs(number) * float(scale)));
   if (number < 0 && scaled != 0) put('-');
-  *this << int32_t(scaled / scale);
-  if (decimals == 0) return *this;
-  put('.');
-  const uint32_t fraction = scaled % scale;
-  for (uint32_t place = scale / 10; place != 0; place /= 10) put(char('0' + fraction / place % 10));
-  return *this;
+  char room[12];
+  return *this << digitsOf(scaled, room, decimals);
 }
 
 void Printer::end() {

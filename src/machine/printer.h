@@ -87,8 +87,8 @@ class Printer {
   uint8_t number_ = 0;             ///< of that; 0: nothing comes
 };
 
-/// Writes the digits of a number that cannot be negative, with a zero at the end. Returns their
-/// beginning in `room`.
-const char* digitsOf(uint32_t number, char (&room)[12]);
+/// Writes the digits of a number that cannot be negative, with a zero at the end and a point before
+/// the last `decimals`. Returns their beginning in `room`.
+const char* digitsOf(uint32_t number, char (&room)[12], uint8_t decimals = 0);
 
 }  // namespace machine

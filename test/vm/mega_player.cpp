@@ -14,16 +14,25 @@ const std::size_t kAhead = 126;  // [characters] that a sender has unanswered
 
 }  // namespace
 
+/// A sender's question ten times a second, as CNCjs and UGS ask it.
+struct StatusQuestion {
+  enum { kPeriodMs = 100 };
+  long asked_ms = -kPeriodMs;
+  bool is_open = false;
+  int count = 0;
+  long longest_ms = 0;  ///< from the question to the end of its answer
+};
+
 /// Moves around a circle, in the words of a program for smooth curves, as fast as they are
 /// acknowledged.
 class Stream {
  public:
-  /// `words`: how many, then the length [mm] of each, `z` and `round` as wanted.
+  /// `words`: how many, then the length [mm] of each, `z`, `round` and `asked` as wanted.
   Stream(const Words& words, double now) : count_(int(words.number())), began_(now) {
     std::istringstream rest(words.all.substr(words.first.size()));
     for (std::string word; rest >> word;)
-      if (word == "z" || word == "round")
-        (word == "z" ? with_z_ : round_) = true;
+      if (word == "z" || word == "round" || word == "asked")
+        (word == "z" ? with_z_ : word == "round" ? round_ : asked_) = true;
       else
         length_ = std::atof(word.c_str());
   }
@@ -48,11 +57,31 @@ class Stream {
   }
 
   bool isOver() const { return answered_ == count_; }
+  const char* name() const { return asked_ ? "asked" : "streaming"; }
+
+  /// A `?` where it is due; `status_ms`: since the last status came.
+  const char* question(long now_ms, long status_ms) {
+    if (question_.is_open && status_ms < now_ms - question_.asked_ms) {
+      question_.is_open = false;
+      question_.longest_ms =
+          std::max(question_.longest_ms, now_ms - status_ms - question_.asked_ms);
+    }
+    if (!asked_ || question_.is_open || now_ms - question_.asked_ms < StatusQuestion::kPeriodMs)
+      return "";
+    question_.asked_ms = now_ms;
+    question_.is_open = true;
+    ++question_.count;
+    return "?";
+  }
 
   void tellSpeed(double now) const {
     const double lines_per_second = count_ / (now - began_);
-    std::printf("lines_per_second %.1f\n", lines_per_second);
-    std::printf("mm_per_minute %.0f\n", lines_per_second * length_ * 60);
+    const char* of = asked_ ? "_asked" : "";
+    std::printf("lines_per_second%s %.1f\n", of, lines_per_second);
+    std::printf("mm_per_minute%s %.0f\n", of, lines_per_second * length_ * 60);
+    if (!asked_) return;
+    std::printf("questions_per_second %.2f\n", question_.count / (now - began_));
+    std::printf("longest_answer_ms %ld\n", question_.longest_ms);
   }
 
  private:
@@ -71,7 +100,8 @@ class Stream {
   }
 
   double length_ = 0.05;  // [mm]
-  bool with_z_ = false, round_ = false;
+  bool with_z_ = false, round_ = false, asked_ = false;
+  StatusQuestion question_;
   int count_, sent_ = 0, answered_ = 0;
   double began_;  // [s]
   std::size_t waiting_ = 0;
@@ -185,8 +215,9 @@ bool MegaPlayer::stream(const Words& words) {
     stream_->takeAnswer();
   }
   mega_.send(stream_->due());
+  mega_.send(stream_->question(std::lround(now * 1000), millisecondsSinceStatus()));
   if (!stream_->isOver()) return false;
-  tellTicks("streaming");
+  tellTicks(stream_->name());
   stream_->tellSpeed(now);
   stream_.reset();
   return true;

@@ -21,12 +21,16 @@ BUDGETS = {
     "the same, three axes with sag, stretch and pitch": 0.12,
     "short G1 lines a second": 230,
     "the same, three axes with sag, stretch and pitch, lines": 180,
+    "the same with a `?` ten times a second": 210,
+    "longest wait for the answer to a `?`, ms": 100,
     "first line after power-on, ms": 500,
 }
 AT_LEAST = {
     "short G1 lines a second",
     "the same, three axes with sag, stretch and pitch, lines",
+    "the same with a `?` ten times a second",
 }
+CLOCK = 16e6  # [Hz]
 
 
 def measure() -> dict[str, float]:
@@ -36,6 +40,7 @@ def measure() -> dict[str, float]:
     program = player()
     dialogues = ("stream.nc", "fast_loop.nc", "hard.nc")
     slow, fast, hard = (figures_of(program, name) for name in dialogues)
+    asked = figures_of(program, "asked.nc")
     ram = size[".data"] + size[".bss"]
     stack = figures_of(program, "deepest.nc")["stack"]
     return {
@@ -50,8 +55,18 @@ def measure() -> dict[str, float]:
         "the same, three axes": most(hard, "longest_tick"),
         "short G1 lines a second": slow["lines_per_second"],
         "the same, three axes with sag, stretch and pitch, lines": hard["lines_per_second"],
+        "short G1 lines a second for a sender of Grbl": asked["lines_per_second"],
+        "the same with a `?` ten times a second": asked["lines_per_second_asked"],
+        "a `?` while short lines run, cycles": cycles_of_a_question(asked),
+        "longest wait for the answer to a `?`, ms": asked["longest_answer_ms"],
         "first line after power-on, ms": slow["first_line_ms"],
     }
+
+
+def cycles_of_a_question(figures: dict[str, float]) -> float:
+    """Return what a `?` takes from the lines: the time that they lose, by the clock of the Mega."""
+    lost = 1 - figures["lines_per_second_asked"] / figures["lines_per_second"]
+    return lost * CLOCK / figures["questions_per_second"]
 
 
 def most(figures: dict[str, float], name: str) -> float:

@@ -129,6 +129,13 @@ def test_short_moves_are_taken_as_fast_as_a_streaming_sender_gives_them(player):
     assert counted["tick_share_streaming"] <= 0.12
 
 
+def test_a_sender_that_asks_ten_times_a_second_hardly_slows_short_moves(player):
+    counted = figures(played(player, DIALOGUES, "asked.nc"))
+    assert 9.9 < counted["questions_per_second"] < 10.2
+    assert 0 < counted["longest_answer_ms"] <= 100
+    assert counted["lines_per_second_asked"] >= 0.9 * counted["lines_per_second"]
+
+
 def test_every_effect_at_200_hz_leaves_time_for_short_moves(player):
     counted = figures(played(player, DIALOGUES, "every_effect.nc"))
     assert counted["mm_per_minute"] >= 0.9 * 1000

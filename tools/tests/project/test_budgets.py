@@ -79,6 +79,11 @@ def test_static_ram_and_the_deepest_stack_with_a_quarter_fit_into_the_mega():
     assert firmware.over_budget({**figures, row: 8193}) == [f"{row}: 8,193, the budget is 8,192"]
 
 
+def test_what_a_question_costs_is_the_time_that_lines_lose():
+    figures = {"lines_per_second": 200, "lines_per_second_asked": 190, "questions_per_second": 10}
+    assert firmware.cycles_of_a_question(figures) == pytest.approx(80_000)
+
+
 def test_the_search_changes_a_candidate_by_one_step():
     lines = deepest.known_lines()
     assert "-> $$" in lines
