@@ -14,6 +14,7 @@ import contextlib
 import os
 import re
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
@@ -31,6 +32,9 @@ BLOCK = re.compile(r"^```(\w*)\n(.*?)^```", re.DOTALL | re.MULTILINE)
 PROMPT = re.compile(r"^\$ ", re.MULTILINE)
 # In a block without a language: the commands that need neither a board nor a compiler.
 PLAIN = re.compile(r"(?:\.venv/bin/)?plumb |python3 tools/")
+PATIENCE = (
+    1200  # [s] for all commands of a page; a busy computer takes five minutes for the longest
+)
 END = "--- end of a command, exit "
 # What the reader does after a command: he measures, and fills in the file that it wrote.
 FILLED_IN = {
@@ -40,6 +44,10 @@ FILLED_IN = {
     "s/# top_right = .*/top_right = [101, 101]/' readings.toml",
     "--marks more.toml": r"sed -i -E 's/^target = (\[.*\])/&\nmeasured = \1/' more.toml",
 }
+
+
+class EndlessError(Exception):
+    """A command waits for ever, as a virtual machine does that nobody ends."""
 
 
 @dataclass(frozen=True)
@@ -70,7 +78,10 @@ def commands_on(text: str) -> list[Shown]:
 
 
 def run_in(folder: Path, commands: list[str]) -> list[Printed]:
-    """What each command prints, all run by one shell in a folder with the example."""
+    """What each command prints, all run by one shell in a folder with the example.
+
+    Raises EndlessError for a command that does not end.
+    """
     script = "".join(f"{command}\necho '{END}'$?\n{fill_in(command)}\n" for command in commands)
     shutil.copytree(EXAMPLE, folder / "docs/example")
     for file in EXAMPLE.iterdir():
@@ -79,16 +90,27 @@ def run_in(folder: Path, commands: list[str]) -> list[Printed]:
     for name in ("tools", ".venv"):
         (folder / name).symlink_to(ROOT / name)
     path = os.pathsep.join(map(str, [programs(), Path(sys.executable).parent, os.environ["PATH"]]))
-    done = subprocess.run(
+    shell = subprocess.Popen(
         ["bash", "-c", script],
         cwd=folder,
         env={**os.environ, "PATH": path, "COLUMNS": "80"},
         stdout=subprocess.PIPE,
         stderr=subprocess.STDOUT,
         text=True,
+        start_new_session=True,
     )
-    parts = re.split(rf"^{END}(\d+)\n", done.stdout, flags=re.MULTILINE)
-    return [Printed(*pair) for pair in zip(parts[0::2], map(int, parts[1::2]), strict=False)]
+    try:
+        output, _ = shell.communicate(timeout=PATIENCE)
+        is_endless = False
+    except subprocess.TimeoutExpired:
+        os.killpg(shell.pid, signal.SIGKILL)
+        output, _ = shell.communicate()
+        is_endless = True
+    parts = re.split(rf"^{END}(\d+)\n", output, flags=re.MULTILINE)
+    printed = [Printed(*pair) for pair in zip(parts[0::2], map(int, parts[1::2]), strict=False)]
+    if is_endless:
+        raise EndlessError(f"$ {commands[len(printed)]}\nhas not ended:\n{parts[-1]}")
+    return printed
 
 
 @cache
@@ -108,7 +130,11 @@ def faults_on(text: str, folder: Path) -> list[str]:
     """What the commands of a page do that it does not show."""
     shown = commands_on(text)
     faults = []
-    for each, printed in zip(shown, run_in(folder, [each.command for each in shown]), strict=True):
+    try:
+        answers = run_in(folder, [each.command for each in shown])
+    except EndlessError as error:
+        return [str(error)]
+    for each, printed in zip(shown, answers, strict=True):
         if printed.code > (each.output is None):
             faults.append(f"$ {each.command}\nexit {printed.code}:\n{printed.output}")
         elif each.output is not None and printed.output.rstrip() != each.output.rstrip():

@@ -45,6 +45,12 @@ def test_a_page_that_shows_something_else_is_caught(text: str, fault: str, tmp_p
     assert fault in said
 
 
+def test_a_command_that_does_not_end_is_named(tmp_path: Path, monkeypatch) -> None:
+    monkeypatch.setattr(page_commands, "PATIENCE", 2)
+    text = "```console\n$ echo a\na\n$ echo b; sleep 1000\n```\n"
+    assert faults_on(text, tmp_path) == ["$ echo b; sleep 1000\nhas not ended:\nb\n"]
+
+
 def test_a_page_is_written_with_what_its_commands_print(tmp_path: Path) -> None:
     old = "text\n\n```console\n$ echo a\nb\n\n$ x=c\n$ echo $x\n```\n```\nplumb --help\n```\n"
     new = "text\n\n```console\n$ echo a\na\n\n$ x=c\n$ echo $x\nc\n```\n```\nplumb --help\n```\n"
