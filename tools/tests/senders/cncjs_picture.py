@@ -57,7 +57,7 @@ def cut(page: Page, cncjs: Cncjs) -> None:
     until(cncjs.ended, "the pocket is cut", CUTTING)
     page.get_by_text("Idle", exact=True).first.wait_for()
     for _ in range(ZOOMS):
-        page.locator(".fa-search-minus").first.click()
+        page.locator("[aria-label='Zoom out']").click()
     page.wait_for_timeout(2000)  # [ms] the page draws the place a little later
 
 

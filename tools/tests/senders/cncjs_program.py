@@ -54,6 +54,7 @@ class CncjsServer:
                 stdin=subprocess.DEVNULL,
                 stdout=log,
                 stderr=log,
+                start_new_session=True,  # the program that npm's wheel starts is a child of this
             )
         until(self._answers, "CNCjs's server answers", START)
 
@@ -73,7 +74,7 @@ class CncjsServer:
 
     def end(self) -> None:
         """End it."""
-        self.process.send_signal(signal.SIGKILL)
+        os.killpg(self.process.pid, signal.SIGKILL)
         self.process.wait()
 
 
