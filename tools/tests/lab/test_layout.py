@@ -98,3 +98,14 @@ def test_a_phone_shows_the_first_field_of_the_readings_without_scrolling(measure
         box = field.bounding_box()
         assert box["y"] + box["height"] <= page.locator(".way-on").bounding_box()["y"]
     expect(page.get_by_label("Measured from")).to_be_in_viewport(ratio=1)
+
+
+def test_the_steps_fold_on_a_phone_when_the_open_step_is_chosen_again(measured):
+    page = measured("known")
+    page.set_viewport_size(NARROW)
+    steps = page.get_by_role("navigation", name="Steps")
+    for step in ("What you know", "Reach"):  # the step that is open, and another
+        steps.get_by_role("button").click()
+        steps.get_by_role("link", name=step).click()
+        expect(steps.get_by_role("button")).to_have_attribute("aria-expanded", "false")
+        expect(steps.get_by_role("link", name=step)).to_be_hidden()

@@ -4,9 +4,9 @@ import { send } from "../api/client";
 import { namedLength } from "../controls/lengths";
 import { useDo } from "./doing";
 import { isReady, type LiveMachine, type Machine, subject } from "./machine";
+import { Ports } from "./Ports";
 import type { Press } from "./presses";
 import { useProject } from "./project";
-import { Reconnect } from "./Reconnect";
 import "./machine-bar.css";
 
 const UNREACHABLE = "Cannot reach the machine: use its power switch";
@@ -63,7 +63,7 @@ export function MachineBar({ live }: { live: LiveMachine }) {
           </button>
         </p>
       )}
-      {machine.phase === "lost" && machine.kind === "board" && <Reconnect machine={machine} />}
+      {machine.phase === "lost" && machine.kind === "board" && <Ports lost={machine.name} />}
       {machine.phase === "lost" && <p class="said">{UNREACHABLE}.</p>}
       {refusal}
       <p class="pressed" role="status">
