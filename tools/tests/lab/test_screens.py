@@ -19,6 +19,7 @@ from screens import (
     axe_findings,
     fitted_machine,
     measured_machine,
+    note_questions,
     settle,
     tabbed,
     walk,
@@ -101,6 +102,7 @@ def seen(browser, lab, size, scheme):
         has_touch=size == "phone",
     )
     page = context.new_page()
+    note_questions(page)
     page.goto(lab.url)
     page.locator("nav").wait_for()
     page.size, page.color_scheme = size, scheme

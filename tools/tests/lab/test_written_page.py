@@ -2,7 +2,7 @@
 
 import re
 
-from folder import choose, finished
+from folder import choose, finished, got
 from lab_machine import PATIENCE
 from playwright.sync_api import expect
 from screens import measured_machine
@@ -58,6 +58,16 @@ def test_a_reading_that_changes_after_the_writing_says_what_is_stale_and_leads_b
     page.get_by_role("button", name="Go back to groundcontrol.ini and fit again").click()
     expect(page.locator(TITLE)).to_have_text("What would change?", timeout=PATIENCE)
     expect(page.locator(WANTED)).to_have_count(1, timeout=PATIENCE)
+
+
+def test_readings_that_are_those_of_the_fit_are_never_called_changed(lab, page):
+    write(page, lab, *ALL)
+    with lab.client() as client:
+        assert got(client.get("/api/project"))["changed_since_fit"] == ""
+    page.route("**/api/check", lambda route: None)  # as long as it is not answered
+    page.goto(f"{lab.site}#/check")
+    expect(page.get_by_text("One moment …")).to_be_visible()
+    expect(page.locator(TITLE)).to_have_text("Is it true?")
 
 
 def test_what_noise_alone_would_leave_stands_at_each_error_of_a_fit(lab, page):

@@ -74,11 +74,14 @@ function Place({ step, project, here, number, chosen }: PlaceParts) {
 export function WayOn({ project, here }: WayParts) {
   const index = STEPS.findIndex((step) => step.id === here);
   if (index < 0) return null;
-  const [before, after] = [STEPS[index - 1], STEPS[index + 1]];
+  const before = STEPS[index - 1];
+  const next = STEPS[index + 1];
+  const after = next && !next.needs(project) ? next : undefined;
+  if (!before && !after) return null;
   return (
     <footer class="way-on">
       {before && <a href={`#/${before.id}`}>← {before.title}</a>}
-      {after && !after.needs(project) && (
+      {after && (
         <a class="after" href={`#/${after.id}`}>
           {after.title} →
         </a>

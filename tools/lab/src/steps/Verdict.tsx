@@ -73,6 +73,13 @@ export function Verdict() {
           />
         )
       }
+      act={
+        !isNextWanted && (
+          <button type="button" class="primary" onClick={wantNext}>
+            Find the best next measurement
+          </button>
+        )
+      }
     >
       {verdict.slips.length > 0 && (
         <ul class="slips">
@@ -85,7 +92,7 @@ export function Verdict() {
         </ul>
       )}
       <HalfTyped />
-      <NextStep sheet={sheet} marks={verdict.marks} wanted={isNextWanted} want={wantNext} />
+      <NextStep sheet={sheet} marks={verdict.marks} wanted={isNextWanted} />
       {verdict.cards.length > 0 && (
         <section aria-label="Suspects">
           <h2>Suspects</h2>
