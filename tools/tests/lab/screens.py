@@ -126,16 +126,7 @@ def settle(page):
     page.wait_for_load_state("networkidle")
     busy = "() => !document.querySelector('[aria-busy=true], progress:not([value])')"
     page.wait_for_function(busy, timeout=120_000)
-    go_on_until(page, lambda: not getattr(page, "asked", ()))
     drawn(page)
-
-
-def note_questions(page):
-    """Note what the page asks and has no answer to: a screen may ask more when it is shown."""
-    page.asked = set()
-    page.on("request", lambda question: page.asked.add(question))
-    for end in ("requestfinished", "requestfailed"):
-        page.on(end, lambda question: page.asked.discard(question))
 
 
 def go_on_until(page, condition):

@@ -19,7 +19,6 @@ from screens import (
     axe_findings,
     fitted_machine,
     measured_machine,
-    note_questions,
     settle,
     tabbed,
     walk,
@@ -102,7 +101,6 @@ def seen(browser, lab, size, scheme):
         has_touch=size == "phone",
     )
     page = context.new_page()
-    note_questions(page)
     page.goto(lab.url)
     page.locator("nav").wait_for()
     page.size, page.color_scheme = size, scheme

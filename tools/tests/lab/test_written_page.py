@@ -80,6 +80,14 @@ def test_what_noise_alone_would_leave_stands_at_each_error_of_a_fit(lab, page):
             re.compile(r"0\.\d\d mm\s*noise alone leaves 0\.\d\d"), timeout=PATIENCE
         )
     expect(errors.nth(0)).not_to_contain_text("noise")
+    # The sheet compares the same three, each mark with its circle of noise.
+    states = page.get_by_role("group", name="What is drawn").locator("label")
+    expect(states).to_have_count(3)
+    for place, state in enumerate(states.all()):
+        state.click()
+        expect(state.get_by_role("radio")).to_be_checked()
+        assert state.locator("b").inner_text() in errors.nth(place).inner_text()
+        expect(page.locator(".sheet svg > g > g circle.noise")).to_have_count(23)
     by_hand = page.get_by_role("region", name="By hand").inner_text()
     assert "too long: no firmware" in by_hand and "_" not in by_hand
 

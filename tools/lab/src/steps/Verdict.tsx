@@ -28,7 +28,7 @@ const TITLES: Record<string, string> = {
 };
 
 export function Verdict() {
-  const { project } = useProject();
+  const { project, trouble } = useProject();
   const units = project.choices.units ?? "mm";
   const { answer, refused } = useAnswer<VerdictAnswer>("verdict");
   const writing = useWriting();
@@ -59,6 +59,7 @@ export function Verdict() {
     <Screen
       title={TITLES[verdict.verdict] ?? "The verdict"}
       say={verdict.sentence}
+      busy={!bench && !trouble}
       why={<Why noise={verdict.noise} notes={verdict.notes} />}
       command={answer.command}
       stage={
