@@ -7,12 +7,13 @@ from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.special import betainc, betaincinv
 from scipy.stats import norm
 
 from plumb.model.plain import ascending
 from plumb.model.predict import Array
 
-DRAWS = 2000  # of noise, for the band
+DRAWS, NUMBERS = 2000, 400_000  # of noise at most, for the band
 SHARE = 0.95  # of the draws that lie in the band with all their points
 
 
@@ -44,15 +45,14 @@ def quantiles(errors: Array, noise_rms: float) -> Quantiles:
 def _of_noise(count: int) -> tuple[Array, Array, Array]:
     """Return the quantiles of this many numbers, and the band, in sigmas.
 
-    Each point leaves the band equally often. How often that may be follows from draws: a draw
-    counts as outside if any of its points is.
+    Each point leaves the band equally often: its place among the others follows a beta
+    distribution. How often that may be follows from draws: a draw leaves it if any point does.
     """
-    if count == 0:
-        return np.zeros(0), np.zeros(0), np.zeros(0)
-    at = norm.ppf((np.arange(count) + 0.5) / count)
-    draws = np.sort(np.random.default_rng(1).normal(size=(DRAWS, count)), axis=1)
-    ranks = np.argsort(np.argsort(draws, axis=0), axis=0)
-    outermost = np.minimum(ranks, DRAWS - 1 - ranks).min(axis=1)
-    depth = int(np.quantile(outermost, 1 - SHARE))
-    sides = np.sort(draws, axis=0)
-    return at, sides[depth], sides[DRAWS - 1 - depth]
+    place = np.arange(1, count + 1)
+    spread = place, place[::-1]
+    draws = min(DRAWS, NUMBERS // max(1, count))
+    drawn = np.sort(np.random.default_rng(1).random((draws, count)), axis=1)
+    below = betainc(*spread, drawn)
+    rarest = np.minimum(below, 1 - below).min(axis=1, initial=1.0)
+    high = norm.ppf(betaincinv(*spread, 1 - np.quantile(rarest, 1 - SHARE)))
+    return norm.ppf((place - 0.5) / count), -high[::-1], high

@@ -2,62 +2,166 @@
 
 from __future__ import annotations
 
-import json
-from collections.abc import Sequence
+import re
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
-from dataclasses import asdict, dataclass, replace
 
+from pydantic import BaseModel, ConfigDict, NonNegativeInt, TypeAdapter, ValidationError
+
+from plumb.lab.machine_line import MachineLine
 from plumb.lab.project import CUT, Project, digest_of
+from plumb.line.sender import cleaned
+from plumb.text.errors import InputError
+
+PLUNGE = re.compile(r"G1 Z-")
 
 
-@dataclass(frozen=True)
-class BrokenCut:
+class BrokenCut(BaseModel):
     """A cut that did not come to its end, as far as the folder knows."""
 
-    program: str  # name of its file
-    digest: str  # of its text
-    marks: int  # that are cut
+    model_config = ConfigDict(frozen=True, extra="forbid")
+
+    digest: str  # of the program's text
+    marks: NonNegativeInt = 0  # that are surely cut
+    begun: NonNegativeInt = 0  # with those that the machine may have cut when nobody saw it
     is_virtual: bool  # its sheet is gone with the program that ran it
 
 
-def broken_cut(project: Project, program: str, text: str) -> BrokenCut | None:
-    """Return how far this program came when it broke off; None if it did not begin, or ended."""
-    content = project.read(CUT)
-    if content is None:
-        return None
-    try:
-        cut = BrokenCut(**json.loads(content))
-    except (ValueError, TypeError):
-        return None  # somebody else wrote it
-    return cut if (cut.program, cut.digest) == (program, digest_of(text.encode())) else None
+NOTES = TypeAdapter(dict[str, BrokenCut])  # by the name of the program's file
+
+
+class HowFar(BaseModel):
+    """How far a program came that broke off."""
+
+    broke_off: int | None = None  # marks that are surely cut; None: it did not break off
+    perhaps: int = 0  # marks after these that the machine may have cut
+    goes_on: bool = False  # the next mark can be cut on that sheet
+
+
+class GoOnRequest(BaseModel):
+    """How many marks are on the sheet, as somebody sees there."""
+
+    cut: int
+
+
+def how_far(project: Project, line: MachineLine, program: str, text: str) -> HowFar:
+    """Return how far this program came, if it broke off and does not run now."""
+    progress = line.state.program
+    runs = progress and progress.title == program and progress.outcome == "running"
+    cut = None if runs else _broken_cut(project, program, text)
+    if cut is None:
+        return HowFar()
+    return HowFar(
+        broke_off=cut.marks,
+        perhaps=cut.begun - cut.marks,
+        goes_on=cut.is_virtual == (line.virtual is not None),
+    )
+
+
+def begin(
+    project: Project,
+    line: MachineLine,
+    program: str,
+    text: str,
+    *,
+    paused: Callable[[int], None] = lambda lines: None,
+) -> None:
+    """Send a program from its first mark; `paused` hears of its pauses. The machine moves."""
+    cut = BrokenCut(digest=digest_of(text.encode()), is_virtual=line.virtual is not None)
+    line.worker.send(
+        program,
+        text.splitlines(),
+        then=lambda sender: end(project, program),
+        paused=paused,
+        came=Noting(project, program, cut, plunges_in(text)),
+    )
+
+
+def go_on(project: Project, line: MachineLine, program: str, text: str, on_sheet: int) -> None:
+    """Send the rest of a program that broke off: the marks that are not on the sheet, which nobody
+    but its owner sees. The machine moves.
+    """
+    cut = _broken_cut(project, program, text)
+    if cut is None or cut.is_virtual != (line.virtual is not None):
+        raise InputError("no cut broke off that could go on: begin with the first mark")
+    if not cut.marks <= on_sheet <= cut.begun:
+        raise InputError(f"say how many marks are on the sheet: {cut.marks} to {cut.begun}")
+    seen = cut.model_copy(update={"marks": on_sheet, "begun": on_sheet})
+    plunges = plunges_in(text)
+    lines, before = rest_of(list(cleaned(text.splitlines())), plunges, on_sheet)
+    line.worker.send(
+        program,
+        lines,
+        then=lambda sender: end(project, program),
+        came=Noting(project, program, seen, plunges),
+        before=before,
+    )
+
+
+def plunges_in(text: str) -> list[int]:
+    """Return the numbers of the lines of a program that plunge into its marks."""
+    lines = cleaned(text.splitlines())
+    return [number for number, line in enumerate(lines, start=1) if PLUNGE.match(line)]
 
 
 class Noting:
     """Notes in the folder how far a cut comes."""
 
-    def __init__(self, project: Project, cut: BrokenCut, ends: Sequence[int]) -> None:
-        """Take how many lines the machine took when each mark is cut."""
-        self._project, self._cut, self._ends = project, cut, ends
-        self._noted = -1
+    def __init__(
+        self, project: Project, program: str, cut: BrokenCut, plunges: Sequence[int]
+    ) -> None:
+        """Take the number of the line that plunges into each mark."""
+        self._project, self._program, self._cut, self._plunges = project, program, cut, plunges
+        self._noted: BrokenCut | None = None
 
-    def __call__(self, lines: int) -> None:
-        """Note how far it is: how many lines the machine took."""
-        marks = max(self._cut.marks, sum(end <= lines for end in self._ends))
-        if marks == self._noted:
-            return
-        self._noted = marks
-        content = json.dumps(asdict(replace(self._cut, marks=marks))).encode()
-        with suppress(OSError):  # a full disk stops no cut
-            self._project.save({CUT: content}, read={})
+    def __call__(self, done: int, begun: int) -> None:
+        """Note how far it is: how many lines are surely done, and how many perhaps."""
+        marks = max(self._cut.marks, self._count(done))
+        most = max(marks, self._count(begun))
+        now = self._cut.model_copy(update={"marks": marks, "begun": most})
+        if now != self._noted:
+            self._noted = now
+            _keep(self._project, {**_notes(self._project), self._program: now})
 
-
-def end(project: Project) -> None:
-    """Note that the cut came to its end, or that its sheet is gone."""
-    with suppress(OSError):
-        project.remove([CUT], read={})
+    def _count(self, lines: int) -> int:
+        return sum(plunge <= lines for plunge in self._plunges)
 
 
-def rest_of(lines: Sequence[str], ends: Sequence[int], marks: int) -> tuple[list[str], int]:
+def end(project: Project, program: str) -> None:
+    """Note that a cut came to its end."""
+    notes = _notes(project)
+    _keep(project, {name: cut for name, cut in notes.items() if name != program})
+
+
+def end_virtual(project: Project) -> None:
+    """Note that the sheet of the virtual machine is gone."""
+    notes = _notes(project)
+    _keep(project, {name: cut for name, cut in notes.items() if not cut.is_virtual})
+
+
+def _broken_cut(project: Project, program: str, text: str) -> BrokenCut | None:
+    """Return how far this program came when it broke off; None if it did not begin, or ended."""
+    cut = _notes(project).get(program)
+    return cut if cut and cut.digest == digest_of(text.encode()) else None
+
+
+def _notes(project: Project) -> dict[str, BrokenCut]:
+    """Return the cuts that broke off, by their programs."""
+    try:
+        return NOTES.validate_json(project.read(CUT) or b"{}")
+    except ValidationError:
+        return {}  # somebody else wrote it
+
+
+def _keep(project: Project, notes: Mapping[str, BrokenCut]) -> None:
+    with suppress(OSError):  # a full disk stops no cut
+        if notes:
+            project.save({CUT: NOTES.dump_json(dict(notes))}, read={})
+        else:
+            project.remove([CUT], read={})
+
+
+def rest_of(lines: Sequence[str], plunges: Sequence[int], marks: int) -> tuple[list[str], int]:
     """Return the lines that cut the marks after the first `marks`, and how many are left out.
 
     The modes and the lift before the first mark come again.
@@ -65,5 +169,5 @@ def rest_of(lines: Sequence[str], ends: Sequence[int], marks: int) -> tuple[list
     if marks == 0:
         return list(lines), 0
     head = next(i for i, line in enumerate(lines) if "X" in line)
-    done = ends[marks - 1]
+    done = plunges[marks - 1] + 1  # with the lift
     return [*lines[:head], *lines[done:]], done - head

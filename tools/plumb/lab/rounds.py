@@ -20,7 +20,7 @@ from plumb.lab.known import refuse_absurd_known, stated
 from plumb.lab.project import Choices, Layout, Project
 from plumb.line.progress import Wait, waits_in
 from plumb.marks.form import read_form
-from plumb.marks.read import Distance, Mark, Measurements
+from plumb.marks.read import Distance, Mark, Measurements, read_marks
 from plumb.model.predict import known_effects
 from plumb.model.reach import refuse_way, with_soft_chains
 from plumb.plan.options import MARK, READING, ROUND
@@ -317,10 +317,10 @@ def changed_since_fit(project: Project, choices: Choices, settings: MachineSetti
         if board.marks not in choices.marks or not board.marks.endswith(".toml"):
             continue
         try:
-            form = read_form(project.path(board.marks), sheet=settings.sheet, known=known_effects())
+            now = read_marks(project.path(board.marks), sheet=settings.sheet, known=known_effects())
         except InputError:
             continue  # who asks for the readings hears of it
-        if form.measurements.rounds[0].digest != board.digest:
+        if now.rounds[0].digest != board.digest:
             return board.marks
     return ""
 

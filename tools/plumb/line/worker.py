@@ -21,6 +21,7 @@ from pydantic import computed_field
 from plumb.line.memory import read_numbers
 from plumb.line.port import LostError, Port
 from plumb.line.progress import SAID_PAUSED, Progress, waits_in
+from plumb.line.reached import Came, Course
 from plumb.line.sender import HALTED, REPORTS, STANDS, Sender, Status, StoppedError, Watch, cleaned
 from plumb.text.answers import Internal
 from plumb.text.errors import InputError
@@ -83,9 +84,7 @@ class LineWorker:
         knows_place: bool = True,
         working: Callable[[bool], None] = lambda works: None,
     ) -> None:
-        """Take `opened`, which opens the line, and `working`, which hears when work begins and
-        ends.
-        """
+        """Take what opens the line, and `working`, which hears when work begins and ends."""
         self._opened, self._working = opened, working
         self._state = LineState("connecting", knows_place=knows_place)
         self._lock = Lock()
@@ -94,6 +93,7 @@ class LineWorker:
         self._said = deque[str](maxlen=SAID)
         self._places = deque[tuple[float, Status]]()
         self._paused: Callable[[int], None] = lambda lines: None
+        self._course: Course | None = None  # of the program that is sent
         self._waits = False  # in mid-work, for a person
         self._held_at = -SURE  # reports that had come at the last hold
         self._sender: Sender | None = None
@@ -140,14 +140,13 @@ class LineWorker:
         then: Callable[[Sender], None] = lambda sender: None,
         *,
         paused: Callable[[int], None] = lambda lines: None,
-        taken: Callable[[int], None] = lambda lines: None,
+        came: Came = lambda done, begun: None,
         before: int = 0,
     ) -> None:
         """Send a program; `then` is called when the machine rests after it, and `paused` at each of
-        its pauses with how many lines the machine took before. `taken` hears how many it took.
-        `before`: those that it took on an earlier day; these here are the rest.
-
-        Raises InputError for lines that cannot be sent, and while there is other work.
+        its pauses with how many lines the machine took before. `came` hears how many are surely
+        done, and how many perhaps, before each line is sent. `before`: those that it took on an
+        earlier day. Raises InputError for lines that cannot be sent, and while there is other work.
         """
         clean = list(cleaned(lines))
         progress = Progress(title, before, before + len(clean), waits=tuple(waits_in(lines)))
@@ -156,15 +155,16 @@ class LineWorker:
             now = self._state.program
             assert now is not None
             self._note(program=replace(now, done=before + done))
-            taken(before + done)
 
         def sending(sender: Sender) -> _Done:
             self._paused = paused
+            self._course = course = Course(sender, clean, came, before)
             try:
-                sender.stream(clean, answered=answered)
+                sender.stream(course.leaving(), answered=course.hears(answered))
                 self._await_rest(sender)
                 then(sender)
             except StoppedError:
+                course.stopped()
                 return self._finished("stopped", "The machine has stopped. The rest was not sent.")
             except LostError:
                 raise
@@ -294,6 +294,8 @@ class LineWorker:
                 pressed.clear()
             self._held_at = -SURE
             self._note(phase="stopping")
+            if self._course:
+                self._course.end()
             sender.stop()
         self._press(sender)
 

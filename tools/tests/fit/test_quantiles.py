@@ -15,8 +15,18 @@ def inside(errors, noise_rms):
 
 def test_noise_stays_in_the_band_as_often_as_is_said():
     noise = np.random.default_rng(7)
-    held = [inside(noise.normal(0, 0.4, (MARKS, 2)), 0.4 * np.sqrt(2)) for _ in range(600)]
-    assert 0.92 < np.mean(held) < 0.98
+    boards = [noise.normal(0, 0.4, (MARKS, 2)) for _ in range(4000)]
+    placed = [quantiles(errors, 0.4 * np.sqrt(2)) for errors in boards]
+    below, above = (
+        np.mean([beyond.any() for beyond in sides])
+        for sides in (
+            [each.values < each.low for each in placed],
+            [each.values > each.high for each in placed],
+        )
+    )
+    assert below == pytest.approx(above, abs=0.012)
+    outside = np.mean([each.beyond.any() for each in placed])
+    assert outside == pytest.approx(0.05, abs=0.01) and outside > max(below, above) + 0.01
 
 
 def test_noise_that_is_larger_or_has_a_tail_leaves_it():
@@ -24,8 +34,9 @@ def test_noise_that_is_larger_or_has_a_tail_leaves_it():
     errors = noise.normal(0, 0.4, (MARKS, 2))
     assert inside(errors, 0.4 * np.sqrt(2))
     assert not inside(2 * errors, 0.4 * np.sqrt(2))
-    errors[3, 1] = 2.4
-    assert not inside(errors, 0.4 * np.sqrt(2))
+    for far, place in ((2.4, -1), (-2.4, 0)):
+        errors[3, 1] = far
+        assert np.flatnonzero(quantiles(errors, 0.4 * np.sqrt(2)).beyond) == [place % errors.size]
 
 
 def test_points_stand_at_the_quantiles_of_the_noise_and_name_their_marks():

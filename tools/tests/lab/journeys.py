@@ -5,6 +5,7 @@ The machine is at a serial port, as a board is. Each number is typed as the tape
 
 import re
 import threading
+import time
 
 import pytest
 from folder import got
@@ -20,6 +21,7 @@ from screens import go_on_until, settle
 
 NUMBER = 9  # of the machine: one effect of 3 mm, and a sheet that lies turned
 SPEED = 200  # times as fast as a real machine
+AT_REST_S = 2  # in which a machine of that speed cuts the next mark, if it has its lines
 GAP = 2  # the machine's number for the gap between the motors
 SHEET = (2438.4, 1219.2)
 
@@ -62,13 +64,26 @@ class Garage:
         copy.unlink()
         return [(x + SHEET[0] / 2, SHEET[1] / 2 - y) for _, (x, y) in marks]
 
+    @property
+    def marks(self):
+        """How many are on the sheet."""
+        with self._mine:
+            return len(marks_on(self.owner.machine.cuts()))
+
     def await_marks(self, page, count):
         """Wait until that many are on the sheet."""
         for _ in range(PATIENCE // 100):
-            with self._mine:
-                if len(marks_on(self.owner.machine.cuts())) >= count:
-                    return
+            if self.marks >= count:
+                return
             page.wait_for_timeout(100)
+
+    def marks_at_rest(self):
+        """How many there are when the machine has done all that it was sent."""
+        before = -1
+        while self.marks != before:
+            before = self.marks
+            time.sleep(AT_REST_S)
+        return before
 
     def lay_next_sheet(self, raised):
         with self._mine:

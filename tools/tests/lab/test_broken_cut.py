@@ -1,17 +1,22 @@
 """A cut that broke off: the folder knows how far it came, and it goes on or begins again."""
 
 import re
+from dataclasses import dataclass, field
 
 import pytest
 from folder import asked, got, until
 from lab_machine import PATIENCE, bar, start_virtual
 from playwright.sync_api import expect
-from plumb.lab.broken_cut import BrokenCut, Noting, broken_cut, rest_of
-from plumb.lab.project import Project, digest_of
+from plumb.lab.broken_cut import begin, end_virtual, go_on, how_far, rest_of
+from plumb.lab.project import Project
+from plumb.line.worker import LineState
 from plumb.marks.read import read_marks
+from plumb.text.errors import InputError
+from screens import fitted_machine
 from served_lab import serve
 
 SHEET = (2438.4, 1219.2)
+UNDER_WAY_MS = 800  # until the sled is surely on its way to the next mark, at 10 times its speed
 LINES = [
     "G21",
     "G90",
@@ -24,40 +29,108 @@ LINES = [
     "G0 Z5",
     "G0 X0",
 ]
-ENDS = [6, 9]
+PLUNGES = [5, 8]
 
 
 def test_the_rest_has_the_modes_and_the_marks_that_are_not_cut():
-    assert rest_of(LINES, ENDS, 0) == (LINES, 0)
-    rest, left_out = rest_of(LINES, ENDS, 1)
+    assert rest_of(LINES, PLUNGES, 0) == (LINES, 0)
+    rest, left_out = rest_of(LINES, PLUNGES, 1)
     assert rest == [*LINES[:3], *LINES[6:]] and len(rest) + left_out == len(LINES)
 
 
-def test_marks_are_counted_once_they_are_cut_and_never_less_than_before(tmp_path):
-    project, text = Project(tmp_path), "\n".join(LINES)
-    cut = BrokenCut("grid.nc", digest_of(text.encode()), 0, False)
-    noting = Noting(project, cut, ENDS)
-    noting(5)
-    assert broken_cut(project, "grid.nc", text) == cut
-    noting(6)
-    now = broken_cut(project, "grid.nc", text)
-    assert now.marks == 1
-    Noting(project, now, ENDS)(3)  # it goes on: its modes come again
-    assert broken_cut(project, "grid.nc", text).marks == 1
-    assert broken_cut(project, "grid-2.nc", text) is None
-    assert broken_cut(project, "grid.nc", text + "G0") is None
+@dataclass
+class Line:
+    """A line that hears what it is to send."""
+
+    state: LineState = field(default_factory=lambda: LineState("ready"))
+    virtual: object = None
+    sent: dict = field(default_factory=dict)
+
+    @property
+    def worker(self):
+        return self
+
+    def send(self, title, lines, **hearing):
+        self.sent = {"title": title, "lines": list(lines), **hearing}
+
+    def read_numbers(self):
+        return {}
+
+
+def test_a_mark_is_cut_for_sure_or_perhaps_and_never_less_than_before(tmp_path):
+    project, text, line = Project(tmp_path), "\n".join(LINES), Line()
+
+    def far(program="grid.nc", text=text):
+        now = how_far(project, line, program, text)
+        return now.broke_off, now.perhaps
+
+    begin(project, line, "grid.nc", text)
+    came = line.sent["came"]
+    for done, begun, *expected in ((0, 4, 0, 0), (4, 5, 0, 1), (5, 7, 1, 0), (5, 8, 1, 1)):
+        came(done, begun)
+        assert far() == tuple(expected)
+    came(5, 7)  # it was stopped before it began the second
+    assert far() == (1, 0)
+    go_on(project, line, "grid.nc", text, 1)
+    line.sent["came"](3, 4)  # its modes come again
+    assert far() == (1, 0)
+    assert far("grid-2.nc") == far(text=text + "G0") == (None, 0)
+    begin(project, line, "check.nc", text)
+    line.sent["came"](0, 5)
+    assert (far(), far("check.nc")) == ((1, 0), (0, 1))
+    line.sent["then"](None)
+    assert (far(), far("check.nc")) == ((1, 0), (None, 0))
+
+
+def test_a_cut_goes_on_with_the_kind_of_machine_that_began_it(tmp_path):
+    project, text, line = Project(tmp_path), "\n".join(LINES), Line()
+    begin(project, line, "grid.nc", text)
+    line.sent["came"](5, 5)
+    line.virtual = object()
+    assert not how_far(project, line, "grid.nc", text).goes_on
+    with pytest.raises(InputError, match="begin with the first mark"):
+        go_on(project, line, "grid.nc", text, 1)
+    end_virtual(project)  # that of a real machine stays
+    line.virtual = None
+    assert how_far(project, line, "grid.nc", text).goes_on
+    line.virtual = object()
+    begin(project, line, "grid.nc", text)
+    line.sent["came"](5, 5)
+    assert how_far(project, line, "grid.nc", text).goes_on
+    end_virtual(project)
+    assert how_far(project, line, "grid.nc", text).broke_off is None
+
+
+def test_check_marks_that_broke_off_are_asked_for_too(lab, page):
+    fitted_machine(lab.folder)
+    with lab.client() as client:
+        got(client.post("/api/check"))
+        text = (lab.folder / "check.nc").read_text()
+        line = Line()
+        begin(Project(lab.folder), line, "check.nc", text)
+        line.sent["came"](0, 7)  # the first plunge has left
+        check = got(client.get("/api/check"))
+        assert (check["broke_off"], check["perhaps"], check["goes_on"]) == (0, 1, True)
+        assert (
+            "no machine is connected"
+            in got(client.post("/api/check/go-on", json={"cut": 0}), 422)["error"]
+        )
+    page.goto(f"{lab.url}#/check")
+    said = "Cut 0 of 2 marks, then it broke off. The machine may have cut mark 1 too."
+    expect(page.get_by_text(said)).to_be_visible()
 
 
 @pytest.mark.parametrize("content", ["", "[1]", "{}", '{"program": 1}', "\xff"])
 def test_a_note_of_somebody_else_is_none(tmp_path, content):
     (tmp_path / ".cut.json").write_text(content)
-    assert broken_cut(Project(tmp_path), "grid.nc", "") is None
+    assert how_far(Project(tmp_path), Line(), "grid.nc", "").broke_off is None
 
 
 def test_without_a_broken_cut_nothing_goes_on(client):
     grid = got(client.get("/api/grid"))
     assert grid["broke_off"] is None and not grid["goes_on"]
-    assert "begin with the first mark" in got(client.post("/api/grid/go-on"), 422)["error"]
+    refused = got(client.post("/api/grid/go-on", json={"cut": 0}), 422)
+    assert "begin with the first mark" in refused["error"]
 
 
 def test_a_stopped_cut_goes_on_from_the_next_mark(lab, page):
@@ -67,6 +140,7 @@ def test_a_stopped_cut_goes_on_from_the_next_mark(lab, page):
     expect(page.get_by_label(re.compile("[2-4] of 9 marks are cut"))).to_be_visible(
         timeout=PATIENCE
     )
+    page.wait_for_timeout(UNDER_WAY_MS)
     bar(page).get_by_role("button", name="Stop").click()
     expect(page.get_by_text(re.compile("Cut [2-5] of 9 marks, then it broke off"))).to_be_visible()
     expect(page.get_by_role("button", name="Begin again: move the sled")).to_be_visible()
@@ -94,8 +168,54 @@ def test_a_lab_that_starts_again_knows_the_cut_that_broke_off(tmp_path, page, ca
     lab = serve(tmp_path)
     try:
         page.goto(f"{lab.url}#/cut")
-        said = page.get_by_text(re.compile(r"Cut \d of 9 marks, then it broke off\. Connect"))
-        expect(said).to_contain_text("or go on from mark", timeout=PATIENCE)
+        said = page.get_by_text(re.compile(r"Cut \d of 9 marks, then it broke off\. .*Connect"))
+        expect(said).to_contain_text("or go on", timeout=PATIENCE)
         assert asked(tmp_path).get("/api/grid").json()["goes_on"]
     finally:
         lab.end()
+
+
+def test_no_mark_is_cut_twice_after_the_lab_died_in_a_cut(tmp_path, page, garage):
+    """A machine goes on with the lines that it has; nobody but its owner sees how far it came."""
+    lab = serve(tmp_path)
+    with lab.client() as client:
+        connect(client, garage)
+        got(client.post("/api/machine/settings"))
+        got(client.post("/api/grid/cut"))
+        until(client, lambda machine: garage.marks >= 3)
+    lab.process.kill()
+    lab.process.wait()
+    there = garage.marks_at_rest()
+    lab = serve(tmp_path)
+    try:
+        with lab.client() as client:
+            grid = got(client.get("/api/grid"))
+            surely, perhaps = grid["broke_off"], grid["perhaps"]
+            assert surely < there <= surely + perhaps
+            connect(client, garage)
+            for wrong in (surely - 1, surely + perhaps + 1):
+                refused = got(client.post("/api/grid/go-on", json={"cut": wrong}), 422)
+                assert "how many marks are on the sheet" in refused["error"]
+            page.goto(f"{lab.url}#/cut")
+            go_on_from(page, grid["marks"], there)
+            until(client, lambda machine: machine["phase"] == "ready" and garage.marks == 9)
+    finally:
+        lab.end()
+    assert garage.marks_at_rest() == 9
+
+
+def connect(client, garage):
+    """Connect the machine at its port."""
+    got(client.post("/api/machine/board", json={"port": garage.path}))
+    until(client, lambda machine: machine["phase"] == "ready")
+
+
+def go_on_from(page, marks, there):
+    """Say how many marks are on the sheet, and go on; nothing is chosen before."""
+    go_on = page.get_by_role("button", name=re.compile("^Go on: "))
+    expect(go_on).to_have_text("Go on: say first which mark is the last", timeout=PATIENCE)
+    expect(go_on).to_be_disabled()
+    page.get_by_role("radio", name=f"mark {marks[there - 1]['name']}", exact=True).check()
+    expect(go_on).to_have_text(f"Go on: move the sled and cut from mark {marks[there]['name']}")
+    go_on.click()
+    expect(page.get_by_text("All marks are cut.")).to_be_visible(timeout=PATIENCE)

@@ -1,6 +1,7 @@
 """What one looks at stays in view, what one does scrolls next to it; a phone has one column."""
 
 import pytest
+from lab_machine import bar, start_virtual
 from playwright.sync_api import expect
 from screens import measured_machine
 
@@ -12,9 +13,12 @@ FIRST = {
     "measure": ".layouts label",
     "cut": ".choice .primary",
     "readings": ".cells input",
-    "verdict": "button.primary",
+    "verdict": ".act button",
     "correct": ".numbers input",
 }
+ON_PHONE = ("known", "cut", "readings", "verdict", "correct")
+# The button of a screen whose fields come before it.
+ACTS = {"verdict": "Find the best next", "correct": "Accept a number", "bench": "Write these"}
 
 
 @pytest.fixture
@@ -33,9 +37,14 @@ def measured(lab, page):
     return opened
 
 
-@pytest.mark.parametrize("step", FIRST)
-def test_the_first_thing_to_do_is_on_the_first_screen(measured, step):
+@pytest.mark.parametrize(
+    ("step", "size"),
+    [*((step, WIDE) for step in FIRST), *((step, NARROW) for step in ON_PHONE)],
+    ids=[*FIRST, *(f"{step}-on-phone" for step in ON_PHONE)],
+)
+def test_the_first_thing_to_do_is_on_the_first_screen(measured, step, size):
     page = measured(step)
+    page.set_viewport_size(size)
     first = page.locator(FIRST[step]).first
     first.wait_for()
     foot = page.locator(".way-on").bounding_box()["y"]
@@ -98,3 +107,41 @@ def test_a_phone_shows_the_first_field_of_the_readings_without_scrolling(measure
         box = field.bounding_box()
         assert box["y"] + box["height"] <= page.locator(".way-on").bounding_box()["y"]
     expect(page.get_by_label("Measured from")).to_be_in_viewport(ratio=1)
+
+
+def test_the_steps_fold_on_a_phone_when_the_open_step_is_chosen_again(measured):
+    page = measured("known")
+    page.set_viewport_size(NARROW)
+    steps = page.get_by_role("navigation", name="Steps")
+    for step in ("What you know", "Reach"):  # the step that is open, and another
+        steps.get_by_role("button").click()
+        steps.get_by_role("link", name=step).click()
+        expect(steps.get_by_role("button")).to_have_attribute("aria-expanded", "false")
+        expect(steps.get_by_role("link", name=step)).to_be_hidden()
+
+
+@pytest.mark.parametrize("size", [WIDE, NARROW], ids=["wide", "narrow"])
+@pytest.mark.parametrize("step", ACTS)
+def test_the_button_of_a_screen_is_in_view_and_covers_no_foot(measured, step, size):
+    page = measured(step)
+    page.set_viewport_size(size)
+    act = page.get_by_role("button", name=ACTS[step])
+    expect(act).to_be_in_viewport(ratio=1)
+    page.mouse.wheel(0, 300)
+    page.wait_for_function("() => scrollY > 0")
+    expect(act).to_be_in_viewport(ratio=1)
+    foot = page.locator(".way-on")
+    box = act.bounding_box()
+    if foot.count():
+        assert box["y"] + box["height"] <= foot.bounding_box()["y"]
+        assert size == WIDE or page.viewport_size["height"] - box["y"] < 0.16 * size["height"]
+
+
+def test_a_connected_machine_covers_neither_button_nor_foot(lab, page):
+    start_virtual(page, lab)
+    page.set_viewport_size(WIDE)
+    page.goto(f"{lab.site}#/known")
+    on = page.locator(".way-on .after")
+    expect(on).to_be_in_viewport(ratio=1)
+    box = on.bounding_box()
+    assert box["y"] + box["height"] <= bar(page).bounding_box()["y"]

@@ -44,6 +44,18 @@ def test_the_bar_connects_again_and_offers_what_is_plugged_in_by_now(page, lost)
     assert asked.value.post_data_json == {"port": "/dev/ttyACM9"}
 
 
+def test_the_bar_connects_at_any_port_whose_name_is_typed(page, lost):
+    modem = {"path": "/dev/ttyS0", "title": "", "is_board": False}
+    page.route("**/api/machine/ports", lambda route: route.fulfill(json=[modem]))
+    bar(page).get_by_text("Another port").click()
+    expect(bar(page).get_by_role("button", name="Connect /dev/ttyS0")).to_be_visible()
+    bar(page).get_by_label("Its name").fill("/dev/ttyACM7")
+    with page.expect_request("**/api/machine/board") as asked:
+        bar(page).get_by_role("button", name="Connect", exact=True).click()
+    assert asked.value.post_data_json == {"port": "/dev/ttyACM7"}
+    expect(bar(page)).to_contain_text("/dev/ttyACM7: the line is lost", timeout=PATIENCE)
+
+
 def test_a_port_is_on_usb_or_it_is_another_port(page, lab):
     modem = {"path": "/dev/ttyS0", "title": "", "is_board": False}
     page.route("**/api/machine/ports", lambda route: route.fulfill(json=[modem]))

@@ -10,6 +10,8 @@ from screens import axe_findings, measured_machine, settle
 
 FRAME = ".sheet .board"
 CARD = ".card-of-mark"
+ALT_GR = """() => document.activeElement.dispatchEvent(new KeyboardEvent("keydown",
+  { key: "]", ctrlKey: true, altKey: true, modifierAltGraph: true, bubbles: true }))"""
 SVG = "{http://www.w3.org/2000/svg}"
 OVERLAPPING = """() => {
   const boxes = [...document.querySelectorAll(".sheet .names text")].map((text) =>
@@ -96,6 +98,29 @@ def test_states_are_compared_by_keys_and_by_buttons(verdict):
     assert arrows.get_attribute("d") == added
     for label, rms in zip(states.locator("..").all(), ("8.91", "1.78", "0.65"), strict=True):
         expect(label).to_contain_text(rms)
+
+
+@pytest.mark.parametrize("step", ["verdict", "bench", "correct"])
+def test_every_sheet_with_states_says_which_keys_compare_them(lab, page, step):
+    measured_machine(lab.folder)
+    page.goto(f"{lab.url}#/{step}")
+    page.get_by_text("On the sheet the keys [ and ] compare").click()
+    states = page.get_by_role("group", name="What is drawn").get_by_role("radio")
+    last = states.count() - 1
+    expect(states.nth(last)).to_be_checked()
+    arrows = page.locator(".sheet path.arrow.beyond, .sheet path.arrow.within").first
+    drawn = arrows.get_attribute("d")
+    page.locator(FRAME).focus()
+    page.keyboard.press("[")
+    expect(states.nth(last - 1)).to_be_checked()
+    assert arrows.get_attribute("d") != drawn
+    page.evaluate(ALT_GR)  # as a German keyboard types it
+    expect(states.nth(last)).to_be_checked()
+    page.keyboard.press("Control+[")  # a browser's
+    expect(states.nth(last)).to_be_checked()
+    states.nth(last).focus()
+    page.keyboard.press("ArrowLeft")
+    expect(states.nth(last - 1)).to_be_checked()
 
 
 def test_it_is_enlarged_by_keys_buttons_wheel_and_two_fingers_and_comes_back(verdict):

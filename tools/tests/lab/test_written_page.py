@@ -2,7 +2,7 @@
 
 import re
 
-from folder import choose, finished
+from folder import choose, finished, got
 from lab_machine import PATIENCE
 from playwright.sync_api import expect
 from screens import measured_machine
@@ -60,6 +60,16 @@ def test_a_reading_that_changes_after_the_writing_says_what_is_stale_and_leads_b
     expect(page.locator(WANTED)).to_have_count(1, timeout=PATIENCE)
 
 
+def test_readings_that_are_those_of_the_fit_are_never_called_changed(lab, page):
+    write(page, lab, *ALL)
+    with lab.client() as client:
+        assert got(client.get("/api/project"))["changed_since_fit"] == ""
+    page.route("**/api/check", lambda route: None)  # as long as it is not answered
+    page.goto(f"{lab.site}#/check")
+    expect(page.get_by_text("One moment …")).to_be_visible()
+    expect(page.locator(TITLE)).to_have_text("Is it true?")
+
+
 def test_what_noise_alone_would_leave_stands_at_each_error_of_a_fit(lab, page):
     measured_machine(lab.folder)
     page.goto(f"{lab.url}#/correct")
@@ -70,6 +80,14 @@ def test_what_noise_alone_would_leave_stands_at_each_error_of_a_fit(lab, page):
             re.compile(r"0\.\d\d mm\s*noise alone leaves 0\.\d\d"), timeout=PATIENCE
         )
     expect(errors.nth(0)).not_to_contain_text("noise")
+    # The sheet compares the same three, each mark with its circle of noise.
+    states = page.get_by_role("group", name="What is drawn").locator("label")
+    expect(states).to_have_count(3)
+    for place, state in enumerate(states.all()):
+        state.click()
+        expect(state.get_by_role("radio")).to_be_checked()
+        assert state.locator("b").inner_text() in errors.nth(place).inner_text()
+        expect(page.locator(".sheet svg > g > g circle.noise")).to_have_count(23)
     by_hand = page.get_by_role("region", name="By hand").inner_text()
     assert "too long: no firmware" in by_hand and "_" not in by_hand
 

@@ -1,7 +1,10 @@
 """Which lines are surely done: those that were answered long enough ago on a machine that works."""
 
 import pytest
-from plumb.line.sender import LATE, PAUSED, PER_SECOND, Reached, Sender
+from line_board import SlowBoard, until
+from plumb.line.reached import LATE, Reached
+from plumb.line.sender import PAUSED, PER_SECOND, Sender
+from plumb.line.worker import LineWorker
 
 LINES = ["(a job)", "G21", "", "G0 X1", "G1 X2 F100 (cut)", "; end", "G0 X3"]
 
@@ -74,3 +77,43 @@ def test_a_machine_that_answers_farther_ahead_has_come_less_far(machine):
     assert reached.line == 2
     machine.pass_on(0.2)
     assert reached.line == 7
+
+
+@pytest.fixture
+def slow():
+    """A slow board, and what sends to it."""
+    board = SlowBoard()
+    worker = LineWorker(lambda: board)
+    until(lambda state: state.phase == "ready", worker)
+    yield board, worker
+    worker.close()
+
+
+def test_each_line_is_noted_before_it_leaves_and_is_surely_done_a_while_after_its_answer(slow):
+    board, worker = slow
+    heard, lines = [], [f"G1 X{i}" for i in range(1, 100)]
+
+    def came(done, begun):
+        heard.append((done, begun))
+        assert begun >= board.written.count(b"G1")
+
+    worker.send("grid.nc", lines, came=came, before=7)
+    until(lambda state: state.phase == "ready", worker)
+    assert heard[0] == (7, 8) and heard == sorted(heard)
+    done, begun = heard[-1]
+    assert begun == 7 + len(lines) and begun - 20 < done < begun - 10  # 3 s, a line each 0.2 s
+
+
+def test_of_a_stopped_program_only_the_line_under_way_is_perhaps_done(slow):
+    _, worker = slow
+    heard = []
+    worker.send(
+        "grid.nc", [f"G1 X{i}" for i in range(1, 400)], came=lambda *lines: heard.append(lines)
+    )
+    until(lambda state: state.program and state.program.done > 30, worker)
+    worker.stop()
+    until(lambda state: state.phase == "ready", worker)
+    answered = worker.state.program.done
+    surely, perhaps = heard[-1]
+    assert perhaps == answered + 2 < heard[-2][1]
+    assert answered - 20 < surely < answered - 10

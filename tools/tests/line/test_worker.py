@@ -4,63 +4,11 @@ import time
 from threading import Event
 
 import pytest
+from line_board import SlowBoard, until
 from plumb.line.port import LostError
-from plumb.line.sender import GO_ON, HOLD, STOP, StoppedError
+from plumb.line.sender import GO_ON, STOP, StoppedError
 from plumb.line.worker import LineWorker
 from plumb.text.errors import InputError
-
-
-class SlowBoard:
-    """A board that moves a millimetre a line, answers each when it is there, and can be pulled."""
-
-    def __init__(self):
-        self.x, self.time = 0.0, 0.0
-        self.waiting, self.written = [], b""
-        self.holds = self.is_pulled = self.is_closed = self.is_silent = False
-        self.greeting, self.state = b"", "Idle"
-        self.says = {}
-
-    def write(self, characters):
-        if self.is_pulled:
-            raise LostError("USB: the line was lost; check the cable")
-        self.written += characters
-        if characters == HOLD:
-            self.holds = True
-        elif characters == STOP:
-            self.holds, self.waiting = False, ["!"]
-        elif self.holds and characters == GO_ON:
-            self.holds = False  # it has no `ok`
-        else:
-            self.waiting.append(characters.decode().strip())
-
-    def read(self):
-        time.sleep(0.001)
-        if self.is_pulled:
-            raise LostError("USB: the line was lost; check the cable")
-        self.time += 0.2
-        if self.is_silent:
-            return b""
-        said, self.greeting = self.greeting, b""
-        if self.waiting and not self.holds:
-            line = self.waiting.pop(0)
-            self.x += line.startswith("G1")
-            said += self.says.get(line, b"ok") + b"\r\n"
-        state = "Pause" if self.holds else self.state
-        return said + f"<{state},MPos:{self.x:.2f},0.00,0.00,WPos:0,0,0>\r\n".encode()
-
-    def seconds(self):
-        return self.time
-
-    def close(self):
-        self.is_closed = True
-
-
-def until(true, worker):
-    """Wait for a state; say what it was instead."""
-    end = time.monotonic() + 120  # of a busy computer
-    while not true(worker.state):
-        assert time.monotonic() < end, worker.state
-        time.sleep(0.002)
 
 
 @pytest.fixture

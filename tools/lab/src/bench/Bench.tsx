@@ -15,7 +15,7 @@ import "./bench.css";
 export function Bench() {
   const { project } = useProject();
   const bench = useNewest<Board>("bench", JSON.stringify(project.files));
-  if (!bench) return <Screen title="Effects bench" say="The marks are being read." />;
+  if (!bench) return <Screen title="Effects bench" say="The marks are being read." busy />;
   return <OpenBench bench={bench} />;
 }
 
@@ -58,6 +58,7 @@ function OpenBench({ bench }: { bench: Board }) {
       why={<Why />}
       {...(now ? { command: now.fit.command } : {})}
       stage={stage}
+      act={<Write bench={bench} choice={kept} />}
     >
       {live.refusal && (
         <p class="trouble" role="alert">
@@ -89,7 +90,6 @@ function OpenBench({ bench }: { bench: Board }) {
           </ul>
         )}
       </div>
-      <Write bench={bench} choice={kept} />
     </Screen>
   );
 }
@@ -106,13 +106,13 @@ function Write({ bench, choice }: { bench: Board; choice: Choice }) {
     setWritten(key);
   };
   return (
-    <p class="write">
+    <>
       <button type="button" class="primary" disabled={busy} onClick={() => void run(write)}>
         Write these numbers to {bench.new_machine}
       </button>{" "}
       <span role="status">{written === key && `${bench.new_machine} is written.`}</span>
       {refusal}
-    </p>
+    </>
   );
 }
 

@@ -13,7 +13,7 @@ export function Fall({ live, stairs, units }: FallParts) {
   const fit = live.now?.fit;
   const before = live.frame?.fit_rms;
   return (
-    <section class="fall-now" aria-label="The error that is left">
+    <section class="fall-now" aria-busy={!fit} aria-label="The error that is left">
       <p class="large">
         <output>{fit ? namedLength(fit.fit_rms, units, 2) : "…"}</output> left
       </p>

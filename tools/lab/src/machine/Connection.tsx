@@ -4,7 +4,7 @@ import { get, type Project, send } from "../api/client";
 import { LOOK_MS } from "../api/patience";
 import { useDo } from "../shell/doing";
 import { type Machine, subject, useMachine } from "../shell/machine";
-import { usePorts } from "../shell/ports";
+import { Ports } from "../shell/Ports";
 import { useProject } from "../shell/project";
 import "./connection.css";
 
@@ -17,55 +17,12 @@ export function Connection() {
 function Ways() {
   return (
     <div class="ways">
-      <Boards />
+      <section>
+        <h2>A machine on USB</h2>
+        <Ports />
+      </section>
       <VirtualStart />
     </div>
-  );
-}
-
-/** What is on USB; other ports are folded away. */
-function Boards() {
-  const ports = usePorts();
-  const [typed, setTyped] = useState("");
-  const [busy, run, refusal] = useDo();
-  const connect = (port: string) => run(() => send("POST", "machine/board", { port }));
-  const buttons = (isBoard: boolean) =>
-    ports
-      .filter((port) => port.is_board === isBoard)
-      .map(({ path }) => (
-        <button key={path} type="button" disabled={busy} onClick={() => void connect(path)}>
-          Connect {path}
-        </button>
-      ));
-  const boards = buttons(true);
-  return (
-    <section>
-      <h2>A machine on USB</h2>
-      {boards.length > 0 ? (
-        boards
-      ) : (
-        <p>No board is there: plug the Mega in, and it appears here.</p>
-      )}
-      <details>
-        <summary>Another port</summary>
-        {buttons(false)}
-        <form
-          onSubmit={(event) => {
-            event.preventDefault();
-            void connect(typed);
-          }}
-        >
-          <label>
-            Its name, like COM3 or /dev/ttyACM0{" "}
-            <input value={typed} onInput={(event) => setTyped(event.currentTarget.value)} />
-          </label>{" "}
-          <button type="submit" disabled={busy || !typed}>
-            Connect
-          </button>
-        </form>
-      </details>
-      {refusal}
-    </section>
   );
 }
 

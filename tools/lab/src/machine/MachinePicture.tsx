@@ -27,7 +27,7 @@ export function MachinePicture({ machine, marked, words = "", children }: Pictur
   const up = machine.frame.motor_height ?? height;
   const ring = machine.frame.rotation_radius ?? 140;
   const left = Math.max(gap, width) / 2 + 220;
-  const box = [-left, -up - 330, 2 * left, up + height / 2 + 560];
+  const box = [-left, -up - 380, 2 * left, up + height / 2 + 610];
   const sled: [number, number] = [-width / 8, -height / 16];
   return (
     <svg
@@ -105,7 +105,7 @@ function Marked({ marked, words, width, height, gap, up, ring, sled }: MarkedPar
       <circle cx={x2} cy={y2} r={18} />
       <text
         x={below ? sled[0] : level ? x : x - 40}
-        y={below ? sled[1] + 420 : level ? (marked === "sheet" ? y + 120 : y - 40) : y + 30}
+        y={below ? sled[1] + 420 : level ? (marked === "sheet" ? y + 120 : y - 70) : y + 30}
         text-anchor={below || level ? "middle" : "end"}
       >
         {words}

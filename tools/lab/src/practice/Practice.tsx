@@ -35,9 +35,12 @@ export function Practice() {
           Reveal what was hidden
         </button>
       ) : (
-        <p class="missing">
-          No virtual machine was started in this folder: <a href="#/open">start it</a>.
-        </p>
+        <>
+          <p class="missing">No virtual machine was started in this folder.</p>
+          <a class="button primary" href="#/open">
+            To the machines: start a virtual machine there
+          </a>
+        </>
       )}
       {refusal}
       {revealed && <Score {...revealed} />}

@@ -134,6 +134,7 @@ export function Sheet(parts: SheetParts) {
         zoom={zoom}
         factor={factor}
         setFactor={setFactor}
+        compares={states.length > 1}
         save={(as) => {
           if (as === "csv") saveCsv(table(marks, states, sigma), name);
           else if (drawing.current)

@@ -9,9 +9,11 @@ interface ToolsParts {
   factor: number | undefined;
   setFactor: (factor: number | undefined) => void;
   save: (as: "csv" | "svg" | "png") => void;
+  /** Whether keys change the state. */
+  compares: boolean;
 }
 
-export function Tools({ zoom, factor, setFactor, save }: ToolsParts) {
+export function Tools({ zoom, factor, setFactor, save, compares }: ToolsParts) {
   const { view, enlarge } = zoom;
   return (
     <div class="tools">
@@ -38,6 +40,11 @@ export function Tools({ zoom, factor, setFactor, save }: ToolsParts) {
             ))}
           </select>
         </label>
+      )}
+      {compares && (
+        <span class="keys">
+          On the sheet the keys <kbd>[</kbd> and <kbd>]</kbd> compare
+        </span>
       )}
       <details>
         <summary>Save</summary>

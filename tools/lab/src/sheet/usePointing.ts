@@ -49,7 +49,9 @@ export function usePointing(
         drawing.current && zoom.enlarge(2, scale.back(pointIn(drawing.current, event))),
     },
     onKeyDown: (event: KeyboardEvent) => {
-      if (event.ctrlKey || event.metaKey || event.altKey) return;
+      // Where brackets need AltGr, some systems call that Ctrl and Alt.
+      const isCommand = event.ctrlKey || event.metaKey || event.altKey;
+      if (isCommand && !event.getModifierState("AltGraph")) return;
       if (!pressed(event.key, parts, zoom, selected, pin)) return;
       event.preventDefault();
       event.stopPropagation();

@@ -1,12 +1,12 @@
 // The machine's line, in view on all screens: where the sled is, what it does, Hold and Stop.
-import { useEffect } from "preact/hooks";
+import { useEffect, useState } from "preact/hooks";
 import { send } from "../api/client";
 import { namedLength } from "../controls/lengths";
 import { useDo } from "./doing";
 import { isReady, type LiveMachine, type Machine, subject } from "./machine";
+import { Ports } from "./Ports";
 import type { Press } from "./presses";
 import { useProject } from "./project";
-import { Reconnect } from "./Reconnect";
 import "./machine-bar.css";
 
 const UNREACHABLE = "Cannot reach the machine: use its power switch";
@@ -30,11 +30,12 @@ export function MachineBar({ live }: { live: LiveMachine }) {
     addEventListener("keydown", pressed);
     return () => removeEventListener("keydown", pressed);
   });
+  const place = useHeight();
   if (machine.kind === "none") return null;
   const program = machine.program;
   const share = program?.outcome === "running" ? program.done / Math.max(1, program.total) : null;
   return (
-    <section class={`machine-bar ${tone(machine)}`} aria-label="The machine">
+    <section ref={place} class={`machine-bar ${tone(machine)}`} aria-label="The machine">
       <p class={unseen ? "state old" : "state"}>
         <strong role="status">{stateWords(machine)}</strong>
         <strong>{countWords(machine)}</strong>
@@ -63,7 +64,7 @@ export function MachineBar({ live }: { live: LiveMachine }) {
           </button>
         </p>
       )}
-      {machine.phase === "lost" && machine.kind === "board" && <Reconnect machine={machine} />}
+      {machine.phase === "lost" && machine.kind === "board" && <Ports lost={machine.name} />}
       {machine.phase === "lost" && <p class="said">{UNREACHABLE}.</p>}
       {refusal}
       <p class="pressed" role="status">
@@ -85,6 +86,22 @@ export function MachineBar({ live }: { live: LiveMachine }) {
       )}
     </section>
   );
+}
+
+/** Tells the screen how high the bar is, so that nothing lies below it. */
+function useHeight() {
+  const [bar, place] = useState<HTMLElement | null>(null);
+  useEffect(() => {
+    const lab = bar?.parentElement;
+    if (!bar || !lab) return;
+    const watch = new ResizeObserver(() => lab.style.setProperty("--bar", `${bar.offsetHeight}px`));
+    watch.observe(bar);
+    return () => {
+      watch.disconnect();
+      lab.style.removeProperty("--bar");
+    };
+  }, [bar]);
+  return place;
 }
 
 function pressWords({ way, state, line }: Press): string {

@@ -16,11 +16,13 @@ interface ScreenParts {
   stage?: ComponentChildren;
   /** Whether the fields come before the stage on a narrow page. */
   fieldsFirst?: boolean;
+  /** The button of the screen: in view all the time. */
+  act?: ComponentChildren;
   children?: ComponentChildren;
 }
 
 export function Screen(parts: ScreenParts) {
-  const { title, say, why, command, busy, stage, fieldsFirst, children } = parts;
+  const { title, say, why, command, busy, stage, fieldsFirst, act, children } = parts;
   const asks = (
     <div class="asks">
       <h1>{title}</h1>
@@ -56,6 +58,7 @@ export function Screen(parts: ScreenParts) {
       {asks}
       <div class="stage">{stage}</div>
       <div class="work">{work}</div>
+      {act && <p class="act">{act}</p>}
     </section>
   );
 }

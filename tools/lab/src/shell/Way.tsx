@@ -9,12 +9,20 @@ interface WayParts {
   here: string; // id of the screen that is shown
 }
 
+interface PlaceParts extends WayParts {
+  step: Step;
+  number?: number;
+  chosen: () => void;
+}
+
 export function Way({ project, here }: WayParts) {
   const [open, setOpen] = useState(false);
-  // Each new screen folds the list.
-  useEffect(() => setOpen(false), [here]);
+  const fold = () => setOpen(false);
+  // Each new screen folds the list; so does the screen that is shown, when it is chosen again.
+  useEffect(fold, [here]);
   const number = STEPS.findIndex((step) => step.id === here) + 1;
   const title = [...STEPS, ...ROOMS].find((step) => step.id === here)?.title;
+  const shared = { project, here, chosen: fold };
   return (
     <nav aria-label="Steps" class={open ? "open" : ""}>
       <button type="button" class="fold" aria-expanded={open} onClick={() => setOpen(!open)}>
@@ -23,12 +31,12 @@ export function Way({ project, here }: WayParts) {
       <div class="links">
         <ol>
           {STEPS.map((step, index) => (
-            <Place key={step.id} step={step} project={project} here={here} number={index + 1} />
+            <Place key={step.id} {...shared} step={step} number={index + 1} />
           ))}
         </ol>
         <ul>
           {ROOMS.map((step) => (
-            <Place key={step.id} step={step} project={project} here={here} />
+            <Place key={step.id} {...shared} step={step} />
           ))}
         </ul>
       </div>
@@ -36,7 +44,7 @@ export function Way({ project, here }: WayParts) {
   );
 }
 
-function Place({ step, project, here, number }: WayParts & { step: Step; number?: number }) {
+function Place({ step, project, here, number, chosen }: PlaceParts) {
   const missing = step.needs(project);
   const words = (
     <>
@@ -50,7 +58,11 @@ function Place({ step, project, here, number }: WayParts & { step: Step; number?
           {words} <small>{missing}</small>
         </span>
       ) : (
-        <a href={`#/${step.id}`} aria-current={step.id === here ? "step" : undefined}>
+        <a
+          href={`#/${step.id}`}
+          aria-current={step.id === here ? "step" : undefined}
+          onClick={chosen}
+        >
           {words}
         </a>
       )}
@@ -62,11 +74,14 @@ function Place({ step, project, here, number }: WayParts & { step: Step; number?
 export function WayOn({ project, here }: WayParts) {
   const index = STEPS.findIndex((step) => step.id === here);
   if (index < 0) return null;
-  const [before, after] = [STEPS[index - 1], STEPS[index + 1]];
+  const before = STEPS[index - 1];
+  const next = STEPS[index + 1];
+  const after = next && !next.needs(project) ? next : undefined;
+  if (!before && !after) return null;
   return (
     <footer class="way-on">
       {before && <a href={`#/${before.id}`}>← {before.title}</a>}
-      {after && !after.needs(project) && (
+      {after && (
         <a class="after" href={`#/${after.id}`}>
           {after.title} →
         </a>

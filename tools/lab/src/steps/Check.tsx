@@ -15,6 +15,7 @@ import { OffTarget } from "./check/OffTarget";
 import { Promised } from "./check/Promised";
 import { Refused } from "./correct/Refused";
 import { useWriting } from "./correct/useWriting";
+import { brokenWords, GoOn } from "./cut/GoOn";
 import "./check/check.css";
 
 export type CheckAnswer = Schemas["CheckAnswer"];
@@ -23,7 +24,8 @@ export function Check() {
   const { project, take, reload } = useProject();
   const machine = useMachine();
   // The check marks as they are now; asked again when a file changes.
-  const answer = useNewest<CheckAnswer>("check", JSON.stringify(project.files));
+  const outcome = machine.program?.outcome ?? "";
+  const answer = useNewest<CheckAnswer>("check", JSON.stringify([project.files, outcome]));
   const [busy, run, refusal] = useDo();
   const units = project.choices.units ?? "mm";
   const writing = useWriting();
@@ -63,15 +65,16 @@ export function Check() {
           Where ({units} from your edges): {places.join(" and ")}.
         </p>
       )}
+      {answer.broke_off != null && <BrokeOff answer={answer} surely={answer.broke_off} />}
       <p class="buttons">
         {machine.kind !== "none" && !answer.sentence && !isCut && (
           <button
             type="button"
-            class="primary"
+            class={answer.broke_off == null ? "primary" : ""}
             disabled={busy || !ready}
             onClick={() => void doing("check/cut")}
           >
-            Cut both marks: the sled moves
+            {answer.broke_off == null ? "Cut both marks" : "Cut both marks again"}: the sled moves
           </button>
         )}
         {machine.kind === "none" && !answer.is_saved && (
@@ -110,6 +113,22 @@ export function Check() {
       {answer.is_saved && <CheckReadings file={answer.form} />}
       {answer.marks.length > 0 && <Promised marks={answer.marks} units={units} />}
     </Screen>
+  );
+}
+
+/** Whoever begins again has a mark twice that is cut already. */
+function BrokeOff({ answer, surely }: { answer: CheckAnswer; surely: number }) {
+  const machine = useMachine();
+  const { perhaps, goes_on, meant } = answer;
+  const names = meant.map((_, i) => String(i + 1));
+  const isConnected = machine.kind !== "none" && machine.phase !== "lost";
+  return (
+    <>
+      <p role="status">{brokenWords(surely, perhaps, names)}</p>
+      {goes_on && isConnected && surely < names.length && (
+        <GoOn surely={surely} perhaps={perhaps} names={names} path="check/go-on" blocked={false} />
+      )}
+    </>
   );
 }
 

@@ -102,6 +102,20 @@ function Question(parts: Parts) {
         />
       }
       fieldsFirst
+      act={
+        isAsked && (
+          <button
+            type="button"
+            class="primary"
+            disabled={count === 0 || !current || writing.busy}
+            onClick={() => void writing.write(known)}
+          >
+            {count === 0
+              ? "Accept a number first"
+              : `Write ${count} ${count === 1 ? "number" : "numbers"} into ${answer.file}`}
+          </button>
+        )
+      }
     >
       <dl class="errors">
         <ErrorFigure name={`as ${made.settings} says`} state={made.as_set} units={units} />
@@ -111,18 +125,6 @@ function Question(parts: Parts) {
       <Numbers made={made} busy={!current} />
       {made.cures.length > 0 && <ByHand cures={made.cures} />}
       <p class="buttons">
-        {isAsked && (
-          <button
-            type="button"
-            class="primary"
-            disabled={count === 0 || !current || writing.busy}
-            onClick={() => void writing.write(known)}
-          >
-            {count === 0
-              ? "Accept a number, and it can be written"
-              : `Write ${count} ${count === 1 ? "number" : "numbers"} into ${answer.file}`}
-          </button>
-        )}
         <GoBack writing={writing} />
         {writing.notWritten}
       </p>

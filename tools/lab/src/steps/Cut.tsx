@@ -9,6 +9,7 @@ import { useNewest } from "../shell/newest";
 import { useProject } from "../shell/project";
 import { Screen } from "../shell/Screen";
 import { CutMap } from "./cut/CutMap";
+import { GoOn } from "./cut/GoOn";
 import { NewSheet } from "./cut/NewSheet";
 import { Outcome } from "./cut/Outcome";
 import { Pauses, sentence } from "./cut/Pauses";
@@ -72,8 +73,8 @@ function Choice({ grid }: { grid: Grid }) {
   const busy = useChoosing() || works;
   const save = async () => take(await send<Project>("POST", "grid"));
   const putBack = async () => take(await send<Project>("DELETE", "next"));
-  const cut = async (path: "cut" | "go-on") => {
-    await send("POST", `grid/${path}`);
+  const cut = async () => {
+    await send("POST", "grid/cut");
     await reload();
   };
   if (machine.kind !== "none" && machine.phase !== "lost" && !machine.knows_place)
@@ -81,29 +82,27 @@ function Choice({ grid }: { grid: Grid }) {
   const connected = machine.kind !== "none" && machine.phase !== "lost";
   // The primary button is then that of the readings.
   const isCut = machine.program?.title === grid.program && machine.program.outcome === "done";
-  const goesOn = grid.goes_on ? grid.marks[grid.broke_off ?? 0] : undefined;
+  const goesOn = connected && grid.goes_on && grid.broke_off !== grid.marks.length;
   return (
     <div class="choice">
       {grid.last_form && !grid.is_proposed && <NewSheet grid={grid} />}
-      {connected && goesOn && (
-        <button
-          type="button"
-          class="primary"
-          disabled={busy || !isReady(machine) || grid.trouble !== ""}
-          onClick={() => void run(() => cut("go-on"))}
-        >
-          Go on: move the sled and cut from mark {goesOn.name}
-        </button>
+      {goesOn && (
+        <GoOn
+          surely={grid.broke_off ?? 0}
+          perhaps={grid.perhaps}
+          names={grid.marks.map(({ name }) => name)}
+          path="grid/go-on"
+          blocked={grid.trouble !== ""}
+        />
       )}
       {connected && (
         <button
           type="button"
           class={isCut || goesOn ? "" : "primary"}
           disabled={busy || !isReady(machine) || grid.trouble !== ""}
-          onClick={() => void run(() => cut("cut"))}
+          onClick={() => void run(cut)}
         >
-          {grid.broke_off == null ? "Move" : "Begin again: move"} the sled and cut{" "}
-          {grid.marks.length} marks
+          {beginWords(grid, machine)} the sled and cut {grid.marks.length} marks
         </button>
       )}
       {grid.is_proposed ? (
@@ -140,6 +139,15 @@ function Choice({ grid }: { grid: Grid }) {
       </p>
     </div>
   );
+}
+
+/** Whoever begins again on the sheet has each mark twice there that is cut already. */
+function beginWords({ broke_off, perhaps, is_proposed }: Grid, { kind }: Machine): string {
+  if (broke_off == null) return "Move";
+  if (kind === "virtual" || broke_off + perhaps === 0) return "Begin again: move";
+  return is_proposed
+    ? "Cut what is there a second time: move"
+    : "Begin again on a fresh sheet: move";
 }
 
 function Why() {

@@ -37,7 +37,7 @@ export function Measure() {
   return (
     <Screen
       title="Which marks?"
-      say="Drag a mark, or tap the sheet to add a mark: what the marks could tell shows at once. Nothing is cut yet."
+      say="Drag a mark, or tap the sheet to add a mark. Nothing is cut yet."
       why={<Why />}
       command={plan?.command ?? `plumb preview ${project.choices.settings} marks.toml`}
       stage={

@@ -24,7 +24,8 @@ export function Reach() {
   // Choices count once the server has them.
   const state = `${project.files[settings]} ${project.choices_digest}`;
   const reach = useNewest<Answer>("reach", state);
-  if (!reach || !project.machine) return <Screen title="Reach" say="The sheet is looked over …" />;
+  if (!reach || !project.machine)
+    return <Screen title="Reach" say="The sheet is looked over …" busy />;
   return (
     <Screen
       title={`${reach.conclusion.replace(/;.*|\.$/s, "")}.`}

@@ -28,7 +28,7 @@ const TITLES: Record<string, string> = {
 };
 
 export function Verdict() {
-  const { project } = useProject();
+  const { project, trouble } = useProject();
   const units = project.choices.units ?? "mm";
   const { answer, refused } = useAnswer<VerdictAnswer>("verdict");
   const writing = useWriting();
@@ -59,6 +59,7 @@ export function Verdict() {
     <Screen
       title={TITLES[verdict.verdict] ?? "The verdict"}
       say={verdict.sentence}
+      busy={!bench && !trouble}
       why={<Why noise={verdict.noise} notes={verdict.notes} />}
       command={answer.command}
       stage={
@@ -73,6 +74,13 @@ export function Verdict() {
           />
         )
       }
+      act={
+        !isNextWanted && (
+          <button type="button" class="primary" onClick={wantNext}>
+            Find the best next measurement
+          </button>
+        )
+      }
     >
       {verdict.slips.length > 0 && (
         <ul class="slips">
@@ -85,7 +93,7 @@ export function Verdict() {
         </ul>
       )}
       <HalfTyped />
-      <NextStep sheet={sheet} marks={verdict.marks} wanted={isNextWanted} want={wantNext} />
+      <NextStep sheet={sheet} marks={verdict.marks} wanted={isNextWanted} />
       {verdict.cards.length > 0 && (
         <section aria-label="Suspects">
           <h2>Suspects</h2>

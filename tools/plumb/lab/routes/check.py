@@ -14,7 +14,8 @@ from plumb.diary.file import CHECK as NOTED
 from plumb.diary.file import append, read_diary
 from plumb.fit.inputs import Inputs, settings_in
 from plumb.grid import program
-from plumb.lab.machine_line import TheLine, refuse_other_machine
+from plumb.lab.broken_cut import GoOnRequest, HowFar, begin, go_on, how_far
+from plumb.lab.machine_line import MachineLine, TheLine, refuse_other_machine
 from plumb.lab.project import Choices, Project, save_choices
 from plumb.lab.rounds import (
     Planned,
@@ -32,7 +33,6 @@ from plumb.lab.rounds import (
 from plumb.lab.routes.machine import MachineAnswer, machine
 from plumb.lab.routes.project import ProjectAnswer, TheProject, show
 from plumb.lab.routes.readings import CHECK, ENDING, form_of
-from plumb.line.sender import cleaned
 from plumb.marks.plausible import from_edges
 from plumb.marks.read import read_marks
 from plumb.model.predict import known_effects
@@ -51,7 +51,7 @@ class RoundError(BaseModel):
     is_check: bool
 
 
-class CheckAnswer(BaseModel):
+class CheckAnswer(HowFar):
     """The check marks: to be cut, to be read, or judged."""
 
     trouble: str  # why nothing can be checked yet; empty if it can
@@ -70,7 +70,7 @@ class CheckAnswer(BaseModel):
 
 
 @router.get("/check")
-def show_check(project: TheProject) -> CheckAnswer:
+def show_check(project: TheProject, line: TheLine) -> CheckAnswer:
     """Return the newest check round, or a plan for the first."""
     choices = project.choices
     inputs = _of_promise(project)
@@ -84,7 +84,9 @@ def show_check(project: TheProject) -> CheckAnswer:
     checked = None if trouble or not is_saved else _checked(project, inputs, form)
     with shown_in(choices.units):
         sentence = check_sentence(checked) if checked else ""
+    far = HowFar() if checked else _how_far(project, line, number)
     return CheckAnswer(
+        **vars(far),
         trouble=trouble,
         places=places,
         meant=[from_edges(place, sheet=sheet, corner=corner) for place in places],
@@ -117,8 +119,29 @@ def cut_check(project: TheProject, line: TheLine) -> MachineAnswer:
     name, text = _save(project)
     if owner := line.virtual:
         line.do(lambda sender: owner.weigh_down(owner.settings.sled_weight))
-    line.worker.send(name, list(cleaned(text.splitlines())))
+    begin(project, line, name, text)
     return machine(line)
+
+
+@router.post("/check/go-on")
+def go_on_with_check(request: GoOnRequest, project: TheProject, line: TheLine) -> MachineAnswer:
+    """Send the mark that is not on the sheet. The machine moves."""
+    if not line.state.knows_place:
+        raise InputError("where the sled is, is not known: set its chains first")
+    name = f"{CHECK}{_newest(project)}.nc"
+    refuse_other_machine(project, line)
+    go_on(project, line, name, _text(project, name), request.cut)
+    return machine(line)
+
+
+def _how_far(project: Project, line: MachineLine, number: str) -> HowFar:
+    name = f"{CHECK}{number}.nc"
+    return how_far(project, line, name, _text(project, name))
+
+
+def _text(project: Project, name: str) -> str:
+    """Return a program of the folder; empty if there is none."""
+    return (project.read(name) or b"").decode(errors="replace")
 
 
 @router.post("/check/note")

@@ -2,20 +2,25 @@
 
 from __future__ import annotations
 
-import re
 from pathlib import Path
 
 from fastapi import APIRouter
 from pydantic import BaseModel
 
 from plumb.grid import program, spans_in, touches_of
-from plumb.lab.broken_cut import BrokenCut, Noting, broken_cut, end, rest_of
+from plumb.lab.broken_cut import (
+    GoOnRequest,
+    HowFar,
+    begin,
+    go_on,
+    how_far,
+    plunges_in,
+)
 from plumb.lab.machine_line import MachineLine, TheLine, refuse_other_machine
 from plumb.lab.project import (
     FILE,
     Choices,
     Project,
-    digest_of,
     read_choices,
     save_choices,
     with_marks,
@@ -39,7 +44,6 @@ from plumb.lab.routes.machine import MachineAnswer, machine
 from plumb.lab.routes.project import ProjectAnswer, TheProject, show
 from plumb.lab.routes.readings import CHECK
 from plumb.line.progress import Wait
-from plumb.line.sender import cleaned
 from plumb.marks.form import BLANK, read_form, toml_text, with_distances
 from plumb.model.predict import known_effects
 from plumb.plan.options import HANGING, MARK, ROUND
@@ -49,7 +53,6 @@ from plumb.text.errors import InputError
 from plumb.vm.owner import VirtualOwner
 
 router = APIRouter(tags=["grid"])
-PLUNGE = re.compile(r"G1 Z-")
 
 
 class GridMark(BaseModel):
@@ -60,7 +63,7 @@ class GridMark(BaseModel):
     lines: int
 
 
-class GridAnswer(BaseModel):
+class GridAnswer(HowFar):
     """The program that cuts the chosen marks, or those that the verdict proposed."""
 
     form: str  # the file that waits for readings
@@ -76,8 +79,6 @@ class GridAnswer(BaseModel):
     sheet_rise: float = 0.0  # [mm] by which the next sheet's right end is raised, as the fit says
     is_proposed: bool = False  # somebody took them from the verdict; they go onto the sheet before
     pauses: tuple[Wait, ...] = ()  # where the program waits for somebody
-    broke_off: int | None = None  # marks that were cut before the program broke off
-    goes_on: bool = False  # the next mark can be cut on that sheet
 
 
 class FormRequest(BaseModel):
@@ -92,17 +93,10 @@ def show_grid(project: TheProject, line: TheLine) -> GridAnswer:
     off.
     """
     answer = _shown(project)
-    cut = None if _runs(line, answer.program) else broken_cut(project, answer.program, answer.text)
-    if cut is None:
-        return answer
-    goes_on = not answer.is_proposed and (line.virtual is not None or not cut.is_virtual)
-    return answer.model_copy(update={"broke_off": cut.marks, "goes_on": goes_on})
-
-
-def _runs(line: MachineLine, program_name: str) -> bool:
-    """Return whether the machine is at this program now."""
-    progress = line.state.program
-    return bool(progress and progress.title == program_name and progress.outcome == "running")
+    far = how_far(project, line, answer.program, answer.text)
+    # The pauses of a proposal are for its first marks: it does not go on in its middle.
+    goes_on = far.goes_on and not answer.is_proposed
+    return answer.model_copy(update={**vars(far), "goes_on": goes_on})
 
 
 def _shown(project: Project) -> GridAnswer:
@@ -184,39 +178,25 @@ def cut_grid(project: TheProject, line: TheLine) -> MachineAnswer:
     if owner:
         raised = _sheet_rise(opened(project), choices)
         line.do(lambda sender: _lay(owner, raised, new_sheet=on_new_sheet(choices)))
-    _send(project, line, BrokenCut(name, digest_of(text.encode()), 0, owner is not None), text)
+    begin(project, line, name, text)
     return machine(line)
 
 
 @router.post("/grid/go-on")
-def go_on(project: TheProject, line: TheLine) -> MachineAnswer:
-    """Send the rest of the program that broke off: the marks that are not cut. The machine
-    moves.
-    """
+def go_on_with_grid(request: GoOnRequest, project: TheProject, line: TheLine) -> MachineAnswer:
+    """Send the marks that are not on the sheet. The machine moves."""
     _refuse_unknown_place(line)
     answer = show_grid(project, line)
-    cut = broken_cut(project, answer.program, answer.text)
-    if cut is None or not answer.goes_on:
+    if not answer.goes_on:
         raise InputError("no cut broke off that could go on: begin with the first mark")
     refuse_other_machine(project, line)
-    _send(project, line, cut, answer.text)
+    go_on(project, line, answer.program, answer.text, request.cut)
     return machine(line)
 
 
 def _refuse_unknown_place(line: MachineLine) -> None:
     if not line.state.knows_place:
         raise InputError("where the sled is, is not known: set its chains first")
-
-
-def _send(project: Project, line: MachineLine, cut: BrokenCut, text: str) -> None:
-    """Send what is not cut yet, and note in the folder how far it comes."""
-    ends = _lines_of_marks(text)
-    lines, before = rest_of(list(cleaned(text.splitlines())), ends, cut.marks)
-    noting = Noting(project, cut, ends)
-    line.worker.send(
-        cut.program, lines, then=lambda sender: end(project), taken=noting, before=before
-    )
-    noting(before)
 
 
 def _cut_taken(taken: Taken, project: Project, line: MachineLine) -> MachineAnswer:
@@ -230,16 +210,13 @@ def _cut_taken(taken: Taken, project: Project, line: MachineLine) -> MachineAnsw
         laid = owner
         line.do(lambda sender: _lay(laid, 0.0, new_sheet=False))
         weights = _weights_after_pauses(taken, owner.settings.sled_weight)
-    cut = BrokenCut(taken.program, digest_of(taken.text.encode()), 0, owner is not None)
-    noting = Noting(project, cut, _lines_of_marks(taken.text))
-    line.worker.send(
+    begin(
+        project,
+        line,
         taken.program,
-        taken.text.splitlines(),
-        then=lambda sender: end(project),
+        taken.text,
         paused=lambda lines: owner.weigh_down(weights[lines]) if owner else None,
-        taken=noting,
     )
-    noting(0)
     return machine(line)
 
 
@@ -324,10 +301,10 @@ def _marks(plan: Planned, text: str) -> list[GridMark]:
 
 
 def _lines_of_marks(text: str) -> list[int]:
-    """Return how many lines of a program the machine has taken when each mark is cut."""
-    lines = cleaned(text.splitlines())
-    # The line after the plunge lifts the bit: when it is taken, the mark is cut.
-    return [number + 1 for number, line in enumerate(lines, start=1) if PLUNGE.match(line)]
+    """Return how many lines of a program the machine has taken when each mark is cut: with that
+    which lifts the bit.
+    """
+    return [plunge + 1 for plunge in plunges_in(text)]
 
 
 def _save(project: Project) -> tuple[str, str]:

@@ -17,7 +17,7 @@ from pydantic import BaseModel, Field, TypeAdapter
 from plumb.diary.file import write_and_keep
 from plumb.firmware.settings import digest_of_numbers, every_setting, machine_of_numbers
 from plumb.job.dry_run import refuse_what_is_no_program
-from plumb.lab.broken_cut import end
+from plumb.lab.broken_cut import end_virtual
 from plumb.lab.guard import PROTOCOL, Editor, editor_of
 from plumb.lab.machine_line import MachineLine, Port, TheLine, line_of, ports, refuse_foreign_fit
 from plumb.lab.project import Project, save_choices
@@ -146,7 +146,7 @@ def connect_virtual(request: VirtualRequest, project: TheProject, line: TheLine)
     secret = Secret(request.seed, request.millimetres, hides)
     owner = VirtualOwner(secret.garage, noise=request.noise)
     project.save({SECRET: secret.text.encode()}, read={})
-    end(project)  # what an earlier virtual machine cut is gone
+    end_virtual(project)  # with the sheet of the machine before
     line.connect_virtual(owner, speed=request.speed)
     return machine(line)
 

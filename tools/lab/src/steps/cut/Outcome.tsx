@@ -1,9 +1,10 @@
 // What came of the last cut, and what to do about it.
 import { type Project, send } from "../../api/client";
 import { useDo } from "../../shell/doing";
-import { isReady, useMachine } from "../../shell/machine";
+import { isReady, type Machine, useMachine } from "../../shell/machine";
 import { useProject } from "../../shell/project";
 import type { Grid } from "../Cut";
+import { brokenWords } from "./GoOn";
 
 export function Outcome({ grid }: { grid: Grid }) {
   const machine = useMachine();
@@ -13,7 +14,7 @@ export function Outcome({ grid }: { grid: Grid }) {
   const outcome = isRound ? program.outcome : undefined;
   if (outcome === "running") return null;
   const ended = outcome && ENDED[outcome];
-  const broke = brokenWords(grid, machine.kind !== "none" && machine.phase !== "lost");
+  const broke = broken(grid, machine);
   const isCut = outcome === "done" || grid.broke_off === grid.marks.length;
   if (!ended && !broke) return null;
   return (
@@ -33,14 +34,17 @@ const ENDED = {
   lost: "The line was lost. Nothing that you typed is lost. Connect it again in the bar below, and set its chains.",
 };
 
-/** How far the cut came, as the folder knows it: after a restart of the lab too. */
-function brokenWords({ broke_off, goes_on, marks }: Grid, connected: boolean): string {
+/** How far the cut came, and what can be done. */
+function broken(grid: Grid, { kind, phase }: Machine): string {
+  const { broke_off, perhaps, goes_on, is_proposed } = grid;
   if (broke_off == null) return "";
-  const next = marks[broke_off];
-  if (!next) return "All marks are cut; the sled was on its way back.";
-  const begin = connected ? "Begin again" : "Connect the machine and begin again";
-  const ways = goes_on ? `${begin}, or go on from mark ${next.name}.` : `${begin}.`;
-  return `Cut ${broke_off} of ${marks.length} marks, then it broke off. ${ways}`;
+  const names = grid.marks.map(({ name }) => name);
+  const words = brokenWords(broke_off, perhaps, names);
+  if (broke_off === names.length) return words;
+  const connect = kind !== "none" && phase !== "lost" ? "" : " Connect the machine.";
+  const fresh = kind === "virtual" || is_proposed ? "" : " on a fresh sheet";
+  const next = perhaps > 0 ? ", or go on" : `, or go on from mark ${names[broke_off]}`;
+  return `${words}${connect} Begin again${fresh}${goes_on ? next : ""}.`;
 }
 
 interface DoneParts {

@@ -67,7 +67,7 @@ export function MarksMap({ sheet, places, spans, show, keep }: MapParts) {
           />
         ))}
       </Sheet>
-      <p>
+      <p class="more-marks">
         <button type="button" onClick={() => add([0, 0])}>
           Add a mark in the middle
         </button>{" "}

@@ -13,22 +13,13 @@ interface NextParts {
   marks: VerdictParts["marks"];
   /** Whether somebody asked for it; this outlasts a verdict that is worked out again. */
   wanted: boolean;
-  want: () => void;
 }
 
-export function NextStep({ sheet, marks, wanted, want }: NextParts) {
+export function NextStep({ sheet, marks, wanted }: NextParts) {
   const { answer, refused } = useAnswer<NextAnswer>("next", wanted);
   const { project } = useProject();
   const isVirtual = useMachine().kind === "virtual";
-  if (!wanted) {
-    return (
-      <p>
-        <button type="button" class="primary" onClick={want}>
-          Find the best next measurement
-        </button>
-      </p>
-    );
-  }
+  if (!wanted) return null;
   if (refused) return <p class="trouble">{refused}</p>;
   if (answer?.nothing) return <p>Nothing that can be proposed would tell more.</p>;
   const next = answer?.next;

@@ -1,0 +1,68 @@
+// The serial ports of this computer, looked at again and again, so that a board that is plugged in appears; and the
+// buttons that connect a machine at them.
+import { useEffect, useState } from "preact/hooks";
+import { get, isSilence, type Schemas, send } from "../api/client";
+import { LOOK_MS } from "../api/patience";
+import { useDo } from "./doing";
+import { Lookout } from "./lookout";
+
+type Port = Schemas["Port"];
+const EVERY_MS = 3000;
+
+function usePorts(): Port[] {
+  const [ports, setPorts] = useState<Port[]>([]);
+  useEffect(() => {
+    const lookout = new Lookout(() => get<Port[]>("machine/ports", LOOK_MS), isSilence, {
+      state: setPorts,
+      silence: (is) => is && setPorts([]),
+      refusal: () => setPorts([]),
+    });
+    void lookout.look();
+    const timer = setInterval(() => void lookout.look(), EVERY_MS);
+    return () => clearInterval(timer);
+  }, []);
+  return ports;
+}
+
+/** What is on USB, and folded away any other port. A machine whose line was lost may come back at any of them. */
+export function Ports({ lost }: { lost?: string }) {
+  const ports = usePorts().filter(({ path }) => path !== lost);
+  const [typed, setTyped] = useState("");
+  const [busy, run, refusal] = useDo();
+  const connect = (port: string) => run(() => send("POST", "machine/board", { port }));
+  const button = (path: string, again = "") => (
+    <button key={path} type="button" disabled={busy} onClick={() => void connect(path)}>
+      Connect {path}
+      {again}
+    </button>
+  );
+  const boards = ports.filter((port) => port.is_board);
+  return (
+    <div class="ports">
+      {lost && button(lost, " again")}
+      {boards.map(({ path }) => button(path))}
+      {!lost && boards.length === 0 && (
+        <p>No board is there: plug the Mega in, and it appears here.</p>
+      )}
+      <details>
+        <summary>Another port</summary>
+        {ports.filter((port) => !port.is_board).map(({ path }) => button(path))}
+        <form
+          onSubmit={(event) => {
+            event.preventDefault();
+            void connect(typed);
+          }}
+        >
+          <label>
+            Its name, like COM3 or /dev/ttyACM0{" "}
+            <input value={typed} onInput={(event) => setTyped(event.currentTarget.value)} />
+          </label>{" "}
+          <button type="submit" disabled={busy || !typed}>
+            Connect
+          </button>
+        </form>
+      </details>
+      {refusal}
+    </div>
+  );
+}
