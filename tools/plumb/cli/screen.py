@@ -249,6 +249,12 @@ def auto_words(arguments: argparse.Namespace) -> list[str]:
     return add_named(arguments, [AUTO])
 
 
+def into_machine(machine: str) -> str:
+    """Return how the numbers of a machine.toml come into a machine whose client nobody named."""
+    words = "Write it into the machine (for GroundControl or WebControl give --client):"
+    return next_step(words, ["send", machine])
+
+
 def second_round(arguments: argparse.Namespace, files: Sequence[str]) -> str:
     """Return how to see on new marks that the new settings hold; the machine leads the files."""
     machine = files[0]
