@@ -327,7 +327,6 @@ def _stream(
 EXAMPLES = (
     "plumb send pocket.nc",
     'plumb send "G0 X0 Y0"',
-    'plumb send "B06 L876.851 R2387.777" "G10 Z0"',
 )
 EXIT = "Exit: 0 all was done; 1 stopped after Ctrl-C; 2 refused, or no machine."
 
