@@ -252,8 +252,9 @@ def inwards(grid: Grid, margin: float | None = None) -> str:
     """Return what to do about a mark where the sled cannot go; margin: that would do [mm]."""
     if grid.is_benchmark:
         return to_do("choose another --preset", page=INWARDS)
-    wider = f"raise --margin to {margin:g}" if margin else "raise --margin"
-    return to_do("move that place" if grid.places else wider, page=INWARDS)
+    if grid.places:
+        return to_do("move that place", page=INWARDS)
+    return to_do(f"raise --margin to {margin:g}" if margin else "raise --margin", page=INWARDS)
 
 
 def check(grid: Grid, machine: PlainMachine, ask: Question = _check_place) -> None:

@@ -131,8 +131,8 @@ def _form_of(path: str | PathLike[str]) -> str:
     if ending in READERS:
         return ending
     if any(map(CODE.match, lines)):
-        why = "holds a program, not marks"
-        raise InputError(path, why, remedy="give the form that plumb grid --marks wrote")
+        form = to_do("give the form that plumb grid --marks wrote", page="give a form of marks")
+        raise InputError(path, "holds a program, not marks", remedy=form)
     raise InputError(
         path,
         "is none of the known forms of marks",
