@@ -304,6 +304,26 @@ TEST(Position, CostsNoWritingWhereNothingChanged) {
   EXPECT_EQ(before + 1, eeprom.writes);
 }
 
+TEST(Position, IsKeptAgainWhileItsMarkIsOnTheWay) {
+  // G10 Z0 where z is 0: the place that is kept is the place of the record that is being marked.
+  for (int steps = 0; steps < 4; ++steps) {
+    for (bool doubted : {false, true}) {
+      Eeprom eeprom = travelled(3);
+      Ring ring(eeprom);
+      if (doubted)
+        ring.slots.doubt(Doubt::kCounts);
+      else
+        ring.slots.beginMoving();
+      for (int i = 0; i < steps; ++i) ring.step();
+      ring.slots.keep(positionOf(2));
+      ring.settle();
+      Ring after(eeprom);
+      EXPECT_EQ(Known::kAtRest, after.known) << steps << " steps";
+      EXPECT_TRUE(same(positionOf(2), after.position));
+    }
+  }
+}
+
 TEST(Position, PassesOverSlotsWithWornCells) {
   Eeprom eeprom;
   for (uint16_t slot : {1, 2, 7}) eeprom.dead[2144 + slot * 30 + 5] = true;

@@ -223,9 +223,10 @@ void PositionSlots::writeRecord() {
 
 void PositionSlots::writeMark() {
   const uint16_t address = uint16_t(addressOf(newest_) + kMarkAt);
+  // Also keep() may come while the byte is on its way; it then writes a new record.
+  holds_newest_ = false;
   if (bytes_.read(address) == wanted_) {
     mark_ = wanted_;
-    if (holds_newest_) record_[kMarkAt] = wanted_;
     tried_ = false;
   } else if (!tried_) {
     bytes_.write(address, wanted_);

@@ -33,10 +33,12 @@ from plumb.cli.screen import (
     CLIENT_OF,
     about,
     add_named,
+    into_machine,
     next_step,
     print_json,
     same_inputs,
     second_round,
+    sentences,
     usual_client,
 )
 from plumb.cli.settings import Written, add_client, add_firmware, client_files_of, client_text
@@ -200,14 +202,23 @@ def _print_written(
     if client and arguments.output:
         print(f"\n{second_round(arguments, [arguments.output, *client.files])}")
     elif arguments.output:
-        sent = str(Path(arguments.output).with_suffix(".nc"))
-        words = ["settings", arguments.output, "--to", "gcode", *usual_client(arguments)]
-        is_client = Path(arguments.settings).suffix.lower() in CLIENT_OF
-        more = is_client and "--original" not in words
-        original = ["--original", arguments.settings] if more else []
-        print(f"\n{next_step('For the machine:', [*words, *original, '-o', sent])}")
+        print(f"\n{_for_the_machine(arguments)}")
     else:
         print(f"\n{next_step('Write it:', add_named(arguments, arguments.effect))}")
+
+
+def _for_the_machine(arguments: argparse.Namespace) -> str:
+    """Return how a machine.toml comes into the machine, where no client was named."""
+    client = usual_client(arguments)
+    if arguments.firmware != "plumb":
+        return sentences(["Give --client: it is what brings the published firmware its numbers."])
+    if client[1] == "none":
+        return into_machine(arguments.output)
+    is_client = Path(arguments.settings).suffix.lower() in CLIENT_OF
+    original = ["--original", arguments.settings] if is_client else client[2:]
+    words = ["settings", arguments.output, "--to", "gcode", *client[:2], *original]
+    sent = str(Path(arguments.output).with_suffix(".nc"))
+    return next_step("For the machine:", [*words, "-o", sent])
 
 
 def _files(arguments: argparse.Namespace, inputs: Inputs, result: Addition) -> dict[str, bytes]:

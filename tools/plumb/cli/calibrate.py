@@ -29,6 +29,7 @@ from plumb.cli.screen import (
     bar,
     free_name,
     headline,
+    into_machine,
     next_step,
     print_json,
     same_inputs,
@@ -255,7 +256,10 @@ def _ending(
     slips, best = this.result.diagnosis.outliers, this.best
     verdict = headline(this.sentence, GOOD if this.done else BAD if slips else OPEN)
     if this.done:
-        return [verdict, _written_text(files, client), second_round(arguments, files)]
+        now = [_written_text(files, client)]
+        if client is None and arguments.firmware == "plumb":
+            now.append(into_machine(files[0]))
+        return [verdict, *now, second_round(arguments, files)]
     if slips:
         return [verdict, _read_again(this, arguments)]
     if best is None:

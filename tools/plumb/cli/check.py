@@ -33,6 +33,7 @@ from plumb.cli.screen import (
     sentences,
     table,
 )
+from plumb.cure.live_board import refuse_other_origin
 from plumb.fit.inputs import settings_in
 from plumb.job.bits import INCH, Tools
 from plumb.job.check import Checked, Error, Part, check_job
@@ -116,10 +117,13 @@ def run(arguments: argparse.Namespace) -> int:
 def _checked(
     arguments: argparse.Namespace, settings: MachineSettings, lines: Sequence[str]
 ) -> Checked:
+    inputs = inputs_of(arguments) if arguments.marks else None
+    if inputs:
+        refuse_other_origin(inputs)
     return check_job(
         settings,
         lines,
-        inputs=inputs_of(arguments) if arguments.marks else None,
+        inputs=inputs,
         numbers=dict(arguments.set),
         tools=Tools.of(
             lines,

@@ -160,6 +160,10 @@ def _written(arguments: argparse.Namespace, answer: HomeAnswer) -> list[str]:
     return written
 
 
+# A command opens the line, which resets the board; and that keeps no place while z is not known.
+Z_TOO = "Bring the bit's tip to the sheet's face and send both at once"
+
+
 def _text(arguments: argparse.Namespace, answer: HomeAnswer) -> str:
     if not answer.said:
         return _listed(arguments, answer)
@@ -169,7 +173,9 @@ def _text(arguments: argparse.Namespace, answer: HomeAnswer) -> str:
     if arguments.output:
         parts.append(next_step("Send it:", ["send", arguments.output]))
     elif arguments.at and not answer.fits:
-        parts.append(next_step("Send it:", ["send", answer.lines[-1]]))
+        send = ["send", answer.lines[-1]]
+        parts.append(next_step("Send it:", send))
+        parts.append(next_step(f"Is z lost too? {Z_TOO}:", [*send, "G10 Z0"]))
     return "\n\n".join(parts)
 
 

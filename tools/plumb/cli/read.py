@@ -90,7 +90,8 @@ def _way_back(lost: str) -> list[str]:
     return [
         f"The machine does not know where its sled is. It says: {lost}",
         "The way back: put the bit into a home mark and ask plumb home --at for the line to send; "
-        "or set the chains with B06 or B08. Then set z with the bit at the sheet's face (G10 Z0).",
+        "or set the chains with B06 or B08. Set z with it, the bit at the sheet's face, as each "
+        "command resets the board: plumb send 'B06 ...' 'G10 Z0'.",
     ]
 
 

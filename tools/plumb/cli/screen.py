@@ -24,6 +24,7 @@ from rich.table import Table
 from rich.text import Text
 
 from plumb.text.answers import json_of
+from plumb.text.values import unit
 
 WIDEST = 80  # [characters]
 PATIENCE = 2.0  # [s] before a bar shows how far the work is
@@ -249,11 +250,18 @@ def auto_words(arguments: argparse.Namespace) -> list[str]:
     return add_named(arguments, [AUTO])
 
 
+def into_machine(machine: str) -> str:
+    """Return how the numbers of a machine.toml come into a machine whose client nobody named."""
+    words = "Write it into the machine (for GroundControl or WebControl give --client):"
+    return next_step(words, ["send", machine])
+
+
 def second_round(arguments: argparse.Namespace, files: Sequence[str]) -> str:
     """Return how to see on new marks that the new settings hold; the machine leads the files."""
     machine = files[0]
     marks, program = free_name("marks", ".toml"), free_name("grid", ".nc")
-    grid = ["grid", "--settings", machine, "--marks", marks, "--output", program]
+    tape = ["--units", unit()] if unit() != "mm" else []
+    grid = ["grid", "--settings", machine, *tape, "--marks", marks, "--output", program]
     again = ["calibrate", machine, marks]
     if not any(Path(path).suffix in CLIENT_OF for path in files):
         again += usual_client(arguments)

@@ -77,8 +77,8 @@ def _send(arguments: argparse.Namespace, answer: SendAnswer) -> bool:
         answer.said.append(line)
         _say(line)
 
-    numbers = _numbers(what, back=arguments.undo)
-    text = _program(what) if numbers is None else []
+    numbers = _numbers(what, back=arguments.undo) if not arguments.more else None
+    text = _program(what, arguments.more) if numbers is None else []
     marks_of = None if arguments.force else _cut_with(what, text)
     port = SerialPort(port_for(arguments.port))
     try:
@@ -112,15 +112,22 @@ def _numbers(what: str, *, back: bool) -> list[str] | None:
     return lines_for(read_settings(what), what)
 
 
-def _program(what: str) -> list[str]:
-    """Return the lines of a program, or a single line; all is read before the line is opened, which
-    resets the board. InputError for what cannot be sent.
+def _program(what: str, more: Sequence[str]) -> list[str]:
+    """Return the lines of a program, or the lines that were typed; all is read before the line is
+    opened, which resets the board. InputError for what cannot be sent.
     """
-    looks_like_file = what.endswith((".nc", ".gcode", ".ngc")) or "/" in what
-    is_file = looks_like_file or Path(what).exists()
-    lines = program_in(what) if is_file else [what]
+    files = [word for word in (what, *more) if _is_file(word)]
+    if files and more:
+        why = "goes alone; several lines can go together"
+        raise InputError(files[0], why, remedy=f"plumb send {files[0]}")
+    lines = program_in(what) if files else [what, *more]
     list(cleaned(lines))
     return lines
+
+
+def _is_file(what: str) -> bool:
+    endings = (".nc", ".gcode", ".ngc", ".toml")
+    return what.endswith(endings) or "/" in what or Path(what).exists()
 
 
 def _cut_with(what: str, text: Sequence[str]) -> MachineSettings | None:
@@ -262,9 +269,8 @@ def _stream_and_note(
         is_whole = stopped_at is None
     finally:
         is_file = Path(what).is_file()
-        entry = program_entry(
-            Path(what).name if is_file else what, list(cleaned(text)), whole=is_whole
-        )
+        name = Path(what).name if is_file else "; ".join([what, *arguments.more])
+        entry = program_entry(name, list(cleaned(text)), whole=is_whole)
         say_failure(keep(what if is_file else ".", PROGRAM, entry, begin=False))
     return stopped_at
 
@@ -324,8 +330,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "what",
         metavar="FILE|LINE",
-        help="a program to run; a machine.toml, whose numbers are written and read back; or a "
-        "single line",
+        help="a program to run; a machine.toml, whose numbers are written and read back; or a line",
+    )
+    parser.add_argument(
+        "more", metavar="LINE", nargs="*", help="more lines, before the board is reset again"
     )
     add_port(parser)
     parser.add_argument(

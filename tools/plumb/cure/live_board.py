@@ -266,7 +266,7 @@ def refuse_other_origin(inputs: Inputs) -> None:
     name, other = file.name if file else "the settings", newest.file
     was = other.name if other else "what its marks name"
     raise InputError(
-        rounds[-1].name,
+        rounds[-1].name or inputs.measurements.source,
         f"was cut with another machine than {name}: "
         + both_values(_apart(settings, newest), name, was),
         remedy=to_do(

@@ -38,8 +38,7 @@ def toml_of(
     settings = published_machine(ours) if firmware == "published" else ours
     lines = [
         f"Fitted to {source}: {result.after.fit_rms:.2f} mm RMS "
-        f"(counted for the numbers fitted {result.after.corrected_rms:.2f}, "
-        f"checked on marks not used {result.after.left_out_rms:.2f}), "
+        f"({result.after.left_out_rms:.2f} checked on marks not used), "
         f"{result.raw.rms:.2f} mm before.",
         *turn_sentences(result),
         *result.cures,

@@ -92,6 +92,8 @@ def read_diary(folder: Folder) -> Diary:
             content = file.read()
     except FileNotFoundError:
         return Diary(path, ())
+    except NotADirectoryError:
+        raise InputError(folder, "is no folder", remedy="give the machine's folder") from None
     except OSError as error:
         raise InputError(
             path, f"cannot be read ({error.strerror})", remedy="check its rights"

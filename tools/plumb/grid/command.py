@@ -132,7 +132,8 @@ def _numbers_in_toml(path: str) -> dict[str, float]:
     except OSError as error:
         raise GridError(f"{path}: {error.strerror}: check the name after --settings") from None
     except (ValueError, TypeError, LookupError):
-        raise GridError(f"{path} is not a machine.toml: let plumb add write it") from None
+        wrong = f"{path} is not a machine.toml: plumb read writes it, and plumb add"
+        raise GridError(wrong) from None
 
 
 def from_arguments(arguments: argparse.Namespace) -> tuple[Grid, PlainMachine]:

@@ -248,11 +248,13 @@ def _check_place(grid: Grid, machine: PlainMachine, what: str, x: float, y: floa
     demand(min(pulls) >= MIN_TENSION, f"{slack}: {move}, or move the motors apart")
 
 
-def inwards(grid: Grid) -> str:
-    """Return what to do about a mark where the sled cannot go."""
+def inwards(grid: Grid, margin: float | None = None) -> str:
+    """Return what to do about a mark where the sled cannot go; margin: that would do [mm]."""
     if grid.is_benchmark:
         return to_do("choose another --preset", page=INWARDS)
-    return to_do("move that place" if grid.places else "raise --margin", page=INWARDS)
+    if grid.places:
+        return to_do("move that place", page=INWARDS)
+    return to_do(f"raise --margin to {margin:g}" if margin else "raise --margin", page=INWARDS)
 
 
 def check(grid: Grid, machine: PlainMachine, ask: Question = _check_place) -> None:

@@ -16,7 +16,7 @@ from plumb.marks.plausible import Sheet, checked
 from plumb.marks.toml import read_marks_toml
 from plumb.settings.machine import MachineSettings
 from plumb.text.errors import InputError, to_do
-from plumb.text.files import read_bytes
+from plumb.text.files import CODE, read_bytes
 from plumb.text.values import refuse_unknown
 
 __all__ = [
@@ -130,6 +130,9 @@ def _form_of(path: str | PathLike[str]) -> str:
     ending = Path(path).suffix.lower().lstrip(".")
     if ending in READERS:
         return ending
+    if any(map(CODE.match, lines)):
+        form = to_do("give the form that plumb grid --marks wrote", page="give a form of marks")
+        raise InputError(path, "holds a program, not marks", remedy=form)
     raise InputError(
         path,
         "is none of the known forms of marks",

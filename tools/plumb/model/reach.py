@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from typing import Annotated
 
@@ -160,6 +161,7 @@ def _place(places: Array, i: int) -> tuple[float, float]:
 # The grid itself knows straight chains without weight; the model knows all that the settings say.
 
 # What else would help than another place.
+WIDEST = 500  # [mm] of a margin that leaves marks enough on a sheet
 ALSO = {TOO_TIGHT: ", or lighten the sled", TOO_SLACK: ", or move the motors apart"}
 
 
@@ -172,6 +174,18 @@ def refuse_way(
 
     Raises GridError for a grid that cannot be made. Chains must be soft in the settings.
     """
+    refused = _refused(grid, machine, settings)
+    if refused:
+        where, also = refused
+        move = marks_grid.inwards(grid, _wide_enough(grid, machine, settings))
+        map_of_it = to_do("see plumb reach", page="Reach shows where that is")
+        raise InputError(f"{where}: {move}{also}; {map_of_it}")
+
+
+def _refused(
+    grid: marks_grid.Grid, machine: marks_grid.PlainMachine, settings: MachineSettings
+) -> tuple[str, str] | None:
+    """Return the first place that the model refuses, and what else would help; None: all pass."""
     passed: list[tuple[str, float, float]] = []
     marks_grid.check(grid, machine)
     marks_grid.check(grid, machine, lambda _grid, _machine, *place: passed.append(place))
@@ -179,9 +193,22 @@ def refuse_way(
     for i in np.flatnonzero(reached.verdict != USABLE)[:1]:
         what, x, y = passed[i]
         why = _reason(int(reached.verdict[i]), reached.tension[i], float(reached.give[i]))
-        move, also = marks_grid.inwards(grid), ALSO.get(int(reached.verdict[i]), "")
-        map_of_it = to_do("see plumb reach", page="Reach shows where that is")
-        raise InputError(f"{what} at x {x:.1f} y {y:.1f} {why}: {move}{also}; {map_of_it}")
+        return f"{what} at x {x:.1f} y {y:.1f} {why}", ALSO.get(int(reached.verdict[i]), "")
+    return None
+
+
+def _wide_enough(
+    grid: marks_grid.Grid, machine: marks_grid.PlainMachine, settings: MachineSettings
+) -> float | None:
+    """Return the least margin [mm], in tens, with which the sled can go all the way."""
+    if grid.places or grid.is_benchmark:
+        return None
+    for tens in range(int(grid.margin / 10) + 1, WIDEST // 10):
+        wider = grid._replace(margin=10.0 * tens)
+        with suppress(marks_grid.GridError):
+            if not _refused(wider, machine, settings):
+                return wider.margin
+    return None
 
 
 def _reason(verdict: int, tension: Array, give: float) -> str:

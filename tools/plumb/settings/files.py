@@ -27,7 +27,7 @@ from plumb.settings.ini import (
 from plumb.settings.machine import MachineSettings, SettingsFile
 from plumb.settings.toml import read_machine_toml
 from plumb.text.errors import InputError
-from plumb.text.files import read_bytes, read_text
+from plumb.text.files import CODE, read_bytes, read_text
 from plumb.text.ini import IniEntry, IniText, parse_ini
 
 WEBCONTROL_ENDING = ".json"
@@ -52,6 +52,9 @@ def _read(path: str | PathLike[str], known: Mapping[str, Sequence[str]] | None) 
         return read_machine_toml(path, known=known)
     if Path(path).suffix.lower() == ".ini":
         return read_settings_ini(path)
+    if CODE.search(text):
+        why = "holds a program, not settings"
+        raise InputError(path, why, remedy="give JOB first, then SETTINGS")
     raise InputError(
         path,
         "is none of the known forms of settings",

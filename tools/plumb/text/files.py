@@ -26,6 +26,9 @@ _follows: ContextVar[bool] = ContextVar("follows", default=True)
 _PIPED: dict[str, bytes] = {}  # what came through pipes, which can be read only once
 
 
+CODE = re.compile(r"(?mi)^\s*(?:n\d+\s*)?[gm]\d{1,3}(?![\w=:])")  # a line of G-code
+
+
 @contextmanager
 def links_refused() -> Iterator[None]:
     """Until the end, no link is followed, in reading and in writing."""

@@ -121,6 +121,24 @@ def test_a_hidden_effect_is_added_and_the_second_round_starts_from_the_new_machi
     assert before > 3.0 and after < 0.35
 
 
+def test_numbers_of_a_machine_without_a_client_go_there_before_new_marks_are_cut(run):
+    known = {name: sizes for name, sizes in EFFECTS.items() if name != "chain_pitch"}
+    believed = replace(BELIEVED, effects=known)
+    write_machine_toml("first.toml", believed)
+    Path("a.csv").write_text(csv_of(marks_on(TRUE, believed, grid(7, 5), noise=0.2, seed=3)))
+    known = ("--sigma", "0.2", "--checked", "tape_scale.strain=0+-0.0001")
+    code, said, _ = run("calibrate", "first.toml", "a.csv", *known)
+    assert code == 0 and [words[0] for words in printed(said)] == ["send", "grid", "calibrate"]
+    assert printed(said)[0] == ["send", "machine.toml"] and "give --client" in said
+    code, said, _ = run("calibrate", "first.toml", "a.csv", *known, "--client", "none")
+    assert code == 0 and "Open machine-2.nc" in said and printed(said)[0][0] == "grid"
+    _, said, _ = run("add", "first.toml", "a.csv", *known, "--effect", "auto", "-o", "b.toml")
+    assert printed(said) == [["send", "b.toml"]]
+    published = ("--effect", "auto", "--firmware", "published", "-o", "c.toml")
+    _, said, _ = run("add", "first.toml", "a.csv", *known, *published)
+    assert printed(said) == [] and "Give --client" in said
+
+
 def test_a_slip_comes_first_and_the_mark_can_be_left_out(run):
     marks = list(marks_on(TRUE, TRUE, grid(7, 5), noise=0.2, seed=5))
     x, y = marks[11].measured

@@ -8,6 +8,7 @@ from plumb.settings.toml import write_machine_toml
 from synthetic import BELIEVED
 
 BOARD = [str(SETTINGS), str(MARKS)]
+JOB = SETTINGS.parents[4] / "docs/example/pocket.nc"
 EFFECTS = ["--effect", "chain_pitch", "chain_sag"]
 BAD = [
     ("unknown command", ["diagnoze"], "there is no command 'diagnoze'; did you mean diagnose?"),
@@ -20,6 +21,9 @@ BAD = [
     ("marks are missing", ["compare", SETTINGS, "none.csv"], "none.csv: there is no such file"),
     ("marks as settings", ["compare", MARKS, MARKS], "holds marks, not settings"),
     ("settings as marks", ["compare", SETTINGS, SETTINGS], "holds settings, not marks"),
+    ("program as settings", ["check", SETTINGS, JOB], "a program, not settings; give JOB first"),
+    ("program as marks", ["compare", SETTINGS, JOB], "holds a program, not marks; give the form"),
+    ("a file as folder", ["diary", SETTINGS], "is no folder; give the machine's folder"),
     ("holey needs more", ["compare", *BOARD, "--controller", "holey"], "sledWeight"),
     ("a folder", ["compare", SETTINGS.parent, MARKS], "is a folder"),
     ("unknown effect", ["add", *BOARD, "--effect", "chain_sog"], "known are "),

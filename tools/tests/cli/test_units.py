@@ -4,8 +4,10 @@ import json
 import math
 import re
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
+from plumb.cli.screen import second_round
 from plumb.marks.model import Typed
 from plumb.marks.read import join_measurements, read_marks
 from plumb.model.plain import plain_size
@@ -45,6 +47,16 @@ def test_inches_on_request(command, run):
     assert "by x +0.079, y +0.315 inch" in said
     if command == "compare":
         assert "1 3.94 3.94 3.86 4.17 -0.078 +0.236" in said and "All in inch" in said
+
+
+def test_the_next_form_has_the_unit_of_the_tape(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    asked = SimpleNamespace(settings=str(INI))
+    assert "--units" not in second_round(asked, ["machine.toml"])
+    with shown_in("inch"):
+        cut, again = second_round(asked, ["machine.toml"]).replace("\\\n", "").split("\nand ")
+    assert "grid --settings machine.toml --units inch --marks" in " ".join(cut.split())
+    assert "--units" not in again  # the form says it
 
 
 def test_what_was_typed_in_inches_is_shown_in_inches_unless_mm_are_asked_for(run, tmp_path):

@@ -215,6 +215,7 @@ REFUSALS = [
     ("--margin 610", "--margin is 610"),
     ("--margin nan", "--margin: 'nan' is not a length, like 100 or 4in"),
     ("--feed 0", "--feed is 0"),
+    ("--feed 5in", "--feed: invalid float value"),
     ("--feed 1e9", "--feed is 1e+09"),
     ("--depth 0", "--depth is 0"),
     ("--depth 25", "--depth is 25"),

@@ -23,6 +23,8 @@ SETTINGS, POCKET, MARKS = (
     EXAMPLE / name for name in ("groundcontrol.ini", "pocket.nc", "marks.toml")
 )
 
+OTHER = EXAMPLE.parents[1] / "tools/plumb/examples/madgrizzle-2018-09-04"
+
 
 def square(x, y, size, depth=1.0):
     """Lines that cut a square with its lower left corner there."""
@@ -327,6 +329,9 @@ def test_the_command_says_all_of_it(ask, run, tmp_path):
     _, slower = ask("check", POCKET, SETTINGS, "--set", "18=6")
     assert slower["asked_seconds"] < slower["cutting_seconds"] < slower["seconds"]
     assert "askew" in run("check", POCKET, SETTINGS, "--marks", MARKS)[1]
+    other = OTHER / "marks.toml"
+    code, said, complaint = run("check", POCKET, EXAMPLE / "machine.toml", "--marks", other)
+    assert (code, said) == (2, "") and complaint.startswith(f"plumb: {other}: was cut with another")
     code, said, _ = run("check", POCKET, SETTINGS, "--set", "18=6")
     assert "askew" not in said and "give --marks" in " ".join(said.split())
     slow = re.search(r"gets (\d+)$", said.replace("\n  ", " "), re.MULTILINE)

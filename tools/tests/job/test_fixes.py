@@ -101,6 +101,21 @@ def test_the_top_of_another_machine_is_a_retract():
     assert_cuts_the_same(mended.lines, [each.replace("G53G0Z-5.000", "G0 Z6") for each in lines])
 
 
+def test_a_retract_behind_holes_leaves_no_motion_in_force_and_keeps_what_else_its_line_says():
+    lines = ["G0 Z3", "G81 X9 Z-4 R2 F200", "G80", "G28 G91 Z0 S9000 T2", "G90", "X20", "G0 X0"]
+    mended = fix(lines)
+    # A program that stays low gets the height that the check takes for clear.
+    assert mended.lines[3] == "G91 S9000 T2 G53 G0 Z5.000 G80"
+    assert mended.lines[5] == "G0 X20"
+    assert_cuts_the_same(mended.lines, [*lines[:3], "G0 Z5", "G90", "G0 X20", "X0"])
+
+
+def test_a_place_near_the_top_that_is_cut_at_the_feed_is_left_to_its_owner():
+    # The cause is changed; in G1 the same place is a cut, whatever it was meant to be.
+    lines = ["G0 Z9", "G53 G0 Z-5", "G0 Z9", "G1 X30 F600", "G53 G1 Z-5", "G0 Z9"]
+    assert [each.line for each in fix(lines).changes] == [2]
+
+
 @pytest.mark.parametrize("name", NAMES)
 def test_a_program_that_runs_stays(name):
     assert fix(lines_of(name)).changes == ()
@@ -117,6 +132,8 @@ def test_a_program_that_runs_stays(name):
         ("line 4", ["G0 Z5", "G28 G91 X0 Y0", "G90 X5", "G1 Z-2 F300", "X9", "G0 Z5"]),
         # The way home would lead through the wood.
         ("line 3", ["G0 X9", "G1 Z-3 F300", "G28 X0 Y0", "G0 Z5"]),
+        # In the middle of a cycle, which the way home may end or not.
+        ("line 3", ["G0 Z5", "G81 X9 Z-3 R2 F200", "G28 G91 Z0", "G90 G80", "G0 Z5"]),
         # Behind G80 a place in the wood, and one of which nobody knows how it moves.
         ("line 3", ["G81 X9 Z-3 R2 F200", "G80", "Z-4", "G0 Z5"]),
         ("line 4", ["G1 Z3 F300", "G81 X9 Z-3 R2 F200", "G80", "X20", "G0 Z5"]),

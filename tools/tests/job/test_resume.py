@@ -122,6 +122,10 @@ def test_a_cycle_is_drilled_from_its_beginning():
     assert in_force == [True, True, False, True, False]
     resumed = resume_at_place(MACHINE, lines, (20, 0))
     assert resumed.first == 2 and resumed.entry is None
+    # Later holes go up to where these did.
+    for code in ("G98", "G99"):
+        later = resume_at_line(MACHINE, [lines[0], f"{code} {lines[1]}", *lines[2:]], 7)
+        assert any(f" {code} " in line for line in later.lines)
 
 
 def test_spindle_laser_tool_and_units_are_as_they_were():

@@ -1,5 +1,6 @@
 """reach: which part of a sheet is usable, on the command line, in a grid and next to the tool."""
 
+import re
 import xml.etree.ElementTree as ElementTree
 from dataclasses import replace
 
@@ -238,6 +239,15 @@ def test_a_grid_that_the_tool_allows_is_refused_where_the_model_knows_better(run
         assert (code, said) == (2, "")
         assert "lets every newton move the sled 0.66 mm" in complaint
         assert "see plumb reach" in complaint
+
+
+def test_a_refused_grid_says_which_margin_will_do(run, machine):
+    path = machine(effects=SOFT.effects | {"chain_sag": {"weight_ratio_squared": 3.3e-11}})
+    code, _, complaint = run("grid", "--settings", path)
+    assert code == 2 and "lets every newton move the sled" in complaint
+    margin = int(re.search(r"raise --margin to (\d+);", complaint)[1])
+    assert run("grid", "--settings", path, "--margin", margin)[0] == 0
+    assert run("grid", "--settings", path, "--margin", margin - 10)[0] == 2
 
 
 def test_a_refused_grid_leaves_no_file(run, tmp_path):

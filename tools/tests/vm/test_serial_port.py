@@ -101,6 +101,35 @@ def test_a_program_ends_when_the_place_is_kept(end, served, tmp_path):
     assert "Position Lost" not in plumb("read", "--port", "maslow", folder=tmp_path)
 
 
+def test_the_printed_command_brings_a_lost_place_back(served, tmp_path):
+    """Each command resets the board, which keeps no place as long as z is not known."""
+    served()
+    plumb("read", "--port", "maslow", "-o", "machine.toml", folder=tmp_path)
+    with serial.Serial(str(tmp_path / "maslow"), 57600, timeout=START) as line:
+        line.read_until(b"Detected")
+        line.write(b"B05\nG1 X900 F100\n")
+        line.read_until(b",MPos:5.")
+    lost = plumb("read", "--port", "maslow", folder=tmp_path)
+    assert "does not know where its sled is" in lost and "B06 or B08" in lost
+    assert "plumb send 'B06 ...' 'G10 Z0'" in " ".join(lost.split())
+    plumb("home", "machine.toml", "--keep=left=-900,250", "-o", "left.nc", folder=tmp_path)
+    said = plumb("home", "machine.toml", "--at", "left", folder=tmp_path)
+    z_known, all_lost = re.findall(r"^  plumb (send .*)$", said, re.MULTILINE)
+    assert all_lost == f"{z_known} 'G10 Z0'"
+    for command, back in ((z_known, False), (all_lost, True)):
+        plumb(*shlex.split(command), "--port", "maslow", folder=tmp_path)
+        now = plumb("read", "--port", "maslow", folder=tmp_path)
+        assert ("The sled is at x -900.00, y 250.00" in now) == back
+
+
+@pytest.mark.parametrize("words", [("B05", "job.nc"), ("job.nc", "B05"), ("machine.toml", "B05")])
+def test_a_file_is_sent_alone(words, tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "job.nc").write_text("G0 X1\n")
+    assert main(["send", *words, "--port", "nowhere"]) == 2
+    assert "goes alone" in capsys.readouterr().err
+
+
 def test_what_was_not_cut_is_resumed_by_the_command_that_is_printed(served, tmp_path):
     served()
     # A line is done 15 reports behind its answer ($71 and LATE). The way of 28 mm takes 11 reports,
