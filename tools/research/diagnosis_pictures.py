@@ -53,7 +53,7 @@ def shown(board: LinearBoard, accounts: Accounts, noises: Noises, names: tuple[s
     wanted = np.array([set(each) == set(names) for each in accounts.effects])
     (part,) = accounts.among(wanted).parts
     metric = Metric.of(board, noises.sigmas)
-    fit = fitted(part, board.sizes, metric)
+    fit = fitted(part, metric)
     weight = fit.evidence[0] + np.tile(noises.log_prior, len(part.sets))
     best = int(np.argmax(weight))
     m = len(noises.sigmas)

@@ -13,7 +13,7 @@ from plumb.diagnosis.expected_error import LeftOpen
 from plumb.diagnosis.explanation import Explanation
 from plumb.diagnosis.noise import ORIGINS, Noise, misfit_chance
 from plumb.diagnosis.outliers import Outlier
-from plumb.diagnosis.posterior import Account, Listed, Posterior, explain_account
+from plumb.diagnosis.posterior import Account, Listed, Posterior
 from plumb.diagnosis.priors import LIKELIER
 from plumb.diagnosis.readings import CleanReadings
 from plumb.diagnosis.sizes import Room, Size
@@ -328,5 +328,4 @@ def is_silent(nothing_chance: float) -> bool:
 
 def _misfits(readings: CleanReadings, best: Account, stated: Stated | None) -> bool:
     """Return whether even the likeliest account leaves more than noise ever does."""
-    fitted = explain_account(readings.frame, best.effects, best.acting)
-    return misfit_chance(fitted, stated) < MISFIT
+    return misfit_chance(readings.explained(best), stated) < MISFIT

@@ -11,7 +11,7 @@ from plumb.diagnosis.answer import Diagnosis, Ranked, Together, judge
 from plumb.diagnosis.expected_error import left_open
 from plumb.diagnosis.explanation import Explanation, measured_board
 from plumb.diagnosis.noise import Noise, left_by_noise
-from plumb.diagnosis.posterior import Listed, explain_account
+from plumb.diagnosis.posterior import Listed
 from plumb.diagnosis.priors import LIKELIER
 from plumb.diagnosis.readings import CleanReadings, clean_readings, shifts
 from plumb.diagnosis.sizes import hidden_share, room_for, sizes_of
@@ -31,15 +31,8 @@ def diagnose(inputs: Inputs) -> Diagnosis:
     readings = clean_readings(board, inputs)
     judgement = judge(readings, inputs.stated)
     frame, noise = readings.frame, readings.noise
-    explanations = tuple(
-        explain_account(frame, each.account.effects, each.account.acting)
-        for each in judgement.listed
-    )
-    best = (
-        explanations[0]
-        if explanations
-        else explain_account(frame, judgement.best.effects, judgement.best.acting)
-    )
+    explanations = tuple(readings.explained(each.account) for each in judgement.listed)
+    best = readings.explained(judgement.best)
     doubts = doubts_of(readings, judgement.verdict, best, inputs.measurements.rounds)
     return Diagnosis(
         verdict=judgement.verdict,

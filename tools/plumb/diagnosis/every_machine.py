@@ -8,6 +8,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
+from functools import cache
+from itertools import compress
 
 import numpy as np
 import scipy
@@ -46,7 +48,7 @@ def clean_of(board: LinearBoard, accounts: Accounts, noises: Noises) -> Clean:
         total = np.full(shape, -np.inf)
         metric = Metric.of(board, noises.sigmas, pitch=is_drifting)
         for part in accounts.parts:
-            fit = fitted(part, board.sizes, metric)
+            fit = fitted(part, metric)
             weight = _by_noise(fit.evidence, part) + noises.log_prior + log_chance
             add_by_set(total, part, np.logaddexp.reduce(weight, axis=2).T)
             by_noise = np.logaddexp(by_noise, np.logaddexp.reduce(weight[0], axis=0))
@@ -104,28 +106,27 @@ def asked_for(
     has only what the settings cannot have right (its density there fell to a twentieth, Dickey
     1971). `clean` is of one board.
     """
-    every = {
-        name: clean.at_settings[int(column)]
-        for name, columns in board.columns.items()
-        for column in columns
-        if int(column) in clean.at_settings
-    }
-    has_pitch = bool(board.sizes.pitch.any())
-    asked = []
-    for i in sets:
-        wanted = {*accounts.effects[i]} - {*every}
-        if has_pitch and _drifts(accounts, clean, i):
-            wanted.add(PITCH)
-        # In one order, so that the same effects are one account whichever set asks for them.
-        only_some = (name for name in board.columns if name in wanted)
-        usual = (name for name, ratio in every.items() if ratio[i] < -np.log(ONE_IN))
-        asked.append((*only_some, *usual))
-    return asked
+    names, chosen = tuple(board.columns), np.array(list(sets), dtype=int)
+    of_column = {int(column): name for name in names for column in board.columns[name]}
+    every = tuple(of_column[column] for column in clean.at_settings)
+    wrong = [ratio[chosen] < -np.log(ONE_IN) for ratio in clean.at_settings.values()]
+    drifts = clean.nominal[chosen] < clean.total[chosen] - np.log(ONE_IN + 1)
+    if not board.sizes.pitch.any():
+        drifts[:] = False
+    flags = np.stack([drifts, *wrong], axis=1).tolist()
+    return [
+        _asked(names, every, accounts.effects[i], tuple(each))
+        for i, each in zip(chosen.tolist(), flags, strict=True)
+    ]
 
 
-def _drifts(accounts: Accounts, clean: Clean, i: int) -> bool:
-    """Return whether a set without odd chains asks for some that are longer or shorter than
-    nominal.
+@cache
+def _asked(names: Effects, every: Effects, acting: Effects, flags: tuple[bool, ...]) -> Effects:
+    """Return what a set asks for, in one order, so that the same effects are one account whichever
+    set asks for them. flags: whether chains are longer or shorter than nominal, and which settings
+    of what every machine has are wrong.
     """
-    is_asked = clean.nominal[i] < clean.total[i] - np.log(ONE_IN + 1)
-    return bool(is_asked) and PITCH not in accounts.effects[i]
+    drifts, *wrong = flags
+    wanted = {*acting, PITCH} if drifts else {*acting}
+    only_some = (name for name in names if name in wanted and name not in every)
+    return (*only_some, *compress(every, wrong))

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
-from functools import cache
+from functools import cached_property
 from itertools import combinations, product
 
 import numpy as np
@@ -23,7 +23,6 @@ from plumb.diagnosis.priors import (
     NOISE_DEGREES,
     OUTLIER_SPREADS,
     TOGETHER,
-    SizePriors,
     chance_of,
     noise_prior,
 )
@@ -38,10 +37,28 @@ FEWER = 150  # measured numbers beyond which sets of three are left out, for tim
 class Part:
     """Variants of accounts with as many unknowns: a set of effects, each of a spread."""
 
-    sets: Array  # (a,) which set each variant belongs to
+    sets: Array  # (a,) which set each variant belongs to; they rise
     index: Array  # (a, k) columns of its effects
     variance: Array  # (a, k) of the prior
+    edge: Array  # (a, k) how far the mean of the prior is above the least
     log_prior: Array  # (a,)
+
+    @cached_property
+    def log_possible(self) -> Array:
+        """Logarithm of the mass (a,) that the prior has where it is possible."""
+        deviations = self.edge / np.sqrt(self.variance)
+        mass: Array = np.sum(scipy.special.log_ndtr(deviations), axis=1)
+        return mass
+
+    @cached_property
+    def starts(self) -> Array:
+        """The first variant of each set."""
+        return np.flatnonzero(np.diff(self.sets, prepend=-1))
+
+    def among(self, kept: Array) -> Part:
+        """Return some of the variants (a,)."""
+        each = (self.sets, self.index, self.variance, self.edge, self.log_prior)
+        return Part(*(values[kept] for values in each))
 
 
 @dataclass(frozen=True)
@@ -50,7 +67,6 @@ class Accounts:
 
     effects: tuple[Effects, ...]
     parts: tuple[Part, ...]
-    sizes: SizePriors
 
     def up_to(self, most: int) -> Accounts:
         """Return the accounts of at most `most` effects."""
@@ -58,69 +74,49 @@ class Accounts:
 
     def among(self, wanted: Array) -> Accounts:
         """Return the accounts of some sets (sets,)."""
-        parts = (
-            Part(part.sets[kept], part.index[kept], part.variance[kept], part.log_prior[kept])
-            for part in self.parts
-            for kept in [wanted[part.sets]]
-            if kept.any()
-        )
-        return Accounts(self.effects, tuple(parts), self.sizes)
+        parts = (part.among(wanted[part.sets]) for part in self.parts)
+        return Accounts(self.effects, tuple(part for part in parts if len(part.sets)))
+
+
+ABSENT, TYPICAL, LARGEST = range(3)  # how an effect is spread in a variant
 
 
 def accounts_of(board: LinearBoard, most: int = TOGETHER) -> Accounts:
-    """Return all accounts of a board: sets of up to `most` effects, and all effects at once."""
-    names = tuple(board.columns)
-    sets = [chosen for size in range(most + 1) for chosen in combinations(names, size)]
-    everything = len(names) > most
-    sets += [names] if everything else []
-    variants: dict[int, list[tuple[Array, Array, Array, Array]]] = {}
-    for number, chosen in enumerate(sets):
-        is_all = everything and number == len(sets) - 1
-        index, variance = _columns_and_variances(board, chosen, is_all=is_all)
-        count = len(variance)
-        rows = np.full(count, number), np.tile(index, (count, 1)), variance
-        variants.setdefault(len(index), []).append(
-            (*rows, np.full(count, _log_prior(chosen, is_all=is_all)))
-        )
-    parts = tuple(
-        Part(*(np.concatenate(column) for column in zip(*alike, strict=True)))
-        for _, alike in sorted(variants.items())
-    )
-    return Accounts(tuple(sets), parts, board.sizes)
-
-
-def _log_prior(chosen: Effects, *, is_all: bool) -> float:
-    """Return the logarithm of the prior of a set, with each effect of one of two spreads."""
-    if is_all:
-        return float(np.log(ALL))
-    odds = sum(np.log(chance / (1 - chance)) for chance in map(chance_of, chosen))
-    return float(odds - len(chosen) * np.log(2))
-
-
-def _columns_and_variances(
-    board: LinearBoard, chosen: Effects, *, is_all: bool
-) -> tuple[Array, Array]:
-    """Return the columns (k,) of what every machine has and of a set, and their prior variances
-    (spreads, k): each effect is of a typical size or as large as any that was met.
+    """Return all accounts of a board: sets of up to `most` effects, and all effects at once. Each
+    effect of a set is of a typical size or as large as any that was met; all at once are large.
     """
-    sizes = board.sizes
-    columns = [board.columns[name] for name in chosen]
-    index = np.flatnonzero(sizes.usual)
-    index = np.unique(np.concatenate([index, *columns]))
-    larges = np.array([[True] * len(chosen)]) if is_all else _choices(len(chosen))
-    variance = np.tile(sizes.usual[index] ** 2, (len(larges), 1))
-    for of_effect, is_large in zip(columns, larges.T, strict=True):
-        places = np.searchsorted(index, of_effect)
-        variance[:, places] += np.where(
-            is_large[:, np.newaxis], sizes.largest[of_effect] ** 2, sizes.typical[of_effect] ** 2
-        )
-    return index, variance
+    names, sizes = tuple(board.columns), board.sizes
+    sets = [
+        chosen for size in range(min(most, len(names)) + 1) for chosen in combinations(names, size)
+    ]
+    spreads = np.vstack([_spreads(chosen, names) for chosen in sets])
+    numbers = np.repeat(np.arange(len(sets)), [2 ** len(chosen) for chosen in sets])
+    odds = np.log([chance_of(name) / (1 - chance_of(name)) / 2 for name in names])
+    log_prior = (spreads != ABSENT) @ odds
+    if len(names) > most:
+        spreads = np.vstack([spreads, np.full(len(names), LARGEST)])
+        numbers, log_prior = np.r_[numbers, len(sets)], np.r_[log_prior, np.log(ALL)]
+        sets.append(names)
+    of_column = np.repeat(spreads, [len(columns) for columns in board.columns.values()], axis=1)
+    more = np.stack([np.zeros(of_column.shape[1]), sizes.typical**2, sizes.largest**2])
+    variance = sizes.usual**2 + np.take_along_axis(more, of_column, axis=0)
+    counts = np.count_nonzero(variance, axis=1)
+    parts = []
+    for count in np.unique(counts):
+        kept = counts == count
+        index = np.nonzero(variance[kept])[1].reshape(-1, count)
+        mine = np.take_along_axis(variance[kept], index, axis=1)
+        edge = (sizes.mean - sizes.least)[index]
+        parts.append(Part(numbers[kept], index, mine, edge, log_prior[kept]))
+    return Accounts(tuple(sets), tuple(parts))
 
 
-@cache
-def _choices(count: int) -> Array:
-    """Return all ways (2^count, count) to choose among `count` things."""
-    return np.array(list(product((False, True), repeat=count)), dtype=bool)
+def _spreads(chosen: Effects, names: Effects) -> Array:
+    """Return in all ways how each effect is spread (ways, effects) in a set."""
+    ways = np.array(list(product((TYPICAL, LARGEST), repeat=len(chosen))), dtype=int)
+    spreads = np.full((len(ways), len(names)), ABSENT)
+    spreads[:, [names.index(name) for name in chosen]] = ways
+    return spreads
 
 
 # The evidence of each variant, for all noises and boards of a metric at once.
@@ -142,13 +138,13 @@ class Fitted:
         return evidence
 
 
-def fitted(part: Part, sizes: SizePriors, metric: Metric) -> Fitted:
+def fitted(part: Part, metric: Metric) -> Fitted:
     """Fit all variants of a part."""
-    index, noises = part.index, len(metric.sigmas)
-    count, k = index.shape
-    matrix = metric.gram[:, index[:, :, np.newaxis], index[:, np.newaxis, :]]
-    matrix = np.moveaxis(matrix, (0, 1), (3, 2)).reshape(k, k, count * noises)
-    along = np.moveaxis(metric.along[:, index], (0, 1), (3, 2)).reshape(k, -1, count * noises)
+    index, noises = part.index.T, len(metric.sigmas)
+    k, count = index.shape
+    gram, along = metric.gram.transpose(1, 2, 0), metric.along.transpose(1, 2, 0)
+    matrix = gram[index[:, np.newaxis], index].reshape(k, k, count * noises)
+    along = np.swapaxes(along[index], 1, 2).reshape(k, -1, count * noises)
     across = np.repeat(part.variance.T, noises, axis=1)
     matrix[np.arange(k), np.arange(k)] += 1 / across
     inverse, log_determinant = _inverted(matrix)
@@ -156,16 +152,14 @@ def fitted(part: Part, sizes: SizePriors, metric: Metric) -> Fitted:
     explained = np.sum(along * mean, axis=0)
     left = np.tile(metric.square.T, count) - explained
     size = np.tile(metric.log_determinant, count) + log_determinant + np.log(across).sum(axis=0)
-    edge = (sizes.mean - sizes.least)[index]  # how far the mean of the prior is from the least
-    before = np.sum(scipy.special.log_ndtr(edge / np.sqrt(part.variance)), axis=1)
     loose = np.repeat(part.log_prior, noises) - (size + left) / 2
-    edges = np.repeat(edge.T, noises, axis=1)
+    edges = np.repeat(part.edge.T, noises, axis=1)
 
     def mass(boards: Array, each: Array) -> Array:
-        return log_orthant(mean[:, boards, each] + edges[:, each], inverse[:, :, each])
+        return log_orthant(mean[:, boards, each] + edges[:, each], inverse, each)
 
     possible = _with_mass(loose, mass, axis=1) - loose
-    return Fitted(loose, possible - np.repeat(before, noises), mean, inverse)
+    return Fitted(loose, possible - np.repeat(part.log_possible, noises), mean, inverse)
 
 
 def _with_mass(loose: Array, mass: Callable[..., Array], *, axis: int) -> Array:
@@ -208,34 +202,34 @@ UNLIKELY = 8.0  # nats below the best of as many unknowns
 FAR = 5.0  # deviations above zero from which a number counts as surely positive
 
 
-def log_orthant(mean: Array, covariance: Array) -> Array:
+def log_orthant(mean: Array, covariance: Array, each: Array | None = None) -> Array:
     """Return the logarithm of the mass (b,) that normals have where nothing is negative.
 
-    mean (k, b), infinite where either sign is possible; covariance (k, k, b). One number
-    after the other is taken to be positive, the least likely first, and what that says of the
-    others is kept as a normal again (Mendell and Elston 1974).
+    mean (k, b), infinite where either sign is possible; covariance (k, k, c), of which each (b,) is
+    that of each normal. One number after the other is taken to be positive, the least likely first,
+    and what that says of the others is kept as a normal again (Mendell and Elston 1974).
     """
-    each = np.arange(len(mean))
-    sure = FAR * np.sqrt(covariance[each, each]) < mean
-    bounded = np.flatnonzero(~sure.all(axis=1))
-    mass = np.zeros(mean.shape[1])
+    each = np.arange(mean.shape[1]) if each is None else each
+    deviations = np.sqrt(np.diagonal(covariance)).T[:, each]
+    bounded = np.flatnonzero(~(FAR * deviations < mean).all(axis=1))
     mean = np.where(np.isfinite(mean), mean, 1e6)[bounded]
-    spread = covariance[np.ix_(bounded, bounded)]
-    each = np.arange(len(bounded))
-    order = np.argsort(mean / np.sqrt(spread[each, each]), axis=0)
+    order = np.argsort(mean / deviations[bounded], axis=0)
     mean = np.take_along_axis(mean, order, axis=0)
-    spread = spread[order[:, np.newaxis], order, np.arange(len(mass))]
-    for i in range(len(mean)):
-        deviation = np.sqrt(spread[i, i])
+    order = bounded[order]
+    # Above the diagonal, where it is read.
+    spread = [covariance[row, order[i:], each] for i, row in enumerate(order)]
+    mass = np.zeros(mean.shape[1])
+    for i, rows in enumerate(spread):
+        deviation = np.sqrt(rows[0])
         at = mean[i] / deviation
         log_mass = scipy.special.log_ndtr(at)
         mass += log_mass
         pull = np.exp(-0.5 * at**2 - 0.5 * np.log(2 * np.pi) - log_mass)
         less = pull * (pull + at)
-        shares = spread[i, i + 1 :] / deviation
+        shares = rows[1:] / deviation
         mean[i + 1 :] += shares * pull
-        for j, share in enumerate(shares):  # above the diagonal, where it is read
-            spread[i + 1 + j, i + 1 + j :] -= less * share * shares[j:]
+        for j, share in enumerate(shares):
+            spread[i + 1 + j] -= less * share * shares[j:]
     return mass
 
 
@@ -286,7 +280,7 @@ def noises_of(
 def variants(accounts: Accounts, metric: Metric, noises: Noises) -> Iterable[tuple[Part, Array]]:
     """Yield each part with the log evidence (a, m) of its variants, first board."""
     for part in accounts.parts:
-        evidence = fitted(part, accounts.sizes, metric).evidence[0]
+        evidence = fitted(part, metric).evidence[0]
         yield part, evidence.reshape(len(part.sets), -1) + noises.log_prior
 
 
@@ -300,8 +294,8 @@ def weights_of(accounts: Accounts, metric: Metric, noises: Noises) -> Array:
 
 def add_by_set(total: Array, part: Part, weight: Array) -> None:
     """Add the log weights (a, ...) of a part's variants to those (sets, ...) of their sets."""
-    sets, starts = np.unique(part.sets, return_index=True)  # they rise in each part
-    total[sets] = np.logaddexp(total[sets], np.logaddexp.reduceat(weight, starts, axis=0))
+    sets = part.sets[part.starts]
+    total[sets] = np.logaddexp(total[sets], np.logaddexp.reduceat(weight, part.starts, axis=0))
 
 
 # Readings that are off.
@@ -325,7 +319,7 @@ def outlier_weights(
         kept[:, [0, 1], [0, 1]] += np.where(exists, inside[numbers], 0.0)
         metric = Metric.of(board, np.array([sigma]))
         for part in accounts.parts:
-            off = _off(part, board.sizes, fitted(part, board.sizes, metric), rows, kept)
+            off = _off(part, fitted(part, metric), rows, kept)
             weights = np.logaddexp(weights, log_prior + off)
     together: Array = weights - np.log(len(numbers) * len(OUTLIER_SPREADS))
     return together
@@ -338,7 +332,7 @@ def _with_usual_pitch(board: LinearBoard) -> LinearBoard:
     return replace(board, frame=np.hstack([board.frame, columns]))
 
 
-def _off(part: Part, sizes: SizePriors, fit: Fitted, rows: Array, kept: Array) -> Array:
+def _off(part: Part, fit: Fitted, rows: Array, kept: Array) -> Array:
     """Return the log evidence (readings,) of a part's accounts with each reading off.
 
     rows (readings, 2, p + 1) are those of C^-1 [effects, readings], kept (readings, 2, 2) those of
@@ -349,8 +343,6 @@ def _off(part: Part, sizes: SizePriors, fit: Fitted, rows: Array, kept: Array) -
     taken = np.einsum("kla,alri->akri", fit.inverse, drawn, optimize=True)
     inside = kept - np.einsum("akri,akrj->arij", drawn, taken, optimize=True)
     pull = rows[:, :, -1] - np.einsum("ka,akri->ari", fit.mean[:, 0], drawn, optimize=True)
-    edge = (sizes.mean - sizes.least)[part.index]
-    before = np.sum(scipy.special.log_ndtr(edge / np.sqrt(part.variance)), axis=1)
     weights = []
     for spread in OUTLIER_SPREADS:
         a, b, c = (inside[..., i, j] + (i == j) * spread**-2 for i, j in ((0, 0), (0, 1), (1, 1)))
@@ -362,10 +354,10 @@ def _off(part: Part, sizes: SizePriors, fit: Fitted, rows: Array, kept: Array) -
         gain = (x * pull[..., 0] + y * pull[..., 1]) / 2 - np.log(size) / 2 - 2 * np.log(spread)
         moved = taken[..., 0] * x[:, np.newaxis] + taken[..., 1] * y[:, np.newaxis]
         mean = fit.mean[:, :1] - np.moveaxis(moved, 0, 2)
-        loose = fit.loose.T + gain - before[:, np.newaxis]
+        loose = fit.loose.T + gain - part.log_possible[:, np.newaxis]
 
         def mass(each: Array, readings: Array, mean: Array = mean) -> Array:
-            return log_orthant(mean[:, readings, each] + edge.T[:, each], fit.inverse[:, :, each])
+            return log_orthant(mean[:, readings, each] + part.edge.T[:, each], fit.inverse, each)
 
         weights.append(np.logaddexp.reduce(_with_mass(loose, mass, axis=0), axis=0))
     return np.asarray(np.logaddexp.reduce(weights))

@@ -89,13 +89,11 @@ def _variance(explanation: Explanation, slopes: Array) -> Array:
     them.
     """
     problem, free = explanation.board.problem, explanation.free
-    columns = explanation.slopes[:, free]
-    covariance = np.linalg.pinv(columns.T @ columns, rcond=1e-12, hermitian=True)
     # The sheet's rotation, the tape and the like do not move the sled.
     machine = [i for i, column in enumerate(free) if problem.names[column] in NAMES]
     by_name = slopes[:, :, [NAMES.index(problem.names[free[i]]) for i in machine]]
     moved = by_name * problem.scale[free[machine]]
-    inside = covariance[np.ix_(machine, machine)]
+    inside = explanation.covariance[np.ix_(machine, machine)]
     variance: Array = np.einsum("nij,jk,nik->n", moved, inside, moved)
     return variance
 

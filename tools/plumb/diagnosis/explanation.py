@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 import scipy
@@ -71,6 +72,11 @@ class Board:
         sigma = self.sigma if sigma is None else sigma
         return replace(self, problem=replace(self.problem, observations=rows, sigma=sigma))
 
+    @cached_property
+    def fitted(self) -> Explanation:
+        """The frame alone, as it fits best."""
+        return explain(self)
+
     @property
     def usual_checks(self) -> tuple[Checked, ...]:
         """What is held near what is usual."""
@@ -131,17 +137,19 @@ class Explanation:
         """Root mean square error of the marks (as vectors), or of distances without marks [mm]."""
         return self.board.rows.rms_of(self.numbers)
 
-    @property
+    @cached_property
     def basis(self) -> Array:
         """Orthonormal columns of what was fitted."""
         return span(self.slopes[:, self.free])
 
-    def beyond_fit(self, effects: Iterable[str], basis: Array | None = None) -> Array:
+    @cached_property
+    def covariance(self) -> Array:
+        """Of what was fitted, for readings with the noise of the board."""
+        return covariance_of(self.slopes[:, self.free])
+
+    def beyond_fit(self, effects: Iterable[str]) -> Array:
         """Columns of effects without what the fitted columns can imitate."""
-        columns = self.slopes[:, self.board.columns(effects)]
-        fitted = self.basis if basis is None else basis
-        beyond: Array = columns - fitted @ (fitted.T @ columns)
-        return beyond
+        return beyond(self.basis, self.slopes[:, self.board.columns(effects)])
 
     def with_effects(self, effects: tuple[str, ...]) -> Explanation:
         """Return about what a refit with these effects would be, by the slopes here."""
@@ -152,6 +160,17 @@ class Explanation:
         residual = self.residual - self.slopes[:, free] @ step
         at = replace(self.at, unknowns=unknowns, residual=residual)
         return Explanation(self.board, effects, at, settled=True)
+
+
+def beyond(basis: Array, columns: Array) -> Array:
+    """Return columns without what orthonormal columns can imitate."""
+    left: Array = columns - basis @ (basis.T @ columns)
+    return left
+
+
+def covariance_of(columns: Array) -> Array:
+    """Return the covariance of unknowns with these whitened columns."""
+    return np.linalg.pinv(columns.T @ columns, rcond=1e-12, hermitian=True)
 
 
 def span(columns: Array, *, against: Array | None = None) -> Array:

@@ -8,7 +8,7 @@ import numpy as np
 import scipy
 
 from plumb.diagnosis.evidence import NOISE_STEP
-from plumb.diagnosis.explanation import Explanation, span
+from plumb.diagnosis.explanation import Explanation, beyond, span
 from plumb.diagnosis.priors import NOISE_DEGREES, noise_prior
 from plumb.fit.inputs import Stated
 from plumb.fit.observations import Observations
@@ -139,5 +139,5 @@ def left_by_noise(explanation: Explanation, noise: Noise) -> float:
 def library_basis(explanation: Explanation) -> Array:
     """Orthonormal columns of what was fitted and of every effect of the library."""
     raw = explanation.slopes[:, explanation.board.columns(explanation.board.effect_columns)]
-    fitted = explanation.basis
-    return np.hstack([fitted, span(raw - fitted @ (fitted.T @ raw), against=raw)])
+    basis = explanation.basis
+    return np.hstack([basis, span(beyond(basis, raw), against=raw)])

@@ -8,7 +8,7 @@ from typing import Annotated
 import numpy as np
 from pydantic import computed_field
 
-from plumb.diagnosis.explanation import Board, explain
+from plumb.diagnosis.explanation import Board
 from plumb.diagnosis.noise import library_basis
 from plumb.fit.observations import Observations
 from plumb.marks.read import Measurements
@@ -334,7 +334,7 @@ def _outlier(
 
 def _best(board: Board) -> MixedPair | None:
     """Return the pair whose mix-up explains most of what the library cannot draw."""
-    frame, rows = explain(board), board.rows
+    frame, rows = board.fitted, board.rows
     basis = library_basis(frame)
     left = frame.residual - basis @ (basis.T @ frame.residual)
     marks = np.arange(rows.measured.size).reshape(-1, 2)

@@ -146,41 +146,46 @@ class Posterior:
         An account with more effects than a likelier account adds nothing that the marks ask for,
         so it counts with that one; but none counts with "nothing", which would hide it.
         """
-        return listing(self.accounts, np.array([account.clean for account in self.accounts]))
+        return self._listed(np.array([account.clean for account in self.accounts]))
 
     def listed_with_field(self) -> list[Listed]:
         """Return the same where a smooth field acts too."""
-        return listing(self.accounts, np.array([account.field for account in self.accounts]))
+        return self._listed(np.array([account.field for account in self.accounts]))
+
+    def _listed(self, weights: Array) -> list[Listed]:
+        several = [account.effects for account in self.accounts]
+        return [Listed(self.accounts[i], share) for i, share in listing(several, weights)]
 
 
-def listing(accounts: Sequence[Account], weights: Array) -> list[Listed]:
-    """Return the same for other log weights (accounts,) of accounts."""
-    chances = np.exp(weights - np.logaddexp.reduce(weights))
+def listing(several: Sequence[Effects], weights: Array) -> list[tuple[int, float]]:
+    """Return the same of accounts that ask for some effects, by log weights (accounts,): the place
+    and the share of each.
+    """
+    chances = np.exp(weights - np.logaddexp.reduce(weights)).tolist()
     kept: dict[int, float] = {}
     before = 0.0
-    for i in ascending(-weights):
-        effects = {*accounts[i].effects}
-        base = next(
-            (j for j in kept if accounts[j].effects and {*accounts[j].effects} < effects), None
-        )
-        if base is None and (before >= LISTED or len(effects) > TOGETHER + len(EVERY_MACHINE)):
+    for i in ascending(-weights).tolist():
+        effects = {*several[i]}
+        base = next((j for j in kept if several[j] and {*several[j]} < effects), None)
+        if base is not None:
+            kept[base] += chances[i]
+        elif before < LISTED and len(effects) <= TOGETHER + len(EVERY_MACHINE):
+            kept[i] = chances[i]
+        else:
             continue
-        kept[base if base is not None else int(i)] = kept.get(i if base is None else base, 0.0) + (
-            float(chances[i])
-        )
-        before += float(chances[i])
+        before += chances[i]
     order = ranked(kept, lambda i: -kept[i])
-    held = np.cumsum([kept[i] for i in order]) - np.array([kept[i] for i in order])
+    held = np.cumsum([0.0, *(kept[i] for i in order)])
     return [
-        Listed(accounts[i], kept[i])
-        for i, so_far in zip(order[:MOST_LISTED], held, strict=False)
+        (i, kept[i])
+        for i, so_far in zip(order[:MOST_LISTED], held.tolist(), strict=False)
         if so_far < LISTED
     ]
 
 
 def posterior_of(board: Board, stated: Stated | None) -> Posterior:
     """Weigh all accounts of a board."""
-    frame = explain(board)
+    frame = board.fitted
     felt = felt_effects(frame)
     linear = LinearBoard.of(frame, felt)
     accounts = accounts_of(linear, TOGETHER if linear.measured <= FEWER else 2)

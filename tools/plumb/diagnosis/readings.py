@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
@@ -20,7 +21,7 @@ from plumb.diagnosis.outliers import (
     readings_of,
     without,
 )
-from plumb.diagnosis.posterior import Posterior, explain_account, posterior_of
+from plumb.diagnosis.posterior import Account, Posterior, explain_account, posterior_of
 from plumb.fit.inputs import Inputs, Stated
 from plumb.fit.observations import model_and_observations
 from plumb.fit.problem import USUAL_SIGMA
@@ -45,6 +46,16 @@ class CleanReadings:
     def noise(self) -> Noise:
         """That of what is left."""
         return self.posterior.noise
+
+    def explained(self, account: Account) -> Explanation:
+        """Return the fit of an account; each is fitted once."""
+        if account not in self._fits:
+            self._fits[account] = explain_account(self.frame, account.effects, account.acting)
+        return self._fits[account]
+
+    @cached_property
+    def _fits(self) -> dict[Account, Explanation]:
+        return {}
 
 
 def clean_readings(board: Board, inputs: Inputs) -> CleanReadings:

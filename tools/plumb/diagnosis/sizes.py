@@ -9,7 +9,7 @@ from typing import Annotated
 import numpy as np
 import scipy
 
-from plumb.diagnosis.explanation import Explanation, span
+from plumb.diagnosis.explanation import Explanation, beyond, covariance_of, span
 from plumb.diagnosis.noise import ORIGINS, Noise
 from plumb.fit.expected import plausible_range
 from plumb.model.catalogue import parameter_words
@@ -54,12 +54,11 @@ def sizes_of(explanation: Explanation, effect: str, noise: Noise) -> tuple[Size,
     """Return the fitted parameters of an effect of an explanation."""
     problem, words = explanation.board.problem, parameter_words()
     free = explanation.free
-    covariance = _covariance(explanation.slopes[:, free])
     sizes = []
     for column in explanation.board.columns([effect]):
         name, scale = problem.names[column], problem.scale[column]
         value = float(problem.start[column] + scale * explanation.unknowns[column])
-        variance = covariance[list(free).index(column), list(free).index(column)]
+        variance = explanation.covariance[free == column, free == column].item()
         half = noise.quantile * float(np.sqrt(variance)) * scale
         felt = bool(np.any(explanation.slopes[:, column]))
         plausible = plausible_range(name)
@@ -112,16 +111,17 @@ def _room(effect: str, explanation: Explanation, noise: Noise) -> Room:
     board, words = explanation.board, parameter_words()
     columns = board.columns([effect])
     names = [board.problem.names[i] for i in columns]
-    free = np.array([i for i in explanation.free if i not in columns], dtype=int)
     raw = explanation.slopes[:, columns]
     if not np.any(raw):
         nothing = tuple(Limit(name.partition(".")[2], None, words[name]["unit"]) for name in names)
         return Room(effect, nothing, None)
-    fitted = span(explanation.slopes[:, free])
-    beyond = raw - fitted @ (fitted.T @ raw)
-    covariance = _covariance(beyond)
+    without = [i for i in explanation.free if i not in columns]
+    fits = effect in explanation.effects
+    basis = span(explanation.slopes[:, without]) if fits else explanation.basis
+    added = beyond(basis, raw)
+    covariance = covariance_of(added)
     start = explanation.unknowns[columns]
-    middle = start + np.linalg.lstsq(beyond, explanation.residual, rcond=1e-10)[0]
+    middle = start + np.linalg.lstsq(added, explanation.residual, rcond=1e-10)[0]
     total = board.problem.start[columns] / board.problem.scale[columns] + middle
     reach = noise.upper_quantile * np.sqrt(np.diag(covariance))
     limits = []
@@ -161,11 +161,6 @@ def _main_axes(columns: Array) -> Array:
     left, sizes, _ = np.linalg.svd(columns, full_matrices=False)
     main: Array = (left * sizes).T
     return main
-
-
-def _covariance(columns: Array) -> Array:
-    """Return the covariance of unknowns with these whitened columns."""
-    return np.linalg.pinv(columns.T @ columns, rcond=1e-12, hermitian=True)
 
 
 def intervals_sentence(sigma: float, source: str) -> str:

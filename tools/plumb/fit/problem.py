@@ -14,6 +14,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -141,7 +142,7 @@ class Problem:
 
     def values(self, unknowns: Array) -> tuple[Array, dict[str, float]]:
         """Return the model's values array, and what lies outside of the machine by name."""
-        values = values_of(self.settings)
+        values = self._of_settings.copy()
         outside = dict(self.outside)
         for name, value in zip(self.names, self.start + self.scale * unknowns, strict=True):
             if name in NAMES:
@@ -149,6 +150,10 @@ class Problem:
             else:
                 outside[name] = float(value)
         return values, outside
+
+    @cached_property
+    def _of_settings(self) -> Array:
+        return values_of(self.settings)
 
     def predict(self, unknowns: Array) -> tuple[Sighting, bool]:
         """Return what should have been measured, with slopes by the values of `names`, and

@@ -9,6 +9,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import cache
 from typing import NamedTuple
 
 import numpy as np
@@ -69,11 +70,13 @@ def notes_on(names: Iterable[str]) -> list[str]:
     ]
 
 
+@cache
 def zero_of(name: str) -> RoundUnknown | None:
     """Return the chain zero that a name stands for."""
     return _parsed(_ZERO, ZERO_AXES, name)
 
 
+@cache
 def pose_of(name: str) -> RoundUnknown | None:
     """Return the part of a sheet's pose that a name stands for."""
     return _parsed(_POSE, POSE_AXES, name)

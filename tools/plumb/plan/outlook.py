@@ -28,7 +28,7 @@ from plumb.diagnosis.evidence import (
 from plumb.diagnosis.explanation import Board
 from plumb.diagnosis.linear import LinearBoard, Metric
 from plumb.diagnosis.noise import Noise
-from plumb.diagnosis.posterior import Account, listing
+from plumb.diagnosis.posterior import listing
 from plumb.diagnosis.priors import PITCH, TOGETHER, SizePriors
 from plumb.model.catalogue import EVERY_MACHINE
 from plumb.model.plain import ascending
@@ -106,13 +106,13 @@ def _named(asked: list[Effects], weights: Array) -> list[Effects]:
     """Return the explanations that a verdict lists; none where it names nothing."""
     together: dict[Effects, float] = {}
     for effects, weight in zip(asked, weights.tolist(), strict=True):
-        together[effects] = float(np.logaddexp(together.get(effects, -np.inf), weight))
-    accounts = [Account(effects, effects, weight, -np.inf) for effects, weight in together.items()]
-    each = np.array(list(together.values()))
+        known = together.get(effects)
+        together[effects] = weight if known is None else float(np.logaddexp(known, weight))
+    several, each = list(together), np.array(list(together.values()))
     nothing = together.get((), -np.inf) - np.logaddexp.reduce(each)
     if is_silent(float(np.exp(nothing))):
         return []
-    return [listed.account.effects for listed in listing(accounts, each)]
+    return [several[place] for place, _ in listing(several, each)]
 
 
 def _is_right(named: list[Effects], acting: Effects, shown: Iterable[str]) -> bool:

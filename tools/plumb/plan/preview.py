@@ -16,7 +16,7 @@ import scipy
 from pydantic import computed_field
 
 from plumb.diagnosis.answer import NOTHING
-from plumb.diagnosis.explanation import FEWEST_NUMBERS, Board, Explanation, explain
+from plumb.diagnosis.explanation import FEWEST_NUMBERS, Board, Explanation
 from plumb.diagnosis.posterior import posterior_of
 from plumb.diagnosis.priors import chance_of, size_priors
 from plumb.diagnosis.sizes import hidden_share
@@ -173,7 +173,7 @@ def _as_planned(
         measured=sighting.read.where[rows.mark_rows],
         distances=sighting.taped_spans(rows.distance_rows),
     )
-    return explain(board.with_rows(exact))
+    return board.with_rows(exact).fitted
 
 
 def _matrix(frame: Explanation, slopes: Array) -> Array:

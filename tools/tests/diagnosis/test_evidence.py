@@ -41,7 +41,7 @@ def test_the_evidence_is_the_density_of_the_readings(has_field, pitch):
     other = field(board) if has_field else None
     metric = Metric.of(board, SIGMAS, other, pitch=pitch > 0)
     for part in accounts_of(board).parts:
-        fit = fitted(part, board.sizes, metric)
+        fit = fitted(part, metric)
         loose = fit.evidence.reshape(3, len(part.sets), len(SIGMAS))
         for a in range(len(part.sets)):
             for m, sigma in enumerate(SIGMAS):
@@ -54,7 +54,7 @@ def test_the_evidence_is_the_density_of_the_readings(has_field, pitch):
 def test_sizes_are_those_of_the_textbook():
     board = made_up(least=EITHER_SIGN)
     part = accounts_of(board).parts[-1]
-    fit = fitted(part, board.sizes, Metric.of(board, SIGMAS[:1]))
+    fit = fitted(part, Metric.of(board, SIGMAS[:1]))
     precision = np.linalg.inv(covariance_of(board, SIGMAS[0]))
     for a in (0, len(part.sets) - 1):
         columns = board.effects[:, part.index[a]]
@@ -80,7 +80,7 @@ def test_what_cannot_be_negative_counts_over_its_possible_sizes_alone(pull):
     board = replace(board, read=pull * board.effects[:, [1]])
     accounts = accounts_of(board)
     part, first = variant(accounts, "chain_plane")
-    fit = fitted(part, board.sizes, Metric.of(board, SIGMAS[1:2]))
+    fit = fitted(part, Metric.of(board, SIGMAS[1:2]))
     place = list(part.index[first]).index(1)
     for a in (first, first + 1):  # of typical and of large sizes
         without = replace(part, variance=part.variance * (np.arange(part.index.shape[1]) != place))

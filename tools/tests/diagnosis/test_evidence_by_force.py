@@ -75,7 +75,7 @@ def by_force(index, variance, **more):
 def test_the_evidence_of_sets_is_the_density_of_the_readings(more):
     metric = Metric.of(BOARD, np.array([SIGMA]), more.get("other"), pitch=more.get("pitch", False))
     for part in ACCOUNTS.parts:
-        fit = fitted(part, BOARD.sizes, metric)
+        fit = fitted(part, metric)
         # Impossible signs are weighed only for what is likely.
         likely = np.flatnonzero(fit.evidence[0] > fit.evidence[0].max() - UNLIKELY + 1)
         for place in likely[np.argsort(-fit.evidence[0, likely])[:LIKELIEST]]:

@@ -11,7 +11,6 @@ from plumb.diagnosis.explanation import measured_board
 from plumb.diagnosis.posterior import (
     LISTED,
     MOST_LISTED,
-    Account,
     explain_account,
     listing,
     posterior_of,
@@ -27,9 +26,8 @@ FINAL = Stated(0.5, is_final=True)
 
 def listed(shares):
     """The accounts that are listed, by the shares of all."""
-    accounts = [Account(effects, effects, 0.0, 0.0) for effects in shares]
-    weights = np.log([*shares.values()]) + 7.0
-    return [(each.account.effects, each.share) for each in listing(accounts, weights)]
+    several, weights = [*shares], np.log([*shares.values()]) + 7.0
+    return [(several[place], share) for place, share in listing(several, weights)]
 
 
 def test_the_fewest_accounts_that_hold_nearly_all_are_listed():

@@ -39,12 +39,11 @@ def judged(shares, monkeypatch, *, field=TINY, moved=TINY, misfit=0.5, outliers=
         noise=None,
         noises=None,
     )
-    asked = []
-    monkeypatch.setattr(
-        "plumb.diagnosis.answer.explain_account", lambda *account: asked.append(account)
-    )
     monkeypatch.setattr("plumb.diagnosis.answer.misfit_chance", lambda fitted, stated: misfit)
-    return judge(SimpleNamespace(posterior=posterior, outliers=outliers, frame="frame"), None)
+    readings = SimpleNamespace(
+        posterior=posterior, outliers=outliers, explained=lambda account: account
+    )
+    return judge(readings, None)
 
 
 def both(bound):

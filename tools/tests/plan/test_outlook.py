@@ -9,7 +9,7 @@ from plumb.diagnosis.answer import NOTHING
 from plumb.diagnosis.every_machine import asked_for, clean_of
 from plumb.diagnosis.evidence import Noises, accounts_of, fitted
 from plumb.diagnosis.linear import LinearBoard, Metric
-from plumb.diagnosis.posterior import Account, listing
+from plumb.diagnosis.posterior import listing
 from plumb.diagnosis.priors import SizePriors
 from plumb.marks.read import Measurements
 from plumb.plan.case import Check, Planned
@@ -74,7 +74,7 @@ def drawn_machines(board, accounts, count, source):
     for drifts in {False, bool(pitch.any())}:
         metric = Metric.of(board, NOISES.sigmas, pitch=drifts)
         for part in accounts.parts:
-            weights.append(fitted(part, board.sizes, metric).evidence[0])
+            weights.append(fitted(part, metric).evidence[0])
             variants += [(part, a, pitch if drifts else 0 * pitch) for a in range(len(part.sets))]
     weights = np.concatenate(weights)
     frame, least = board.frame.shape[1], board.sizes.least - board.sizes.mean
@@ -159,8 +159,9 @@ def is_settled(board, accounts, clean, acting, shown):
     weights = np.array([*together.values()])
     if np.exp(together.get((), -np.inf) - np.logaddexp.reduce(weights)) > NOTHING:
         return not acting
-    named = listing([Account(effects, effects, 0.0, 0.0) for effects in together], weights)
-    return len(named) == 1 and _is_right([named[0].account.effects], acting, shown)
+    several = [*together]
+    named = listing(several, weights)
+    return len(named) == 1 and _is_right([several[named[0][0]]], acting, shown)
 
 
 @pytest.mark.parametrize(
