@@ -81,8 +81,9 @@ class Round:
         """The end of the round in one sentence."""
         diagnosis, addition = self.result.diagnosis, self.result.addition
         if self.done and addition:
-            chosen = self.result.chosen
-            what = f"with {plainly(chosen)} added" if chosen else "with the frame fitted"
+            added, chosen = addition.effects_added, self.result.chosen
+            again = f"with {plainly(chosen)} fitted again" if chosen else "with the frame fitted"
+            what = f"with {plainly(added)} added" if added else again
             return (
                 f"Done: {what}, the error falls from {bare(addition.raw.rms)} to "
                 f"{worded(addition.after.fit_rms)} RMS, {worded(addition.after.left_out_rms)} "

@@ -11,7 +11,7 @@ from plumb.cli.output import write_outputs
 from plumb.cli.screen import headline, print_json, sentences, table
 from plumb.diary.file import Diary, Entry, has_diary, noted, read_diary
 from plumb.diary.history import Course, DiaryFit, History, history_of
-from plumb.model.plain import noun_of, plain_name, plain_size
+from plumb.model.plain import noun_of, plain_change, plain_name, plain_size
 from plumb.pictures.reach import Run, draw_diary
 from plumb.text.errors import InputError
 from plumb.text.values import bare, unit, worded
@@ -84,9 +84,15 @@ def _sentence(history: History) -> str:
         return "The diary has no fit yet."
     count, newest = len(history.fits), history.fits[-1]
     fits = f"{count} fit{'s' if count > 1 else ''}"
-    moved = [plain_name(course.name) for course in history.courses if course.has_moved]
+    moved = dict.fromkeys(_noun(course.name) for course in history.courses if course.has_moved)
     said = f"{fits}; the newest leaves {worded(newest.left_out)} at marks left out of it"
     return f"{said}. Moved since the fit before: {', '.join(moved)}." if moved else f"{said}."
+
+
+def _noun(name: str) -> str:
+    """Return a number of the frame, or the effect that a number belongs to, in a maker's words."""
+    effect, dot, _ = name.partition(".")
+    return noun_of(effect) if dot else plain_name(name)
 
 
 def _fits(history: History) -> str:
@@ -97,7 +103,7 @@ def _fits(history: History) -> str:
             bare(fit.before),
             bare(fit.rms),
             bare(fit.left_out),
-            ", ".join(map(noun_of, fit.effects)) or "frame only",
+            ", ".join(map(noun_of, fit.effects)) or "nothing",
         ]
         for fit in history.fits
     ]
@@ -116,7 +122,11 @@ def _now(course: Course) -> str:
 
 
 def _change(course: Course) -> str:
-    return "" if course.change is None else f"{course.change:+.3g} {course.unit}"
+    if course.change is None:
+        return ""
+    before, now = course.points[-2:]
+    said = plain_change(course.name, before.value, now.value, now.low, now.high)
+    return f"{said.shift} {said.unit}"
 
 
 def _moved(course: Course) -> str:

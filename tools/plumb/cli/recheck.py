@@ -25,7 +25,7 @@ from plumb.diary.recheck import LEFT, RIGHT, SHEET_X, SHEET_Y, Change, Recheck, 
 from plumb.fit.inputs import refuse_the_same_twice, settings_in
 from plumb.job.home import FAR, Point, are_apart
 from plumb.marks.read import read_marks
-from plumb.model.plain import plain_name, words_of
+from plumb.model.plain import in_feet, plain_change, plain_name, words_of
 from plumb.model.predict import known_effects
 from plumb.text.answers import Moment, json_of
 from plumb.text.errors import InputError
@@ -175,9 +175,13 @@ def _change(change: Change) -> str:
     if change.name in (SHEET_X, SHEET_Y):
         return f"the sheet has moved by {_size(change)} along {change.name[-1]}"
     words = words_of(change.name)
-    if words["unit"] == "mm":
+    if "." not in change.name and words["unit"] == "mm":
         return f"{plain_name(change.name)} by {_size(change)}"
-    return f"{plain_name(change.name)} by {change.size:+.2g} +- {change.sigma:.1g}"
+    now = change.before + change.size
+    ends = now - change.sigma, now + change.sigma
+    said = plain_change(change.name, change.before, now, *ends)
+    by = f"by {said.shift} +- {said.margin} {said.unit}"
+    return in_feet(words["more"]).replace("#", by)
 
 
 def _size(change: Change) -> str:

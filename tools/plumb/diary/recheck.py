@@ -38,6 +38,7 @@ class Change:
     name: str  # a chain, the sheet along an axis, or a number of the frame or of an effect
     size: float  # [mm] or the number's unit
     sigma: float
+    before: Internal[float]  # the number in the settings; 0 for a chain or the sheet
     chi_square: Internal[float]  # that it leaves
     explains: bool  # whether what it leaves is within the interval
 
@@ -169,11 +170,13 @@ def _changes(
         if name in NAMES:
             columns[name] = _slope_of(name, where, slopes)
     limit = scipy.special.chdtri(errors.size - 1, 1 - LEVEL)
+    before = dict(zip(NAMES, values_of(settings.as_plumb_model()), strict=True))
     changes = []
     for name, column in columns.items():
         weighted = np.linalg.solve(covariance, column)
         size, sigma = weighted @ errors / (weighted @ column), (weighted @ column) ** -0.5
         left = errors - size * column
         rest = float(left @ np.linalg.solve(covariance, left))
-        changes.append(Change(name, float(size), float(sigma), rest, explains=bool(rest <= limit)))
+        sizes = float(size), float(sigma), float(before.get(name, 0.0))
+        changes.append(Change(name, *sizes, rest, explains=bool(rest <= limit)))
     return tuple(ranked(changes, lambda change: change.chi_square))

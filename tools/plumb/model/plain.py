@@ -149,6 +149,12 @@ class PlainChange(NamedTuple):
     margin: str
     unit: str
 
+    @property
+    def shift(self) -> str:
+        """How far it moved, with its sign."""
+        digits = len(self.after.partition(".")[2])
+        return f"{float(self.after) - float(self.before):+.{digits}f}"
+
 
 def plain_change(name: str, before: float, value: float, low: float, high: float) -> PlainChange:
     """Return how a number changes, in a maker's words."""

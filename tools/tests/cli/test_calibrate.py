@@ -104,6 +104,22 @@ def test_the_printed_commands_lead_to_the_files_and_to_a_second_round(run):
     assert read_settings("machine.toml") == settings
 
 
+@pytest.mark.parametrize(
+    ("chosen", "added", "said"),
+    [
+        (("chain_sag",), ("chain_sag",), "with chain sag added"),
+        (("chain_sag",), (), "with chain sag fitted again"),
+        ((), (), "with the frame fitted"),
+    ],
+)
+def test_added_is_what_the_settings_did_not_have(chosen, added, said):
+    after = SimpleNamespace(fit_rms=0.5, left_out_rms=0.6)
+    addition = SimpleNamespace(effects_added=added, raw=SimpleNamespace(rms=2.0), after=after)
+    result = SimpleNamespace(diagnosis=None, addition=addition, done=True, rivals=(), chosen=chosen)
+    whole = Round(comparison=None, result=result)
+    assert whole.sentence.startswith(f"Done: {said}, the error falls from 2.00 to")
+
+
 def test_a_hidden_effect_is_added_and_the_second_round_starts_from_the_new_machine(run, ask):
     known = {name: sizes for name, sizes in EFFECTS.items() if name != "chain_pitch"}
     believed = replace(BELIEVED, effects=known)

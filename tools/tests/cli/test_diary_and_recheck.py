@@ -97,17 +97,29 @@ def test_what_moved_is_said_first_and_in_its_row(run, ask, folder):
         is_moved = day == 3
         assert ("Moved since the fit before: gap between the motors." in said) is is_moved
         assert (said.count("moved") == 1) is is_moved, "in the row of the number"
-    assert "+5 mm" in said and "+1 mm" not in said
+    assert "+5.0 mm" in said and "+1.0 mm" not in said
     lines = run("diary")[1].splitlines()
     rows = [line.split() for line in lines if line.startswith("2026-05-")]
     assert [row[:2] for row in rows] == [[f"2026-05-0{day}", "12:00"] for day in (1, 2, 3)]
-    assert rows[0][2:] == ["9", "4.00", "0.50", "0.75", "frame", "only"]
+    assert rows[0][2:] == ["9", "4.00", "0.50", "0.75", "nothing"]
     (head,) = (line for line in lines if line.endswith("added"))
-    assert head.index("added") == lines[lines.index(head) + 1].index("frame only")
+    assert head.index("added") == lines[lines.index(head) + 1].index("nothing")
     _, answer = ask("diary")
     assert [fit["readings"] for fit in answer["fits"]] == [9, 9, 9]
     assert answer["numbers"][0]["moved"] is True
     assert answer["numbers"][0]["points"][2]["value"] == 2984
+
+
+def test_a_change_has_the_unit_of_its_number(run, folder):
+    # The usual sag is 8.1944e-12 1/mm^2.
+    for day, sag in enumerate([8.1944e-12, 4 * 8.1944e-12], start=1):
+        number = {"name": "chain_sag.weight_ratio_squared", "unit": "1/mm^2", "value": sag}
+        numbers = [{**number, "low": 0.81 * sag, "high": 1.21 * sag}]
+        at = datetime(2026, 5, day, 12, tzinfo=UTC)
+        append(folder, "fit", fit_with(1, 2, numbers=numbers), at=at)
+    said = " ".join(run("diary")[1].split())
+    assert "chains sag 4.0 times the usual amount (3.2 to 4.8) +3.0 times" in said
+    assert "Moved since the fit before: chain sag." in said
 
 
 def test_other_entries_are_the_last_ten_each_in_its_words(run, folder):
@@ -155,6 +167,7 @@ def test_a_recheck_says_each_mark_and_the_four_best_changes(run, ask, folder):
     along_y = ("--touch=-900,255:-900,250", "--touch=900,-245:900,-250")
     said_of_y = run("recheck", "machine.toml", *along_y)[1]
     assert "5.00 +- 0.37 mm along y" in " ".join(said_of_y.split())
+    assert re.search(r"\n(left|right) chain by [+-]0\.\d+ \+- 0\.\d+ % too long ", shown)
     near = ("--touch=-900.4,250.3:-900,250", "--touch=900.6,-249.8:900,-250")
     assert "a single change" not in run("recheck", "machine.toml", *near)[1]
 
