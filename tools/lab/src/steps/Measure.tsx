@@ -58,7 +58,7 @@ export function Measure() {
         </>
       }
     >
-      {advice && <Advised advice={advice} chosen={id} take={take} />}
+      <Advised advice={advice} chosen={id} take={take} />
       <Layouts
         layouts={layouts}
         chosen={id}
@@ -88,12 +88,18 @@ export function Measure() {
 }
 
 interface AdvisedParts {
-  advice: Layout.Advice;
+  advice: Layout.Advice | undefined; // it takes a while
   chosen: Layout.Id;
   take: (layout: Layout.Id) => void;
 }
 
 function Advised({ advice, chosen, take }: AdvisedParts) {
+  if (!advice)
+    return (
+      <p class="advised" role="status" aria-busy>
+        Working out which marks to recommend …
+      </p>
+    );
   return (
     <p class="advised">
       <strong>Recommended.</strong> {advice.sentence}{" "}
