@@ -188,6 +188,7 @@ def test_text_on_a_map_has_its_size_before_anybody_watches_the_map_grow(shown):
       disconnect() {}
     }""")
     shown.reload()
+    shown.locator("nav").wait_for()  # else the page may yet open its first screen
     shown.evaluate("() => { location.hash = '#/reach' }")
     settle(shown)
     shown.locator(".sheet .names text").first.wait_for()
