@@ -181,7 +181,7 @@ def _change(change: Change) -> str:
     ends = now - change.sigma, now + change.sigma
     said = plain_change(change.name, change.before, now, *ends)
     by = f"by {said.shift} +- {said.margin} {said.unit}"
-    return in_feet(words["more"]).replace("#", by)
+    return in_feet(words["more"]).replace("by #", "#").replace("#", by)
 
 
 def _size(change: Change) -> str:

@@ -4,9 +4,13 @@ import re
 import shutil
 from datetime import UTC, datetime
 from pathlib import Path
+from types import SimpleNamespace
 
+import numpy as np
 import pytest
+from plumb.cli.recheck import sentence
 from plumb.diary.file import append, read_diary
+from plumb.diary.recheck import Change
 
 EXAMPLE = Path(__file__).resolve().parents[3] / "docs/example"
 
@@ -170,6 +174,36 @@ def test_a_recheck_says_each_mark_and_the_four_best_changes(run, ask, folder):
     assert re.search(r"\n(left|right) chain by [+-]0\.\d+ \+- 0\.\d+ % too long ", shown)
     near = ("--touch=-900.4,250.3:-900,250", "--touch=900.6,-249.8:900,-250")
     assert "a single change" not in run("recheck", "machine.toml", *near)[1]
+
+
+@pytest.mark.parametrize(
+    ("name", "size", "sigma", "before", "said"),
+    [
+        ("motor_gap", -8.8, 0.7, 2978.0, "gap between the motors by -8.80 +- 0.70 mm"),
+        (
+            "chain_stretch.compliance",
+            5e-6,
+            1e-6,
+            5e-6,
+            "chains by +0.50 +- 0.10 mm longer for each metre at 100 N",
+        ),
+        # Squares of 10 and of 20 mm.
+        (
+            "chain_plane.gap_squared",
+            300.0,
+            20.0,
+            100.0,
+            "sprockets and ring differ by +10.0 +- 0.5 mm in their distance from the sheet",
+        ),
+    ],
+)
+def test_a_change_has_the_words_and_the_unit_of_its_number(name, size, sigma, before, said):
+    change = Change(name, size, sigma, before, 0.0, explains=True)
+    at = datetime(2026, 5, 1, 12, tzinfo=UTC)
+    checked = SimpleNamespace(
+        holds=False, errors=np.ones((2, 2)), fit=SimpleNamespace(at=at), changes=(change,)
+    )
+    assert sentence(checked).endswith(f"The likeliest: {said}.")
 
 
 def test_errors_that_no_single_change_explains_are_said_so(run, folder):

@@ -87,6 +87,9 @@ def test_a_sheet_that_moved_is_named_with_its_size(checked, change, size):
     assert (best.name, best.explains) == (change, True)
     assert best.size == pytest.approx(size)
     assert best.sigma == pytest.approx(SIGMA / math.sqrt(2)), "the mean of two touches"
+    assert best.before == 0
+    changes = {each.name: each for each in checked(size * along(change)).changes}
+    assert changes["motor_gap"].before == MAKER.motor_gap
 
 
 @pytest.mark.parametrize(("name", "longer"), [(LEFT, (1.5, 0)), (RIGHT, (0, -1.5))])
