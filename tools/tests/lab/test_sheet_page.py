@@ -6,7 +6,7 @@ import xml.etree.ElementTree as ET
 
 import pytest
 from playwright.sync_api import expect
-from screens import axe_findings, measured_machine, settle
+from screens import axe_findings, go_on_until, measured_machine, settle
 
 FRAME = ".sheet .board"
 CARD = ".card-of-mark"
@@ -196,6 +196,35 @@ def test_its_axes_are_in_inches_where_the_page_is(verdict):
     verdict.locator(FRAME).focus()
     verdict.keyboard.press("Home")
     expect(verdict.locator(CARD)).to_contain_text(re.compile(r"Mark 1 0\.\d{3} inch off"))
+
+
+def test_a_mark_stays_chosen_while_the_verdict_is_said_in_another_unit(verdict):
+    held = []
+    verdict.locator(FRAME).focus()
+    verdict.keyboard.press("Home")
+    verdict.route("**/api/verdict", half_worked(held))
+    verdict.get_by_role("radio", name="inch").check()
+    expect(verdict.locator(CARD)).to_contain_text(re.compile(r"Mark 1 0\.\d{3} inch off"))
+    go_on_until(verdict, lambda: len(held) > 1)  # asked again after the answer that is not whole
+    expect(verdict.locator(".screen")).to_have_attribute("aria-busy", "true")
+    expect(verdict.locator(CARD)).to_contain_text("Mark 1")
+    verdict.unroute("**/api/verdict")
+    settle(verdict)
+    expect(verdict.locator(CARD)).to_contain_text("Mark 1")
+
+
+def test_a_verdict_goes_where_its_readings_have_changed(lab, verdict):
+    verdict.route("**/api/verdict", half_worked([]))
+    form = next(lab.folder.glob("*marks*.toml"))
+    form.write_text(form.read_text() + "\n# read again\n")
+    expect(verdict.get_by_role("progressbar")).to_be_visible()
+    expect(verdict.locator(FRAME)).to_have_count(0)
+
+
+def half_worked(asked):
+    """A route that notes each question, and says that half of its work is done."""
+    answer = {"share": 0.5, "command": ""}
+    return lambda route: (asked.append(route), route.fulfill(json=answer))
 
 
 def test_its_data_are_saved_as_a_table(verdict):

@@ -1,5 +1,5 @@
 // An answer that takes seconds: asked again until it is whole, and again when the folder has changed.
-import { useEffect, useState } from "preact/hooks";
+import { useEffect, useRef, useState } from "preact/hooks";
 import { get, isSilence } from "../api/client";
 import { useProject } from "./project";
 
@@ -9,16 +9,27 @@ interface Slow {
   share: number;
 }
 
+interface Whole<Answer> {
+  files: string;
+  answer: Answer;
+}
+
+/**
+ * The answer of a path for the folder as it is now. Where only a choice has changed, such as the unit, the last whole
+ * answer stays in view until the next is whole, with how far that is. After other files nothing of it stays.
+ */
 export function useAnswer<Answer extends Slow>(
   path: string,
   wanted = true,
 ): { answer: Answer | undefined; refused: string } {
   const { project } = useProject();
   const [answer, setAnswer] = useState<Answer>();
+  const whole = useRef<Whole<Answer> | undefined>(undefined);
   const [refused, setRefused] = useState("");
   const { "lab.json": _, ...files } = project.files;
   // Choices count once they are saved: the server answers by what it has.
-  const state = JSON.stringify([files, project.choices_digest]);
+  const held = JSON.stringify(files);
+  const state = `${held} ${project.choices_digest}`;
   // A new state of the folder needs a new answer.
   useEffect(() => {
     if (!wanted) return;
@@ -27,6 +38,7 @@ export function useAnswer<Answer extends Slow>(
       try {
         const now = await get<Answer>(path);
         if (over) return;
+        if (now.share === 1) whole.current = { files: held, answer: now };
         setAnswer(now);
         setRefused("");
         if (now.share < 1) setTimeout(() => void (over || ask()), AGAIN_MS);
@@ -41,5 +53,7 @@ export function useAnswer<Answer extends Slow>(
       over = true;
     };
   }, [path, state, wanted]);
-  return { answer, refused };
+  const stays = whole.current?.files === held ? whole.current.answer : undefined;
+  const isOnItsWay = answer !== undefined && answer.share < 1;
+  return { answer: isOnItsWay && stays ? { ...stays, share: answer.share } : answer, refused };
 }

@@ -59,7 +59,7 @@ export function Verdict() {
     <Screen
       title={TITLES[verdict.verdict] ?? "The verdict"}
       say={verdict.sentence}
-      busy={!bench && !trouble}
+      busy={answer.share < 1 || (!bench && !trouble)}
       why={<Why noise={verdict.noise} notes={verdict.notes} />}
       command={answer.command}
       stage={
