@@ -102,9 +102,8 @@ def _predicted(fitted: Explanation, rows: Observations) -> tuple[Array, Array]:
     there.
     """
     where, moved = _sighting(fitted, rows)
-    inside = _covariance(fitted)
     noise = fitted.board.sigma**2 * np.eye(2)
-    covariances: Array = np.einsum("nij,jk,nlk->nil", moved, inside, moved) + noise
+    covariances: Array = np.einsum("nij,jk,nlk->nil", moved, fitted.covariance, moved) + noise
     return where, covariances
 
 
@@ -112,7 +111,7 @@ def _chi_square(fitted: Explanation, rows: Observations, missed: Array) -> float
     """Return how far off the marks are together; what they share of the fit is counted."""
     _, moved = _sighting(fitted, rows)
     flat = moved.reshape(-1, moved.shape[2])
-    whole = flat @ _covariance(fitted) @ flat.T + fitted.board.sigma**2 * np.eye(len(flat))
+    whole = flat @ fitted.covariance @ flat.T + fitted.board.sigma**2 * np.eye(len(flat))
     return float(missed.ravel() @ np.linalg.solve(whole, missed.ravel()))
 
 
@@ -132,11 +131,6 @@ def _sighting(fitted: Explanation, rows: Observations) -> tuple[Array, Array]:
         names=names,
     )
     return seen.read.where[rows.mark_rows], seen.read.slopes[rows.mark_rows] * problem.scale[free]
-
-
-def _covariance(fitted: Explanation) -> Array:
-    columns = fitted.slopes[:, fitted.free]
-    return np.linalg.pinv(columns.T @ columns, rcond=1e-12, hermitian=True)
 
 
 def _on_last_sheet(rows: Observations, fitted: Observations) -> Observations:

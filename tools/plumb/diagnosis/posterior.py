@@ -183,6 +183,17 @@ def listing(several: Sequence[Effects], weights: Array) -> list[tuple[int, float
     ]
 
 
+def together(asked: Sequence[Effects], weights: Array) -> tuple[list[Effects], Array]:
+    """Return what sets ask for, each once, with the log weight (accounts, ...) of all that ask for
+    it; weights (sets, ...).
+    """
+    places: dict[Effects, int] = {}
+    of_set = [places.setdefault(effects, len(places)) for effects in asked]
+    total = np.full((len(places), *weights.shape[1:]), -np.inf)
+    np.logaddexp.at(total, of_set, weights)
+    return list(places), total
+
+
 def posterior_of(board: Board, stated: Stated | None) -> Posterior:
     """Weigh all accounts of a board."""
     frame = board.fitted
@@ -284,19 +295,14 @@ def _accounts(
 ) -> tuple[Account, ...]:
     """Put sets together that ask for the same effects."""
     order = ascending(-clean.total)
-    together: dict[Effects, Account] = {}
-    for i, asked in zip(order, asked_for(board, accounts, clean, order), strict=True):
-        known = together.get(asked)
-        if known is None:
-            here = float(clean.total[i]), float(field[i])
-            together[asked] = Account(asked, accounts.effects[i], *here)
-        else:
-            together[asked] = replace(
-                known,
-                clean=float(np.logaddexp(known.clean, clean.total[i])),
-                field=float(np.logaddexp(known.field, field[i])),
-            )
-    return tuple(ranked(together.values(), lambda account: -account.clean))
+    asked = asked_for(board, accounts, clean, order)
+    several, weights = together(asked, np.stack([clean.total, field], axis=1)[order])
+    likeliest = dict(zip(reversed(asked), reversed(order.tolist()), strict=True))
+    merged = [
+        Account(effects, accounts.effects[likeliest[effects]], *both)
+        for effects, both in zip(several, weights.tolist(), strict=True)
+    ]
+    return tuple(ranked(merged, lambda account: -account.clean))
 
 
 def _refitted(

@@ -28,7 +28,7 @@ from plumb.diagnosis.evidence import (
 from plumb.diagnosis.explanation import Board
 from plumb.diagnosis.linear import LinearBoard, Metric
 from plumb.diagnosis.noise import Noise
-from plumb.diagnosis.posterior import listing
+from plumb.diagnosis.posterior import listing, together
 from plumb.diagnosis.priors import PITCH, TOGETHER, SizePriors
 from plumb.model.catalogue import EVERY_MACHINE
 from plumb.model.plain import ascending
@@ -104,12 +104,9 @@ def _two_noises(noise: Noise) -> Noises:
 
 def _named(asked: list[Effects], weights: Array) -> list[Effects]:
     """Return the explanations that a verdict lists; none where it names nothing."""
-    together: dict[Effects, float] = {}
-    for effects, weight in zip(asked, weights.tolist(), strict=True):
-        known = together.get(effects)
-        together[effects] = weight if known is None else float(np.logaddexp(known, weight))
-    several, each = list(together), np.array(list(together.values()))
-    nothing = together.get((), -np.inf) - np.logaddexp.reduce(each)
+    several, each = together(asked, weights)
+    is_nothing = np.array([not effects for effects in several])
+    nothing = np.logaddexp.reduce(each[is_nothing]) - np.logaddexp.reduce(each)
     if is_silent(float(np.exp(nothing))):
         return []
     return [several[place] for place, _ in listing(several, each)]
