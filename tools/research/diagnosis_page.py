@@ -32,6 +32,7 @@ COMMAND = "tools/research/diagnosis_page.py"
 # Tables of the gates that the page shows, and their headings here.
 CHOSEN = {
     "Gates": "Lines to reach",
+    "If a field were called from other odds": "If a field were called from other odds",
     "Changes beyond chance": "What changed beyond chance",
     "What proposals promise": "What proposals promise",
     "After the best proposal": "After the best proposal",

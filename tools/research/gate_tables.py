@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from gate_kinds import KINDS
 from gate_rates import (
@@ -22,10 +22,13 @@ from gate_rates import (
 from gate_records import Record
 from plumb.bench.outcome import Line
 from plumb.bench.outcome import Rate as BenchRate
+from plumb.diagnosis.answer import UNKNOWN
 from tables import markdown_table
 
 Records = Sequence[Record]
 SURE = 2.0  # standard errors by which a rate must change to be called another
+CALLED_FROM = (UNKNOWN, 1 / 4, 1 / 3, 1 / 2)  # chances of a field
+SMALL = 0.03  # a share that is said with a digit more
 FEWEST = 30  # stated chances in a bin that is judged
 PLAIN = ("invented", "named", "best", "exact", "first", "inside", "sets", "causes", "needless")
 PLAIN_TOO = ("strange", "interval", "limit", "cure", "auto", "CPU s")
@@ -48,6 +51,7 @@ _EFFECTS_9 = ("one-9", "typical-9")
 _NONE = ("none-9", "none-15", "none-25", "none-35", "other-none-25")
 _CURED = (*_ONE_25, "pairs-25", "two-25", "usual-one-25")
 _SLIPS = tuple(f"slips-{count}-{marks}" for count in range(3) for marks in (15, 25))
+_FIELDS = ("field-9", "field-15", "field-25")
 _ALL = tuple(dict.fromkeys(name.partition("/")[2] for name in KINDS))
 GATES = (
     Gate("nothing hidden, an effect named", "invented", _NONE, Line("", most=0.04)),
@@ -85,6 +89,7 @@ def tables(sides: Sequence[Records]) -> str:
     ]
     if len(sides) > 1:
         parts += ["## Changes beyond chance", _changes(sides)]
+    parts += ["## If a field were called from other odds", _called_later(sides[-1])]
     for where, kinds in (("drawn from the prior", (PRIOR,)), ("of all kinds", ("",))):
         chosen = [[record for record in side if _has(record, kinds)] for side in sides]
         parts += [f"## Stated chances on boards {where}", _chances(chosen)]
@@ -156,7 +161,8 @@ def _words(measure: Measure, rate: Rate | None) -> str:
     if rate is None:
         return "-"
     if measure.is_share:
-        return f"{100 * rate.value:.0f}±{100 * rate.error:.0f}"
+        digits = 1 if rate.value < SMALL else 0
+        return f"{100 * rate.value:.{digits}f}±{100 * rate.error:.{digits}f}"
     return f"{rate.value:.2f}±{rate.error:.2f}"
 
 
@@ -183,6 +189,31 @@ def _changes(sides: Sequence[Records]) -> str:
                 rows.append([kind, measure.name, _cell(measure, rates), words])
     rows.sort(key=lambda row: row[3], reverse=True)
     return markdown_table(("kind", "rate", _sides(sides), ""), rows)
+
+
+def _called_later(records: Records) -> str:
+    """Return what the bound of `not_in_library` decides: boards called strange, and fields seen."""
+    measured = [("strange", "strange", _ALL)]
+    for kind in _FIELDS:
+        measured.append((f"flagged, {kind.rpartition('-')[2]} marks", "flagged", (kind,)))
+    columns = [
+        (f"{words}, {world}", MEASURES[name], {f"{world}/{kind}" for kind in kinds})
+        for words, name, kinds in measured
+        for world in ("known", "stock")
+    ]
+    rows = []
+    for chance in CALLED_FROM:
+        said = [_unless_likelier(record, chance) for record in records]
+        cells = [_cell(measure, [_rate(measure, said, kinds)]) for _, measure, kinds in columns]
+        rows.append([f"1 to {1 / chance - 1:g}", *cells])
+    return markdown_table(("from odds of", *(words for words, _, _ in columns)), rows)
+
+
+def _unless_likelier(record: Record, chance: float) -> Record:
+    """Return what would be said of a board if a field had to be so likely."""
+    if record.verdict != "not_in_library" or not UNKNOWN < (record.field_chance or 0.0) <= chance:
+        return record
+    return replace(record, verdict="cannot_tell")
 
 
 def _chances(sides: Sequence[Records]) -> str:

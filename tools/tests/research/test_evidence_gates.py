@@ -1,5 +1,7 @@
 """The gates of the diagnosis: boards of a seed, what marks can show, and rates of records."""
 
+import re
+
 import evidence_gates
 import numpy as np
 import pytest
@@ -7,6 +9,7 @@ from gate_boards import board_of
 from gate_kinds import KINDS
 from gate_rates import MEASURES, Stated, bins_of, rate_of
 from gate_records import Account, Record, needed_gain, truth_of
+from gate_tables import tables
 from plumb.bench.outcome import look_alikes
 
 
@@ -99,6 +102,17 @@ def test_fields_and_slips_are_counted_apart():
     assert value("small slip", field, slipped) == 1 and value("false slip", field, slipped) == 0
     slipped.outliers = ["a", "b"]
     assert value("small slip", slipped) == 0 and value("false slip", slipped) == 1
+
+
+def test_a_table_says_what_the_odds_decide_from_which_a_field_is_called():
+    likely = record("not_in_library", ["frame_flex"], field_chance=0.3)
+    sure = record("not_in_library", ["frame_flex"], field_chance=0.6)
+    misfit = record("not_in_library", ["frame_flex"], field_chance=0.1)  # called by the guard
+    table = tables([[likely, sure, misfit, record("one_suspect", ["frame_flex"])]])
+    rows = re.findall(r"^\| (1 to \d) \| (\d+)±", table, re.MULTILINE)
+    assert rows == [("1 to 4", "75"), ("1 to 3", "75"), ("1 to 2", "50"), ("1 to 1", "50")]
+    nearly = [record("one_suspect", ["frame_flex"], index=i) for i in range(99)]
+    assert "| 1 to 4 | 1.0±1.0 |" in tables([[sure, *nearly]])
 
 
 def test_a_change_is_judged_on_the_same_boards():
