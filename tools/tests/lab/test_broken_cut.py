@@ -38,6 +38,14 @@ def test_the_rest_has_the_modes_and_the_marks_that_are_not_cut():
     assert rest == [*LINES[:3], *LINES[6:]] and len(rest) + left_out == len(LINES)
 
 
+def test_the_rest_asks_again_for_what_is_to_be_done_before_the_first_mark():
+    asks = ["(let 5 kg more hang on the sled)", "M0", "(mark 1)"]
+    lines = ["(a program)", *LINES[:3], *asks, *LINES[3:6], "(mark 2)", *LINES[6:]]
+    rest, left_out = rest_of(lines, [6, 9], 1)
+    assert rest == ["(a program)", *LINES[:3], *asks, "(mark 2)", *LINES[6:]]
+    assert left_out == 3  # comments are not sent
+
+
 @dataclass
 class Line:
     """A line that hears what it is to send."""
