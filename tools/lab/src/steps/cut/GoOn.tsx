@@ -1,4 +1,5 @@
 // On from where a cut broke off: which marks are on the sheet is asked where nobody but its owner can know.
+import type { ComponentChild } from "preact";
 import { useState } from "preact/hooks";
 import { send } from "../../api/client";
 import { useDo } from "../../shell/doing";
@@ -16,7 +17,9 @@ interface GoOnParts {
   blocked: boolean;
 }
 
-export function GoOn({ surely, perhaps, names, path, blocked }: GoOnParts) {
+/** The question, and the button that goes on by its answer. */
+export function useGoOn(parts: GoOnParts): [question: ComponentChild, act: ComponentChild] {
+  const { surely, perhaps, names, path, blocked } = parts;
   const { reload } = useProject();
   const machine = useMachine();
   const [works, run, refusal] = useDo();
@@ -28,27 +31,27 @@ export function GoOn({ surely, perhaps, names, path, blocked }: GoOnParts) {
     await send("POST", path, { cut });
     await reload();
   };
-  return (
-    <div class="go-on">
-      {perhaps > 0 && (
-        <fieldset class="last-seen">
-          <legend>Look at the sheet: which of these marks is the last on it?</legend>
-          {Array.from({ length: perhaps + 1 }, (_, more) => surely + more).map((count) => (
-            <label key={count}>
-              <input
-                type="radio"
-                name="last-seen"
-                checked={seen === count}
-                onChange={() => setSeen(count)}
-              />
-              {count === 0 ? "none" : `mark ${names[count - 1]}`}
-            </label>
-          ))}
-        </fieldset>
-      )}
-      {cut === names.length ? (
-        <p>Then all are cut: read them.</p>
-      ) : (
+  const question = perhaps > 0 && (
+    <fieldset class="last-seen">
+      <legend>Look at the sheet: which of these marks is the last on it?</legend>
+      {Array.from({ length: perhaps + 1 }, (_, more) => surely + more).map((count) => (
+        <label key={count}>
+          <input
+            type="radio"
+            name="last-seen"
+            checked={seen === count}
+            onChange={() => setSeen(count)}
+          />
+          {count === 0 ? "none" : `mark ${names[count - 1]}`}
+        </label>
+      ))}
+    </fieldset>
+  );
+  const act =
+    cut === names.length ? (
+      "Then all are cut: read them."
+    ) : (
+      <>
         <button
           type="button"
           class="primary"
@@ -59,10 +62,10 @@ export function GoOn({ surely, perhaps, names, path, blocked }: GoOnParts) {
             ? `Go on: move the sled and cut from mark ${next}`
             : "Go on: say first which mark is the last"}
         </button>
-      )}
-      {refusal}
-    </div>
-  );
+        {refusal}
+      </>
+    );
+  return [question, act];
 }
 
 /** How far a cut came that broke off, as the folder knows it: after a restart of the lab too. */
