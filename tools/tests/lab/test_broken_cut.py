@@ -126,6 +126,9 @@ def test_check_marks_that_broke_off_are_asked_for_too(lab, page):
     page.goto(f"{lab.url}#/check")
     said = "Cut 0 of 2 marks, then it broke off. The machine may have cut mark 1 too."
     expect(page.get_by_text(said)).to_be_visible()
+    line.sent["came"](0, len(text.splitlines()))
+    page.reload()
+    expect(page.get_by_text("The machine may have cut marks 1 and 2 too.")).to_be_visible()
 
 
 @pytest.mark.parametrize("content", ["", "[1]", "{}", '{"program": 1}', "\xff"])

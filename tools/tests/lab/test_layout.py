@@ -264,8 +264,10 @@ def test_so_does_every_screen_with_a_machine_that_stands(opened):
     none_out_of_view(opened(**AT_REST), WITH_MACHINE)
 
 
-def test_while_the_machine_cuts_every_screen_shows_stop(opened):
-    page = opened(moves=True, phase="busy", program=RUNS, place=[-812.4, 402.1, 3.5])
+@pytest.mark.parametrize("kind", ["board", "virtual"])
+def test_while_the_machine_cuts_every_screen_shows_stop(opened, kind):
+    cuts = {"moves": True, "phase": "busy", "program": RUNS, "place": [-812.4, -402.1, 13.5]}
+    page = opened(**{**cuts, "kind": kind, "name": kind})
     none_out_of_view(page, dict.fromkeys(WITH_MACHINE, "Stop"))
 
 
@@ -298,6 +300,11 @@ def saved(folder):
 def broken_off(folder, *, marks, begun):
     """A folder whose cut broke off."""
     saved(folder)
+    note_break(folder, marks=marks, begun=begun)
+
+
+def note_break(folder, *, marks, begun):
+    """Note how many marks are surely cut, and how many perhaps."""
     with asked(folder) as client:
         text = got(client.get("/api/grid"))["text"]
     cut = BrokenCut(digest=digest_of(text.encode()), marks=marks, begun=begun, is_virtual=False)
@@ -352,6 +359,19 @@ def test_cut_shows_what_it_wants_in_each_of_its_states(opened, state):
     folder, machine, wanted = CUT_STATES[state]
     page = opened(folder, **({"place": [0, 0, 5], **machine} if machine is not None else {}))
     none_out_of_view(page, {"cut": wanted})
+
+
+def test_which_mark_is_the_last_is_asked_anew_after_each_break(opened, lab):
+    page = opened(partial(broken_off, marks=3, begun=6), **AT_REST)
+    page.goto(page.url.replace("open", "cut"))
+    page.get_by_role("radio", name="mark 6").check()
+    page.get_by_role("button", name="Go on: move the sled").wait_for()
+    note_break(lab.folder, marks=4, begun=6)
+    page.get_by_label("On another sheet").check()  # and the lab is asked again
+    expect(page.get_by_role("radio", name="mark 3")).to_have_count(0)
+    page.get_by_role("button", name="Go on: say first").wait_for()
+    asks = page.get_by_role("group", name="Look at the sheet")
+    expect(asks.get_by_role("radio", checked=True)).to_have_count(0)
 
 
 @pytest.mark.parametrize("size", [WIDE, NARROW], ids=["wide", "narrow"])

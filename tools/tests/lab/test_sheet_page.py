@@ -156,20 +156,23 @@ def assert_drawn(page, state, sigma):
     assert [is_beyond for _, _, is_beyond in sure] == [
         math.hypot(*error) > usual for _, error, _ in sure
     ]
-    return sum(is_beyond for _, _, is_beyond in marks)
+    return sum(is_beyond for _, _, is_beyond in marks), scale
 
 
 def test_each_state_has_its_arrows_and_the_circles_of_its_noise(lab, verdict):
     with lab.client() as client:
         answer = finished(client, "verdict")["verdict"]
     states = verdict.get_by_role("group", name="What is drawn").get_by_role("radio")
-    beyond = []
+    seen = []
     for index, state in enumerate(answer["states"]):
         states.nth(index).check()
-        beyond.append(assert_drawn(verdict, state, answer["sigma"]))
+        seen.append(assert_drawn(verdict, state, answer["sigma"]))
+    beyond, scales = zip(*seen, strict=True)
     assert beyond[0] == 23 > beyond[1] > beyond[2]  # as set, the frame, and the effect
-    verdict.get_by_label("Arrows longer than life").select_option("50")
-    assert_drawn(verdict, answer["states"][2], answer["sigma"])
+    assert scales[0] < scales[1] == scales[2]  # effects are drawn as large as the frame
+    for factor in ("50", "2"):  # where a circle is a point, it stays in view
+        verdict.get_by_label("Arrows longer than life").select_option(factor)
+        assert_drawn(verdict, answer["states"][2], answer["sigma"])
 
 
 def test_correct_compares_the_file_what_is_accepted_and_all_of_it_in_this_order(lab, page):

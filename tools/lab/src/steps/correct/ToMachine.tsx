@@ -24,15 +24,16 @@ export function ToMachine({ writing, isNext, isHeld }: ToMachineParts) {
   const last = lastSent(Object.keys(project.files));
   if (!file && !last) return null;
   const connected = machine.kind !== "none";
+  const steps = connected ? [] : (written?.steps ?? []);
+  const canGiveBack = connected && last;
+  if (isNext && steps.length === 0 && !canGiveBack && !sent) return null;
   return (
     <section class="to-machine" aria-label="To the machine">
       <h2>To the machine</h2>
-      {!connected && written && written.steps.length > 0 && (
-        <p>By hand: {written.steps.join("; ")}.</p>
-      )}
+      {steps.length > 0 && <p>By hand: {steps.join("; ")}.</p>}
       <p class="buttons">
         {!isNext && <ToSend writing={writing} isNext={false} isHeld={isHeld} />}
-        {connected && last && (
+        {canGiveBack && (
           <button
             type="button"
             disabled={busy || !isReady(machine)}

@@ -1,6 +1,6 @@
 // On from where a cut broke off: which marks are on the sheet is asked where nobody but its owner can know.
 import type { ComponentChild } from "preact";
-import { useState } from "preact/hooks";
+import { useEffect, useState } from "preact/hooks";
 import { send } from "../../api/client";
 import { useDo } from "../../shell/doing";
 import { useChoosing } from "../../shell/kept";
@@ -24,11 +24,14 @@ export function useGoOn(parts: GoOnParts): [question: ComponentChild, act: Compo
   const machine = useMachine();
   const [works, run, refusal] = useDo();
   const [seen, setSeen] = useState<number>();
+  // Each break is another question.
+  useEffect(() => setSeen(undefined), [surely, perhaps]);
   const choosing = useChoosing();
   const cut = perhaps > 0 ? seen : surely;
   const next = cut === undefined ? undefined : names[cut];
   const goOn = async () => {
     await send("POST", path, { cut });
+    setSeen(undefined);
     await reload();
   };
   const question = perhaps > 0 && (
@@ -71,7 +74,9 @@ export function useGoOn(parts: GoOnParts): [question: ComponentChild, act: Compo
 /** How far a cut came that broke off, as the folder knows it: after a restart of the lab too. */
 export function brokenWords(surely: number, perhaps: number, names: readonly string[]): string {
   if (surely === names.length) return "All marks are cut; the sled was on its way back.";
-  const more = names.slice(surely, surely + perhaps).join(" and ");
-  const may = more && ` The machine may have cut mark ${more} too.`;
+  const more = names.slice(surely, surely + perhaps);
+  const listed = more.join(", ").replace(/, ([^,]*)$/, " and $1");
+  const may =
+    listed && ` The machine may have cut mark${more.length > 1 ? "s" : ""} ${listed} too.`;
   return `Cut ${surely} of ${names.length} marks, then it broke off.${may}`;
 }
