@@ -364,6 +364,8 @@ def test_cut_shows_what_it_wants_in_each_of_its_states(opened, state):
 def test_which_mark_is_the_last_is_asked_anew_after_each_break(opened, lab):
     page = opened(partial(broken_off, marks=3, begun=6), **AT_REST)
     page.goto(page.url.replace("open", "cut"))
+    page.set_viewport_size(NARROW)
+    expect(page.get_by_role("radio", name="mark 6")).to_be_in_viewport(ratio=1)
     page.get_by_role("radio", name="mark 6").check()
     page.get_by_role("button", name="Go on: move the sled").wait_for()
     note_break(lab.folder, marks=4, begun=6)

@@ -169,7 +169,7 @@ def test_each_state_has_its_arrows_and_the_circles_of_its_noise(lab, verdict):
         seen.append(assert_drawn(verdict, state, answer["sigma"]))
     beyond, scales = zip(*seen, strict=True)
     assert beyond[0] == 23 > beyond[1] > beyond[2]  # as set, the frame, and the effect
-    assert scales[0] < scales[1] == scales[2]  # effects are drawn as large as the frame
+    assert scales[0] < scales[1]
     for factor in ("50", "2"):  # where a circle is a point, it stays in view
         verdict.get_by_label("Arrows longer than life").select_option(factor)
         assert_drawn(verdict, answer["states"][2], answer["sigma"])
@@ -186,13 +186,14 @@ def test_correct_compares_the_file_what_is_accepted_and_all_of_it_in_this_order(
     expect(states).to_have_count(3)
     settle(page)
     expect(states.nth(1)).to_be_checked()  # what is accepted
-    figures = page.locator(".errors dd").all_inner_texts()
+    figures, scales = page.locator(".errors dd").all_inner_texts(), []
     for index, name in enumerate(("as_set", "accepted", "whole")):
         states.nth(index).check()
         rms = f"{made[name]['fit_rms']:.2f} mm"
         expect(states.nth(index).locator("..")).to_contain_text(f"{made[name]['title']} {rms}")
         assert figures[index].startswith(rms)
-        assert_drawn(page, made[name], made["sigma"])
+        scales.append(assert_drawn(page, made[name], made["sigma"])[1])
+    assert scales[1] == scales[2]  # what is compared is drawn equally large
     choose_none = page.get_by_role("checkbox").first
     choose_none.uncheck()
     expect(states).to_have_count(2)
