@@ -10,7 +10,7 @@ from pydantic import BaseModel, ConfigDict, NonNegativeInt, TypeAdapter, Validat
 
 from plumb.lab.machine_line import MachineLine
 from plumb.lab.project import CUT, Project, digest_of
-from plumb.line.sender import cleaned
+from plumb.line.sender import cleaned, plain
 from plumb.text.errors import InputError
 
 PLUNGE = re.compile(r"G1 Z-")
@@ -77,9 +77,17 @@ def begin(
     )
 
 
-def go_on(project: Project, line: MachineLine, program: str, text: str, on_sheet: int) -> None:
+def go_on(
+    project: Project,
+    line: MachineLine,
+    program: str,
+    text: str,
+    on_sheet: int,
+    *,
+    paused: Callable[[int], None] = lambda lines: None,
+) -> None:
     """Send the rest of a program that broke off: the marks that are not on the sheet, which nobody
-    but its owner sees. The machine moves.
+    but its owner sees. `paused` hears of its pauses. The machine moves.
     """
     cut = _broken_cut(project, program, text)
     if cut is None or cut.is_virtual != (line.virtual is not None):
@@ -88,11 +96,12 @@ def go_on(project: Project, line: MachineLine, program: str, text: str, on_sheet
         raise InputError(f"say how many marks are on the sheet: {cut.marks} to {cut.begun}")
     seen = cut.model_copy(update={"marks": on_sheet, "begun": on_sheet})
     plunges = plunges_in(text)
-    lines, before = rest_of(list(cleaned(text.splitlines())), plunges, on_sheet)
+    lines, before = rest_of(text.splitlines(), plunges, on_sheet)
     line.worker.send(
         program,
         lines,
         then=lambda sender: end(project, program),
+        paused=paused,
         came=Noting(project, program, seen, plunges),
         before=before,
     )
@@ -162,12 +171,15 @@ def _keep(project: Project, notes: Mapping[str, BrokenCut]) -> None:
 
 
 def rest_of(lines: Sequence[str], plunges: Sequence[int], marks: int) -> tuple[list[str], int]:
-    """Return the lines that cut the marks after the first `marks`, and how many are left out.
+    """Return the lines that cut the marks after the first `marks`, and how many are left out, of
+    those that are sent.
 
-    The modes and the lift before the first mark come again.
+    What is before the first mark comes again: the modes, the lift, and the pauses with what is
+    to be done there.
     """
     if marks == 0:
         return list(lines), 0
-    head = next(i for i, line in enumerate(lines) if "X" in line)
-    done = plunges[marks - 1] + 1  # with the lift
-    return [*lines[:head], *lines[done:]], done - head
+    sent = [number for number, line in enumerate(lines) if plain(line)]
+    head = next(number for number in sent if "X" in plain(lines[number]))
+    done = sent[plunges[marks - 1]] + 1  # with the lift
+    return [*lines[:head], *lines[done:]], sum(head <= number < done for number in sent)

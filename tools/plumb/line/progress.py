@@ -44,9 +44,9 @@ class Wait:
     do: str  # the comment before it, or in its line; empty if there is none
 
 
-def waits_in(lines: Iterable[str]) -> Iterator[Wait]:
-    """Yield the pauses of a program, in their order."""
-    count, said = 0, ""
+def waits_in(lines: Iterable[str], before: int = 0) -> Iterator[Wait]:
+    """Yield the pauses of a program, in their order; `before`: lines taken on an earlier day."""
+    count, said = before, ""
     for line in lines:
         comment, text = COMMENT.search(line), plain(line)
         said = comment[0][1:-1].strip() if comment else said

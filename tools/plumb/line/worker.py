@@ -148,8 +148,8 @@ class LineWorker:
         done, and how many perhaps, before each line is sent. `before`: those that it took on an
         earlier day. Raises InputError for lines that cannot be sent, and while there is other work.
         """
-        clean = list(cleaned(lines))
-        progress = Progress(title, before, before + len(clean), waits=tuple(waits_in(lines)))
+        clean, waits = list(cleaned(lines)), tuple(waits_in(lines, before))
+        progress = Progress(title, before, before + len(clean), waits=waits)
 
         def answered(done: int) -> None:
             now = self._state.program

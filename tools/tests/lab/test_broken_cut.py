@@ -38,6 +38,14 @@ def test_the_rest_has_the_modes_and_the_marks_that_are_not_cut():
     assert rest == [*LINES[:3], *LINES[6:]] and len(rest) + left_out == len(LINES)
 
 
+def test_the_rest_asks_again_for_what_is_to_be_done_before_the_first_mark():
+    asks = ["(let 5 kg more hang on the sled)", "M0", "(mark 1)"]
+    lines = ["(a program)", *LINES[:3], *asks, *LINES[3:6], "(mark 2)", *LINES[6:]]
+    rest, left_out = rest_of(lines, [6, 9], 1)
+    assert rest == ["(a program)", *LINES[:3], *asks, "(mark 2)", *LINES[6:]]
+    assert left_out == 3  # comments are not sent
+
+
 @dataclass
 class Line:
     """A line that hears what it is to send."""
@@ -118,6 +126,9 @@ def test_check_marks_that_broke_off_are_asked_for_too(lab, page):
     page.goto(f"{lab.url}#/check")
     said = "Cut 0 of 2 marks, then it broke off. The machine may have cut mark 1 too."
     expect(page.get_by_text(said)).to_be_visible()
+    line.sent["came"](0, len(text.splitlines()))
+    page.reload()
+    expect(page.get_by_text("The machine may have cut marks 1 and 2 too.")).to_be_visible()
 
 
 @pytest.mark.parametrize("content", ["", "[1]", "{}", '{"program": 1}', "\xff"])

@@ -45,6 +45,10 @@ def test_two_check_marks_hold_then_miss_and_others_are_planned(lab, page):
     expect(page.locator(JUDGED)).to_contain_text("The settings hold.", timeout=PATIENCE)
     within = page.locator(".sheet .arrow.within")
     expect(within).to_have_count(2)
+    wood = page.locator(".sheet .wood").bounding_box()  # what is promised is drawn, and fits
+    circle = page.locator(".sheet g:has(> .place) circle.noise").first.bounding_box()
+    expect(page.locator(".legend-of-sheet")).to_contain_text("promised")
+    assert 0.05 < circle["width"] / wood["width"] < 0.35
     offs = page.locator("table.checked tbody td:last-child").all_inner_texts()
     assert all(0 < float(off.removesuffix(" mm")) < 1.5 for off in offs) and len(offs) == 2
     fallen = page.locator(".off-target td").all_inner_texts()

@@ -8,6 +8,7 @@ from contextlib import contextmanager
 import pytest
 from folder import asked, finished, got, type_in, until
 from plumb.cli.main import main
+from plumb.lab.project import CUT, digest_of
 from plumb.marks.form import head_of, read_form, toml_text
 from plumb.marks.read import Measurements
 from plumb.settings.toml import write_machine_toml
@@ -79,9 +80,9 @@ def names(folder):
 
 
 @contextmanager
-def virtual_machine(client):
+def virtual_machine(client, *, speed=1000):
     """The lab with a virtual machine that is ready."""
-    got(client.post("/api/machine/virtual", json={"seed": 9, "speed": 1000}))
+    got(client.post("/api/machine/virtual", json={"seed": 9, "speed": speed}))
     until(client, lambda state: state["phase"] == "ready")
     yield
     got(client.post("/api/machine/disconnect"))
@@ -228,6 +229,58 @@ def test_a_virtual_machine_bears_the_weight_from_pause_to_pause(client, folder, 
         until(client, lambda state: state["phase"] == "ready")
         got(client.post("/api/grid/cut"))  # whoever gave up begins with nothing on the sled
         assert borne[3:5] == [0.0, pytest.approx(5 * 9.81, abs=0.1)] and borne[5] == 0.0
+
+
+def test_a_proposal_that_broke_off_goes_on_with_what_is_to_hang_on_the_sled(
+    client, folder, monkeypatch
+):
+    borne = []
+    monkeypatch.setattr(VirtualOwner, "weigh_down", lambda owner, weight: borne.append(weight))
+    taking = take(client, "4 marks with 5 kg more")
+    with virtual_machine(client, speed=10):
+        got(client.post("/api/machine/numbers", json={"file": "machine.toml"}))
+        got(client.post("/api/grid/cut"))
+        until(client, lambda state: state["waits_for"])
+        got(client.post("/api/machine/go-on"))
+        lines = [mark["lines"] for mark in got(client.get("/api/grid"))["marks"]]
+        until(client, lambda state: state["program"]["done"] > lines[1])
+        got(client.post("/api/machine/stop"))
+        until(client, lambda state: state["phase"] == "ready")
+        shown = got(client.get("/api/grid"))
+        on_sheet = shown["broke_off"] + shown["perhaps"]
+        assert shown["goes_on"] and 1 <= on_sheet < 4
+        borne.clear()
+        got(client.post("/api/machine/speed", json={"speed": 1000}))
+        got(client.post("/api/grid/go-on", json={"cut": on_sheet}))
+        for asks, more in (("let 5.0 kg more hang", 5 * 9.81), ("take off", 0.0)):
+            until(client, lambda state, asks=asks: state["waits_for"].startswith(asks))
+            assert borne[-1] == pytest.approx(BELIEVED.sled_weight + more, abs=0.1)
+            got(client.post("/api/machine/go-on"))
+        until(client, lambda state: state["program"]["outcome"] == "done")
+        assert len(borne) == 2
+        got(client.post("/api/machine/readings", json={"form": taking["form"]}))
+
+
+@pytest.mark.parametrize(
+    ("title", "more", "goes_on"),
+    [
+        ("4 more marks", "", True),
+        ("4 more marks", "(let 5.0 kg more hang on the sled)\nM0\n", False),
+        ("chains swapped, 4 marks", "", False),
+    ],
+    ids=["plain", "pause-between", "swapped"],
+)
+def test_a_proposal_goes_on_where_its_pauses_are_before_all_its_marks(
+    client, folder, title, more, goes_on
+):
+    taking = take(client, title)
+    head, mark, rest = (folder / taking["program"]).read_text().rpartition("(mark ")
+    text = f"{head}{more}{mark}{rest}"
+    (folder / taking["program"]).write_text(text)
+    note = {"digest": digest_of(text.encode()), "marks": 1, "begun": 1, "is_virtual": False}
+    (folder / CUT).write_text(json.dumps({taking["program"]: note}))
+    shown = got(client.get("/api/grid"))
+    assert shown["broke_off"] == 1 and shown["goes_on"] == goes_on
 
 
 def test_chains_of_a_virtual_machine_stay(client, folder):

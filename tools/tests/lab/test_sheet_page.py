@@ -1,13 +1,17 @@
 """The sheet, which every screen draws alike: what it names, how it is enlarged, what it saves."""
 
 import csv
+import math
 import re
 import xml.etree.ElementTree as ET
 
 import pytest
+from folder import choose, finished
 from playwright.sync_api import expect
 from screens import axe_findings, go_on_until, measured_machine, settle
 
+SHEET = (2438.4, 1219.2)
+NOISE = 2.45  # sigmas: noise alone makes a longer error at 5 % of the marks
 FRAME = ".sheet .board"
 CARD = ".card-of-mark"
 ALT_GR = """() => document.activeElement.dispatchEvent(new KeyboardEvent("keydown",
@@ -121,6 +125,79 @@ def test_every_sheet_with_states_says_which_keys_compare_them(lab, page, step):
     states.nth(last).focus()
     page.keyboard.press("ArrowLeft")
     expect(states.nth(last - 1)).to_be_checked()
+
+
+def drawn_on(page):
+    """What each mark shows: its circle and its arrow [mm], and whether the arrow is beyond noise;
+    how much larger than life arrows are [px of the drawing].
+    """
+    legend = page.locator(".legend-of-sheet").text_content()
+    wide = page.locator(".sheet .wood").evaluate("(wood) => wood.width.baseVal.value")
+    scale = float(re.search(r"arrows (\d+) times", legend)[1]) * wide / SHEET[0]
+    marks = []
+    for group in page.locator(".sheet svg g:has(> circle.place)").all():
+        arrow = group.locator("path.arrow:not(.ghost)")
+        path = [float(each) for each in re.findall(r"-?[\d.]+", arrow.get_attribute("d"))]
+        error = ((path[4] - path[0]) / scale, (path[1] - path[5]) / scale) if path else (0.0, 0.0)
+        circle = float(group.locator("circle.noise").get_attribute("r")) / scale
+        marks.append((circle, error, "beyond" in arrow.get_attribute("class")))
+    return marks, scale
+
+
+def assert_drawn(page, state, sigma):
+    """These errors are drawn, each with the circle of its noise; what leaves it is beyond."""
+    marks, scale = drawn_on(page)
+    usual = NOISE * sigma
+    assert [error for _, error, _ in marks] == [
+        pytest.approx(error, abs=0.2 / scale) for error in state["errors"]
+    ]
+    assert [circle for circle, _, _ in marks] == pytest.approx([max(2 / scale, usual)] * len(marks))
+    sure = [mark for mark in marks if abs(math.hypot(*mark[1]) - usual) > 1 / scale]
+    assert [is_beyond for _, _, is_beyond in sure] == [
+        math.hypot(*error) > usual for _, error, _ in sure
+    ]
+    return sum(is_beyond for _, _, is_beyond in marks), scale
+
+
+def test_each_state_has_its_arrows_and_the_circles_of_its_noise(lab, verdict):
+    with lab.client() as client:
+        answer = finished(client, "verdict")["verdict"]
+    states = verdict.get_by_role("group", name="What is drawn").get_by_role("radio")
+    seen = []
+    for index, state in enumerate(answer["states"]):
+        states.nth(index).check()
+        seen.append(assert_drawn(verdict, state, answer["sigma"]))
+    beyond, scales = zip(*seen, strict=True)
+    assert beyond[0] == 23 > beyond[1] > beyond[2]  # as set, the frame, and the effect
+    assert scales[0] < scales[1]
+    for factor in ("50", "2"):  # where a circle is a point, it stays in view
+        verdict.get_by_label("Arrows longer than life").select_option(factor)
+        assert_drawn(verdict, answer["states"][2], answer["sigma"])
+
+
+def test_correct_compares_the_file_what_is_accepted_and_all_of_it_in_this_order(lab, page):
+    measured_machine(lab.folder)
+    with lab.client() as client:
+        made = finished(client, "correction")["correction"]
+        choose(client, accepted=[made["numbers"][0]["name"]])
+        made = finished(client, "correction")["correction"]
+    page.goto(f"{lab.url}#/correct")
+    states = page.get_by_role("group", name="What is drawn").get_by_role("radio")
+    expect(states).to_have_count(3)
+    settle(page)
+    expect(states.nth(1)).to_be_checked()  # what is accepted
+    figures, scales = page.locator(".errors dd").all_inner_texts(), []
+    for index, name in enumerate(("as_set", "accepted", "whole")):
+        states.nth(index).check()
+        rms = f"{made[name]['fit_rms']:.2f} mm"
+        expect(states.nth(index).locator("..")).to_contain_text(f"{made[name]['title']} {rms}")
+        assert figures[index].startswith(rms)
+        scales.append(assert_drawn(page, made[name], made["sigma"])[1])
+    assert scales[1] == scales[2]  # what is compared is drawn equally large
+    choose_none = page.get_by_role("checkbox").first
+    choose_none.uncheck()
+    expect(states).to_have_count(2)
+    expect(states.nth(1)).to_be_checked()  # all of it
 
 
 def test_it_is_enlarged_by_keys_buttons_wheel_and_two_fingers_and_comes_back(verdict):

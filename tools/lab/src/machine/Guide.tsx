@@ -40,7 +40,26 @@ function isUnderWay(guide: Answer): boolean {
   return guide.here !== "";
 }
 
-export function FirstDay({ guide, press, busy, silent, refused }: Guide) {
+/** The button that begins the step which is open. */
+export function BeginStep({ guide, press, busy }: Guide) {
+  const ready = isReady(useMachine());
+  const step = guide?.steps.find(({ name }) => name === guide.open);
+  if (!guide || guide.here || !step) return null;
+  return (
+    <button
+      type="button"
+      class="primary"
+      disabled={busy || !ready}
+      onClick={() => press("begin", { step: step.name })}
+    >
+      Begin: {step.title}
+    </button>
+  );
+}
+
+/** `isNext`: the open step is begun by the button of the screen. */
+export function FirstDay({ isNext, ...all }: Guide & { isNext: boolean }) {
+  const { guide, press, busy, silent, refused } = all;
   const ready = isReady(useMachine());
   if (!guide) return null;
   const place = guide.steps.findIndex((step) => step.name === guide.open);
@@ -56,10 +75,9 @@ export function FirstDay({ guide, press, busy, silent, refused }: Guide) {
         {guide.steps.map((step, index) => (
           <li key={step.name} class={step.done ? "done" : ""} data-here={step.name === guide.here}>
             <span>{step.title}</span>
-            {step.name !== guide.here && index <= reached && (
+            {step.name !== guide.here && index <= reached && !(isNext && index === reached) && (
               <button
                 type="button"
-                class={index === reached ? "primary" : ""}
                 disabled={busy || !ready || guide.here !== ""}
                 aria-label={`${step.done ? "Again" : "Begin"}: ${step.title}`}
                 onClick={() => press("begin", { step: step.name })}

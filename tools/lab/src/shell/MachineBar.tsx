@@ -82,7 +82,7 @@ export function MachineBar({ live }: { live: LiveMachine }) {
       )}
       {machine.trouble && <p class="said">{machine.trouble}</p>}
       {!machine.knows_place && (
-        <p class="said">Where the sled is, is not known until you set its chains.</p>
+        <p class="said unplaced">Where the sled is, is not known until you set its chains.</p>
       )}
     </section>
   );
@@ -136,6 +136,7 @@ function stateWords(machine: Machine): string {
   if (machine.holds) return `${name} holds`;
   if (phase === "busy" && program?.outcome === "running") return `${name} runs ${program.title}`;
   if (machine.moves) return `${name} moves`;
+  if (!machine.knows_place) return `${name} does not know its place`;
   return isReady(machine) ? `${name} stands` : `${name} works`;
 }
 

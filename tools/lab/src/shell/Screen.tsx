@@ -46,11 +46,13 @@ export function Screen(parts: ScreenParts) {
       )}
     </>
   );
+  const acts = act && <div class="act">{act}</div>;
   if (!stage)
     return (
       <section class="screen" aria-busy={busy}>
         {asks}
         {work}
+        {acts}
       </section>
     );
   return (
@@ -58,7 +60,7 @@ export function Screen(parts: ScreenParts) {
       {asks}
       <div class="stage">{stage}</div>
       <div class="work">{work}</div>
-      {act && <p class="act">{act}</p>}
+      {acts}
     </section>
   );
 }

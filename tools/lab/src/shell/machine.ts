@@ -39,6 +39,11 @@ export function isReady(machine: Machine): boolean {
   return machine.phase === "ready" && !machine.moves && !machine.holds && machine.unseen === 0;
 }
 
+/** Whether there is a line to it. */
+export function isConnected({ kind, phase }: Machine): boolean {
+  return kind !== "none" && phase !== "lost";
+}
+
 /** Its name at the beginning of a sentence. */
 export function subject(machine: Machine): string {
   return machine.kind === "virtual" ? "The virtual machine" : machine.name;

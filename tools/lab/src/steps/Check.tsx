@@ -5,7 +5,7 @@ import { type Project, type Schemas, send } from "../api/client";
 import { shownLength } from "../controls/lengths";
 import { useDo } from "../shell/doing";
 import { useReadOnly } from "../shell/editor";
-import { isReady, useMachine } from "../shell/machine";
+import { isConnected, isReady, type Machine, useMachine } from "../shell/machine";
 import { useNewest } from "../shell/newest";
 import { useProject } from "../shell/project";
 import { Screen } from "../shell/Screen";
@@ -15,33 +15,76 @@ import { OffTarget } from "./check/OffTarget";
 import { Promised } from "./check/Promised";
 import { Refused } from "./correct/Refused";
 import { useWriting } from "./correct/useWriting";
-import { brokenWords, GoOn } from "./cut/GoOn";
+import { brokenWords, useGoOn } from "./cut/GoOn";
 import "./check/check.css";
 
 export type CheckAnswer = Schemas["CheckAnswer"];
 
 export function Check() {
-  const { project, take, reload } = useProject();
+  const { project } = useProject();
   const machine = useMachine();
   // The check marks as they are now; asked again when a file changes.
   const outcome = machine.program?.outcome ?? "";
   const answer = useNewest<CheckAnswer>("check", JSON.stringify([project.files, outcome]));
-  const [busy, run, refusal] = useDo();
-  const units = project.choices.units ?? "mm";
   const writing = useWriting();
   useNoted(answer);
   if (!answer && project.changed_since_fit)
     return <Refused title="Is it true?" refused="" writing={writing} />;
   if (!answer) return <Screen title="Is it true?" say="One moment …" busy />;
+  return answer.trouble ? <NoPromise /> : <OpenCheck answer={answer} />;
+}
+
+function OpenCheck({ answer }: { answer: CheckAnswer }) {
+  const { project, take, reload } = useProject();
+  const machine = useMachine();
+  const [busy, run, refusal] = useDo();
+  const units = project.choices.units ?? "mm";
   const doing = (path: string, body?: unknown) =>
     run(async () => {
       const answered = await send<Project | Schemas["MachineAnswer"]>("POST", path, body);
       if ("choices" in answered) take(answered);
       else await reload();
     });
-  if (answer.trouble) return <NoPromise />;
   const ready = isReady(machine);
-  const isCut = machine.program?.title === answer.program && machine.program.outcome === "done";
+  const next = nextOf(answer, machine);
+  const names = answer.meant.map((_, i) => String(i + 1));
+  const [whichIsLast, goOn] = useGoOn({
+    surely: answer.broke_off ?? 0,
+    perhaps: answer.perhaps,
+    names,
+    path: "check/go-on",
+    blocked: false,
+  });
+  const cut = (
+    <button
+      type="button"
+      class={next === "cut" ? "primary" : ""}
+      disabled={busy || !ready}
+      onClick={() => void doing("check/cut")}
+    >
+      {answer.broke_off == null ? "Cut both marks" : "Cut both marks again"}: the sled moves
+    </button>
+  );
+  const acts = {
+    read: (
+      <button
+        type="button"
+        class="primary"
+        disabled={busy || !ready}
+        onClick={() => void doing("machine/readings", { form: answer.form })}
+      >
+        Let the tape read them
+      </button>
+    ),
+    "go on": goOn,
+    cut,
+    write: (
+      <button type="button" class="primary" disabled={busy} onClick={() => void doing("check")}>
+        Write {answer.program} and its form
+      </button>
+    ),
+    nothing: null,
+  };
   const places = answer.meant.map((place) =>
     place.map((mm) => shownLength(mm, units, 0)).join(", "),
   );
@@ -53,6 +96,7 @@ export function Check() {
       command={answer.command}
       stage={<CheckMap answer={answer} />}
       fieldsFirst
+      act={acts[next]}
     >
       {answer.sentence && (
         <p class={answer.holds ? "judged holds" : "judged misses"} role="status">
@@ -65,33 +109,12 @@ export function Check() {
           Where ({units} from your edges): {places.join(" and ")}.
         </p>
       )}
-      {answer.broke_off != null && <BrokeOff answer={answer} surely={answer.broke_off} />}
+      {answer.broke_off != null && (
+        <p role="status">{brokenWords(answer.broke_off, answer.perhaps, names)}</p>
+      )}
+      {next === "go on" && whichIsLast}
       <p class="buttons">
-        {machine.kind !== "none" && !answer.sentence && !isCut && (
-          <button
-            type="button"
-            class={answer.broke_off == null ? "primary" : ""}
-            disabled={busy || !ready}
-            onClick={() => void doing("check/cut")}
-          >
-            {answer.broke_off == null ? "Cut both marks" : "Cut both marks again"}: the sled moves
-          </button>
-        )}
-        {machine.kind === "none" && !answer.is_saved && (
-          <button type="button" class="primary" disabled={busy} onClick={() => void doing("check")}>
-            Write {answer.program} and its form
-          </button>
-        )}
-        {machine.kind === "virtual" && answer.is_saved && !answer.sentence && (
-          <button
-            type="button"
-            class={isCut ? "primary" : ""}
-            disabled={busy || !ready || !isCut}
-            onClick={() => void doing("machine/readings", { form: answer.form })}
-          >
-            Let the tape read them
-          </button>
-        )}
+        {next === "go on" && cut}
         {answer.sentence && (
           <button
             type="button"
@@ -116,20 +139,17 @@ export function Check() {
   );
 }
 
-/** Whoever begins again has a mark twice that is cut already. */
-function BrokeOff({ answer, surely }: { answer: CheckAnswer; surely: number }) {
-  const machine = useMachine();
-  const { perhaps, goes_on, meant } = answer;
-  const names = meant.map((_, i) => String(i + 1));
-  const isConnected = machine.kind !== "none" && machine.phase !== "lost";
-  return (
-    <>
-      <p role="status">{brokenWords(surely, perhaps, names)}</p>
-      {goes_on && isConnected && surely < names.length && (
-        <GoOn surely={surely} perhaps={perhaps} names={names} path="check/go-on" blocked={false} />
-      )}
-    </>
-  );
+type Next = "read" | "go on" | "cut" | "write" | "nothing";
+
+/** What is to be done next: the button of the screen does it. Fields for readings are there anyway. */
+function nextOf(answer: CheckAnswer, machine: Machine): Next {
+  const { sentence, is_saved, broke_off, goes_on, meant } = answer;
+  if (sentence) return "nothing";
+  if (machine.kind === "none") return is_saved ? "nothing" : "write";
+  const isCut = machine.program?.title === answer.program && machine.program.outcome === "done";
+  if (isCut) return machine.kind === "virtual" ? "read" : "nothing";
+  if (!isConnected(machine) || broke_off === meant.length) return "nothing";
+  return broke_off != null && goes_on ? "go on" : "cut";
 }
 
 /** Has the diary note a result, once it is there. */
@@ -161,7 +181,7 @@ function NoPromise() {
       title="Is it true?"
       say="Two marks that took no part show whether the settings hold. First write a correction: it makes the promise."
     >
-      <a class="go" href="#/correct">
+      <a class="button primary" href="#/correct">
         To the correction
       </a>
     </Screen>

@@ -13,7 +13,7 @@ import { CorrectMap } from "./correct/CorrectMap";
 import { GoBack } from "./correct/GoBack";
 import { Numbers } from "./correct/Numbers";
 import { Refused } from "./correct/Refused";
-import { ToMachine } from "./correct/ToMachine";
+import { ToMachine, ToSend } from "./correct/ToMachine";
 import { type CorrectionAnswer, useKnown, useWriting, type Writing } from "./correct/useWriting";
 import "./correct/correct.css";
 
@@ -150,6 +150,12 @@ function Written(parts: Parts) {
       command={answer.command}
       stage={<CorrectMap made={made} states={current && made.as_set ? [made.as_set] : []} />}
       fieldsFirst
+      act={
+        <>
+          <ToSend writing={writing} isNext isHeld={isHeld} />
+          {writing.notSent}
+        </>
+      }
     >
       {writing.written && !isHeld && (
         <p role="status">

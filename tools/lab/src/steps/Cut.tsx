@@ -4,16 +4,16 @@ import { type Project, type Schemas, send } from "../api/client";
 import { TakeAlong } from "../controls/TakeAlong";
 import { useDo } from "../shell/doing";
 import { useChoosing } from "../shell/kept";
-import { isReady, type Machine, useMachine } from "../shell/machine";
+import { isConnected, isReady, type Machine, useMachine } from "../shell/machine";
 import { useNewest } from "../shell/newest";
 import { useProject } from "../shell/project";
 import { Screen } from "../shell/Screen";
 import { CutMap } from "./cut/CutMap";
-import { GoOn } from "./cut/GoOn";
+import { useGoOn } from "./cut/GoOn";
 import { NewSheet } from "./cut/NewSheet";
-import { Outcome } from "./cut/Outcome";
+import { Outcome, Read, ToReadings } from "./cut/Outcome";
 import { Pauses, sentence } from "./cut/Pauses";
-import { SetChains } from "./cut/SetChains";
+import { useSetChains } from "./cut/SetChains";
 import "./cut/cut.css";
 
 export type Grid = Schemas["GridAnswer"];
@@ -31,7 +31,32 @@ export function Cut() {
   const outcome = machine.program?.outcome ?? "";
   const grid = useNewest<Grid>("grid", JSON.stringify([project.files, outcome, machine.name]));
   if (!grid) return <Screen title="Cut the marks" say="One moment …" busy />;
-  const runs = machine.program?.title === grid.program && machine.program.outcome === "running";
+  return <OpenCut grid={grid} />;
+}
+
+function OpenCut({ grid }: { grid: Grid }) {
+  const { project } = useProject();
+  const machine = useMachine();
+  const next = nextOf(grid, machine);
+  const [whichIsLast, goOn] = useGoOn({
+    surely: grid.broke_off ?? 0,
+    perhaps: grid.perhaps,
+    names: grid.marks.map(({ name }) => name),
+    path: "grid/go-on",
+    blocked: grid.trouble !== "",
+  });
+  const [chains, setChains] = useSetChains();
+  const acts = {
+    wait: null,
+    connect: null,
+    read: <Read grid={grid} />,
+    chains: setChains,
+    "go on": goOn,
+    cut: <MoveAndCut grid={grid} isNext />,
+    save: <Save grid={grid} isNext />,
+    type: <ToReadings waits={grid.waits} isNext />,
+  };
+  const runs = next === "wait";
   return (
     <Screen
       title={
@@ -41,6 +66,8 @@ export function Cut() {
       why={<Why />}
       command={grid.command}
       stage={<CutMap sheet={project.machine?.sheet ?? [2440, 1220]} grid={grid} />}
+      fieldsFirst={next === "chains" || (next === "go on" && grid.perhaps > 0)}
+      act={acts[next]}
     >
       {grid.trouble && (
         <p class="trouble" role="alert">
@@ -48,11 +75,26 @@ export function Cut() {
         </p>
       )}
       {!runs && <Pauses grid={grid} />}
-      <Outcome grid={grid} />
-      {!runs && <Choice grid={grid} />}
+      <Outcome grid={grid} isRead={next === "read"} />
+      {next === "chains" && chains}
+      {next === "go on" && whichIsLast}
+      {!runs && next !== "chains" && <Choice grid={grid} next={next} />}
       <TakeAlong name="marks.pdf">Save a sheet to print, for the readings</TakeAlong>
     </Screen>
   );
+}
+
+type Next = "wait" | "connect" | "read" | "chains" | "go on" | "cut" | "save" | "type";
+
+/** What is to be done next: the button of the screen does it, or a button of the machine's bar. */
+function nextOf(grid: Grid, machine: Machine): Next {
+  const outcome = machine.program?.title === grid.program ? machine.program.outcome : undefined;
+  if (outcome === "running") return "wait";
+  if (outcome === "done" || grid.broke_off === grid.marks.length) return "read";
+  if (machine.phase === "lost") return "connect";
+  if (machine.kind === "none") return grid.is_proposed ? "type" : "save";
+  if (!machine.knows_place) return "chains";
+  return grid.goes_on ? "go on" : "cut";
 }
 
 function running({ waits_for, unseen }: Machine): string {
@@ -65,68 +107,14 @@ function whileRunning({ waits_for, unseen }: Machine): string {
   return waits_for ? `${sentence(waits_for)} Then press Go on, below.` : CUTS;
 }
 
-/** What can be done now: one button that says what will happen, and saving. */
-function Choice({ grid }: { grid: Grid }) {
-  const { take, reload } = useProject();
-  const machine = useMachine();
-  const [works, run, refusal] = useDo();
-  const busy = useChoosing() || works;
-  const save = async () => take(await send<Project>("POST", "grid"));
-  const putBack = async () => take(await send<Project>("DELETE", "next"));
-  const cut = async () => {
-    await send("POST", "grid/cut");
-    await reload();
-  };
-  if (machine.kind !== "none" && machine.phase !== "lost" && !machine.knows_place)
-    return <SetChains />;
-  const connected = machine.kind !== "none" && machine.phase !== "lost";
-  // The primary button is then that of the readings.
-  const isCut = machine.program?.title === grid.program && machine.program.outcome === "done";
-  const goesOn = connected && grid.goes_on && grid.broke_off !== grid.marks.length;
+/** What else can be done. */
+function Choice({ grid, next }: { grid: Grid; next: Next }) {
+  const connected = isConnected(useMachine());
   return (
     <div class="choice">
       {grid.last_form && !grid.is_proposed && <NewSheet grid={grid} />}
-      {goesOn && (
-        <GoOn
-          surely={grid.broke_off ?? 0}
-          perhaps={grid.perhaps}
-          names={grid.marks.map(({ name }) => name)}
-          path="grid/go-on"
-          blocked={grid.trouble !== ""}
-        />
-      )}
-      {connected && (
-        <button
-          type="button"
-          class={isCut || goesOn ? "" : "primary"}
-          disabled={busy || !isReady(machine) || grid.trouble !== ""}
-          onClick={() => void run(cut)}
-        >
-          {beginWords(grid, machine)} the sled and cut {grid.marks.length} marks
-        </button>
-      )}
-      {grid.is_proposed ? (
-        !isCut && (
-          <button type="button" disabled={busy} onClick={() => void run(putBack)}>
-            Cut other marks instead
-          </button>
-        )
-      ) : (
-        <button
-          type="button"
-          class={connected ? "" : "primary"}
-          disabled={busy || grid.trouble !== ""}
-          onClick={() => void run(save)}
-        >
-          {grid.is_saved ? `Saved: ${grid.program}` : `Save ${grid.program}; nothing moves`}
-        </button>
-      )}
-      {grid.is_proposed && !connected && (
-        <a class="button" href="#/readings">
-          Type what your tape says
-        </a>
-      )}
-      {refusal}
+      {connected && next !== "cut" && <MoveAndCut grid={grid} />}
+      {grid.is_proposed ? next !== "read" && <PutBack /> : next !== "save" && <Save grid={grid} />}
       <p class="note">
         {grid.is_saved
           ? `${grid.program} and ${grid.form} are in your folder.`
@@ -138,6 +126,70 @@ function Choice({ grid }: { grid: Grid }) {
         )}
       </p>
     </div>
+  );
+}
+
+interface ButtonParts {
+  grid: Grid;
+  isNext?: boolean;
+}
+
+function MoveAndCut({ grid, isNext }: ButtonParts) {
+  const { reload } = useProject();
+  const machine = useMachine();
+  const [works, run, refusal] = useDo();
+  const busy = useChoosing() || works;
+  const cut = async () => {
+    await send("POST", "grid/cut");
+    await reload();
+  };
+  return (
+    <>
+      <button
+        type="button"
+        class={isNext ? "primary" : ""}
+        disabled={busy || !isReady(machine) || grid.trouble !== ""}
+        onClick={() => void run(cut)}
+      >
+        {beginWords(grid, machine)} the sled and cut {grid.marks.length} marks
+      </button>
+      {refusal}
+    </>
+  );
+}
+
+function Save({ grid, isNext }: ButtonParts) {
+  const { take } = useProject();
+  const [works, run, refusal] = useDo();
+  const busy = useChoosing() || works;
+  const save = async () => take(await send<Project>("POST", "grid"));
+  return (
+    <>
+      <button
+        type="button"
+        class={isNext ? "primary" : ""}
+        disabled={busy || grid.trouble !== ""}
+        onClick={() => void run(save)}
+      >
+        {grid.is_saved ? `Saved: ${grid.program}` : `Save ${grid.program}; nothing moves`}
+      </button>
+      {refusal}
+    </>
+  );
+}
+
+function PutBack() {
+  const { take } = useProject();
+  const [works, run, refusal] = useDo();
+  const busy = useChoosing() || works;
+  const putBack = async () => take(await send<Project>("DELETE", "next"));
+  return (
+    <>
+      <button type="button" disabled={busy} onClick={() => void run(putBack)}>
+        Cut other marks instead
+      </button>
+      {refusal}
+    </>
   );
 }
 

@@ -20,15 +20,15 @@ export function Diary() {
   const diary = useNewest<DiaryAnswer>("diary", state);
   if (!diary) return <Screen title="The diary" say="One moment …" busy />;
   const { rounds } = diary;
+  const save = <TakeAlong name="folder.zip">Save the whole folder</TakeAlong>;
   if (rounds.length === 0 && diary.others.length === 0) {
     return (
       <Screen
         title="The diary"
         say="Each correction that you write, and what you send to the machine, is noted here by itself. Nothing is noted yet."
         command={diary.command}
-      >
-        <TakeAlong name="folder.zip">Save the whole folder</TakeAlong>
-      </Screen>
+        act={save}
+      />
     );
   }
   return (
@@ -36,6 +36,7 @@ export function Diary() {
       title="The diary"
       say="Each correction with its error, and how the numbers went. A number that moved by more than its interval says that the machine has changed."
       command={diary.command}
+      act={save}
     >
       {rounds.length > 0 && <Errors rounds={rounds} units={units} />}
       {diary.courses.length > 0 && (
@@ -66,7 +67,6 @@ export function Diary() {
           The error of the newest fit is {namedLength(rounds.at(-1)?.fit.rms_mm ?? 0, units, 2)}.
         </p>
       )}
-      <TakeAlong name="folder.zip">Save the whole folder</TakeAlong>
     </Screen>
   );
 }

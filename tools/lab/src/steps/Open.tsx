@@ -3,7 +3,7 @@ import { useState } from "preact/hooks";
 import { type Project, sendFile } from "../api/client";
 import { namedLength } from "../controls/lengths";
 import { Connection } from "../machine/Connection";
-import { FirstDay, useGuide } from "../machine/Guide";
+import { BeginStep, FirstDay, useGuide } from "../machine/Guide";
 import { MachinePicture } from "../machine/MachinePicture";
 import { useDo } from "../shell/doing";
 import { useMachine } from "../shell/machine";
@@ -36,11 +36,13 @@ export function Open() {
       }
       command={connected && guide.guide ? `${read}\n${guide.guide.command}` : read}
       stage={machine && <Opened machine={machine} />}
+      fieldsFirst={!!guide.guide?.here}
+      act={first && <BeginStep {...guide} />}
     >
-      {first && <FirstDay {...guide} />}
+      {first && <FirstDay {...guide} isNext />}
       <SettingsFile />
       <Connection />
-      {connected && !first && <FirstDay {...guide} />}
+      {connected && !first && <FirstDay {...guide} isNext={false} />}
     </Screen>
   );
 }

@@ -1,6 +1,6 @@
 // Step 7: why the marks are off, in a sentence; the suspects; and the best next measurement.
 
-import { useState } from "preact/hooks";
+import { useRef, useState } from "preact/hooks";
 import type { Schemas } from "../api/client";
 import { Progress } from "../controls/Progress";
 import { TakeAlong } from "../controls/TakeAlong";
@@ -13,10 +13,10 @@ import { Screen } from "../shell/Screen";
 import { Refused } from "./correct/Refused";
 import { useWriting } from "./correct/useWriting";
 import { HalfTyped } from "./verdict/HalfTyped";
-import { NextStep } from "./verdict/NextStep";
+import { NextAct, NextStep } from "./verdict/NextStep";
 import { SuspectCard } from "./verdict/SuspectCard";
 import { UnseenCauses } from "./verdict/UnseenCauses";
-import type { VerdictAnswer } from "./verdict/words";
+import type { NextAnswer, VerdictAnswer } from "./verdict/words";
 import "./verdict/verdict.css";
 
 const TITLES: Record<string, string> = {
@@ -33,6 +33,13 @@ export function Verdict() {
   const { answer, refused } = useAnswer<VerdictAnswer>("verdict");
   const writing = useWriting();
   const [isNextWanted, wantNext] = useNextWanted(project.key);
+  const next = useAnswer<NextAnswer>("next", isNextWanted);
+  const place = useRef<HTMLDivElement>(null);
+  const findNext = () => {
+    wantNext();
+    // On a phone the answer comes far below what was pressed.
+    requestAnimationFrame(() => place.current?.scrollIntoView({ block: "center" }));
+  };
   const verdict = answer?.verdict;
   const bench = useNewest<Schemas["BenchAnswer"]>(
     verdict ? "bench" : "",
@@ -75,8 +82,10 @@ export function Verdict() {
         )
       }
       act={
-        !isNextWanted && (
-          <button type="button" class="primary" onClick={wantNext}>
+        isNextWanted ? (
+          <NextAct next={next} />
+        ) : (
+          <button type="button" class="primary" onClick={findNext}>
             Find the best next measurement
           </button>
         )
@@ -93,7 +102,9 @@ export function Verdict() {
         </ul>
       )}
       <HalfTyped />
-      <NextStep sheet={sheet} marks={verdict.marks} wanted={isNextWanted} />
+      <div ref={place}>
+        {isNextWanted && <NextStep sheet={sheet} marks={verdict.marks} next={next} />}
+      </div>
       {verdict.cards.length > 0 && (
         <section aria-label="Suspects">
           <h2>Suspects</h2>

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 
 from fastapi import APIRouter
@@ -94,9 +95,16 @@ def show_grid(project: TheProject, line: TheLine) -> GridAnswer:
     """
     answer = _shown(project)
     far = how_far(project, line, answer.program, answer.text)
-    # The pauses of a proposal are for its first marks: it does not go on in its middle.
-    goes_on = far.goes_on and not answer.is_proposed
+    # What is to be done in a pause is asked again; nobody is to swap chains back by that.
+    taken = taken_marks(project, project.choices)
+    goes_on = far.goes_on and not (taken and (taken.swaps_chains or _pauses_between(answer)))
     return answer.model_copy(update={**vars(far), "goes_on": goes_on})
+
+
+def _pauses_between(answer: GridAnswer) -> bool:
+    """Return whether something is to be done between the first mark and the last."""
+    first, last = answer.marks[0].lines, answer.marks[-1].lines
+    return any(first <= wait.lines < last for wait in answer.pauses)
 
 
 def _shown(project: Project) -> GridAnswer:
@@ -190,7 +198,15 @@ def go_on_with_grid(request: GoOnRequest, project: TheProject, line: TheLine) ->
     if not answer.goes_on:
         raise InputError("no cut broke off that could go on: begin with the first mark")
     refuse_other_machine(project, line)
-    go_on(project, line, answer.program, answer.text, request.cut)
+    taken = taken_marks(project, project.choices)
+    go_on(
+        project,
+        line,
+        answer.program,
+        answer.text,
+        request.cut,
+        paused=_weighing(taken, line.virtual, on_sheet=request.cut),
+    )
     return machine(line)
 
 
@@ -209,28 +225,26 @@ def _cut_taken(taken: Taken, project: Project, line: MachineLine) -> MachineAnsw
     if owner:
         laid = owner
         line.do(lambda sender: _lay(laid, 0.0, new_sheet=False))
-        weights = _weights_after_pauses(taken, owner.settings.sled_weight)
-    begin(
-        project,
-        line,
-        taken.program,
-        taken.text,
-        paused=lambda lines: owner.weigh_down(weights[lines]) if owner else None,
-    )
+    begin(project, line, taken.program, taken.text, paused=_weighing(taken, owner))
     return machine(line)
 
 
-def _weights_after_pauses(taken: Taken, usual: float) -> dict[int, float]:
-    """Return what the sled weighs [N] after each pause, by the lines before it: as its next mark
-    asks.
+def _weighing(
+    taken: Taken | None, owner: VirtualOwner | None, *, on_sheet: int = 0
+) -> Callable[[int], None]:
+    """Return what hears of pauses, and lets the sled of a virtual machine weigh what the next mark
+    asks that is not on the sheet.
     """
-    cut = list(zip(_lines_of_marks(taken.text), taken.marks, strict=True))
-    return {
-        wait.lines: next(
-            (mark.sled_weight or usual for lines, mark in cut if lines > wait.lines), usual
-        )
-        for wait in taken.waits
-    }
+    if taken is None or owner is None:
+        return lambda lines: None
+    usual = owner.settings.sled_weight
+    cut = list(zip(_lines_of_marks(taken.text), taken.marks, strict=True))[on_sheet:]
+
+    def paused(done: int) -> None:
+        asked = (mark.sled_weight or usual for lines, mark in cut if lines > done)
+        owner.weigh_down(next(asked, usual))
+
+    return paused
 
 
 @router.post("/machine/readings")

@@ -1,4 +1,5 @@
 // What was written, how it comes into the machine, and what the machine says that it holds now.
+import type { Project } from "../../api/client";
 import { setting, settingText } from "../../controls/settings";
 import { isReady, useMachine } from "../../shell/machine";
 import { useProject } from "../../shell/project";
@@ -9,7 +10,7 @@ const SHOWN = 12;
 
 interface ToMachineParts {
   writing: Writing;
-  /** Whether the open file waits to be sent. */
+  /** Whether the button of the screen sends the open file. */
   isNext: boolean;
   /** Whether the machine holds its numbers. */
   isHeld: boolean;
@@ -19,55 +20,30 @@ export function ToMachine({ writing, isNext, isHeld }: ToMachineParts) {
   const { project } = useProject();
   const machine = useMachine();
   const { written, sent, busy } = writing;
-  const settings = project.choices.settings ?? "";
-  const file = settings.endsWith(".toml") ? settings : undefined;
+  const file = fileToSend(project);
   const last = lastSent(Object.keys(project.files));
   if (!file && !last) return null;
   const connected = machine.kind !== "none";
+  const steps = connected ? [] : (written?.steps ?? []);
+  const canGiveBack = connected && last;
+  if (isNext && steps.length === 0 && !canGiveBack && !sent) return null;
   return (
     <section class="to-machine" aria-label="To the machine">
       <h2>To the machine</h2>
-      {!connected && (
-        <>
-          {written && written.steps.length > 0 && <p>By hand: {written.steps.join("; ")}.</p>}
-          <p>
-            <a class={isNext ? "button primary" : "button"} href="#/open">
-              Connect the machine, then send {file ?? last}
-            </a>
-          </p>
-        </>
-      )}
-      {file && isHeld && isNext && (
-        <p>
-          <a class="button primary" href="#/check">
-            Check it with two marks
-          </a>
-        </p>
-      )}
-      {connected && (
-        <p class="buttons">
-          {file && !isHeld && (
-            <button
-              type="button"
-              class={isNext ? "primary" : ""}
-              disabled={busy || !isReady(machine)}
-              onClick={() => void writing.toMachine(file, false)}
-            >
-              Send {file} to {machine.name}; nothing moves
-            </button>
-          )}
-          {last && (
-            <button
-              type="button"
-              disabled={busy || !isReady(machine)}
-              onClick={() => void writing.toMachine(last, true)}
-            >
-              Give back its numbers from before {last}; nothing moves
-            </button>
-          )}
-        </p>
-      )}
-      {writing.notSent}
+      {steps.length > 0 && <p>By hand: {steps.join("; ")}.</p>}
+      <p class="buttons">
+        {!isNext && <ToSend writing={writing} isNext={false} isHeld={isHeld} />}
+        {canGiveBack && (
+          <button
+            type="button"
+            disabled={busy || !isReady(machine)}
+            onClick={() => void writing.toMachine(last, true)}
+          >
+            Give back its numbers from before {last}; nothing moves
+          </button>
+        )}
+      </p>
+      {!isNext && writing.notSent}
       {sent && (
         <>
           <p role="status">
@@ -97,4 +73,42 @@ export function ToMachine({ writing, isNext, isHeld }: ToMachineParts) {
       )}
     </section>
   );
+}
+
+/** Connects the machine, sends it the open file, and then checks it. */
+export function ToSend({ writing, isNext, isHeld }: ToMachineParts) {
+  const { project } = useProject();
+  const machine = useMachine();
+  const file = fileToSend(project);
+  const look = isNext ? "primary" : "";
+  if (machine.kind === "none")
+    return (
+      <a class={`button ${look}`} href="#/open">
+        Connect the machine, then send {file ?? lastSent(Object.keys(project.files))}
+      </a>
+    );
+  if (!file) return null;
+  if (isHeld)
+    return (
+      isNext && (
+        <a class={`button ${look}`} href="#/check">
+          Check it with two marks
+        </a>
+      )
+    );
+  return (
+    <button
+      type="button"
+      class={look}
+      disabled={writing.busy || !isReady(machine)}
+      onClick={() => void writing.toMachine(file, false)}
+    >
+      Send {file} to {machine.name}; nothing moves
+    </button>
+  );
+}
+
+/** The open settings, if a machine can take them. */
+function fileToSend({ choices }: Project): string | undefined {
+  return choices.settings?.endsWith(".toml") ? choices.settings : undefined;
 }

@@ -1,5 +1,6 @@
 // On from where a cut broke off: which marks are on the sheet is asked where nobody but its owner can know.
-import { useState } from "preact/hooks";
+import type { ComponentChild } from "preact";
+import { useEffect, useState } from "preact/hooks";
 import { send } from "../../api/client";
 import { useDo } from "../../shell/doing";
 import { useChoosing } from "../../shell/kept";
@@ -16,39 +17,44 @@ interface GoOnParts {
   blocked: boolean;
 }
 
-export function GoOn({ surely, perhaps, names, path, blocked }: GoOnParts) {
+/** The question, and the button that goes on by its answer. */
+export function useGoOn(parts: GoOnParts): [question: ComponentChild, act: ComponentChild] {
+  const { surely, perhaps, names, path, blocked } = parts;
   const { reload } = useProject();
   const machine = useMachine();
   const [works, run, refusal] = useDo();
   const [seen, setSeen] = useState<number>();
+  // Each break is another question.
+  useEffect(() => setSeen(undefined), [surely, perhaps]);
   const choosing = useChoosing();
   const cut = perhaps > 0 ? seen : surely;
   const next = cut === undefined ? undefined : names[cut];
   const goOn = async () => {
     await send("POST", path, { cut });
+    setSeen(undefined);
     await reload();
   };
-  return (
-    <div class="go-on">
-      {perhaps > 0 && (
-        <fieldset class="last-seen">
-          <legend>Look at the sheet: which of these marks is the last on it?</legend>
-          {Array.from({ length: perhaps + 1 }, (_, more) => surely + more).map((count) => (
-            <label key={count}>
-              <input
-                type="radio"
-                name="last-seen"
-                checked={seen === count}
-                onChange={() => setSeen(count)}
-              />
-              {count === 0 ? "none" : `mark ${names[count - 1]}`}
-            </label>
-          ))}
-        </fieldset>
-      )}
-      {cut === names.length ? (
-        <p>Then all are cut: read them.</p>
-      ) : (
+  const question = perhaps > 0 && (
+    <fieldset class="last-seen">
+      <legend>Look at the sheet: which of these marks is the last on it?</legend>
+      {Array.from({ length: perhaps + 1 }, (_, more) => surely + more).map((count) => (
+        <label key={count}>
+          <input
+            type="radio"
+            name="last-seen"
+            checked={seen === count}
+            onChange={() => setSeen(count)}
+          />
+          {count === 0 ? "none" : `mark ${names[count - 1]}`}
+        </label>
+      ))}
+    </fieldset>
+  );
+  const act =
+    cut === names.length ? (
+      "Then all are cut: read them."
+    ) : (
+      <>
         <button
           type="button"
           class="primary"
@@ -59,16 +65,18 @@ export function GoOn({ surely, perhaps, names, path, blocked }: GoOnParts) {
             ? `Go on: move the sled and cut from mark ${next}`
             : "Go on: say first which mark is the last"}
         </button>
-      )}
-      {refusal}
-    </div>
-  );
+        {refusal}
+      </>
+    );
+  return [question, act];
 }
 
 /** How far a cut came that broke off, as the folder knows it: after a restart of the lab too. */
 export function brokenWords(surely: number, perhaps: number, names: readonly string[]): string {
   if (surely === names.length) return "All marks are cut; the sled was on its way back.";
-  const more = names.slice(surely, surely + perhaps).join(" and ");
-  const may = more && ` The machine may have cut mark ${more} too.`;
+  const more = names.slice(surely, surely + perhaps);
+  const listed = more.join(", ").replace(/, ([^,]*)$/, " and $1");
+  const may =
+    listed && ` The machine may have cut mark${more.length > 1 ? "s" : ""} ${listed} too.`;
   return `Cut ${surely} of ${names.length} marks, then it broke off.${may}`;
 }

@@ -1,12 +1,18 @@
 // What came of the last cut, and what to do about it.
 import { type Project, send } from "../../api/client";
 import { useDo } from "../../shell/doing";
-import { isReady, type Machine, useMachine } from "../../shell/machine";
+import { isConnected, isReady, type Machine, useMachine } from "../../shell/machine";
 import { useProject } from "../../shell/project";
 import type { Grid } from "../Cut";
 import { brokenWords } from "./GoOn";
 
-export function Outcome({ grid }: { grid: Grid }) {
+interface OutcomeParts {
+  grid: Grid;
+  /** Whether the button of the screen reads the marks. */
+  isRead: boolean;
+}
+
+export function Outcome({ grid, isRead }: OutcomeParts) {
   const machine = useMachine();
   const { program } = machine;
   const isThis = program?.title === grid.program;
@@ -22,7 +28,9 @@ export function Outcome({ grid }: { grid: Grid }) {
       <p>
         {ended} {broke}
       </p>
-      {isCut && <Done grid={grid} waits={isThis || broke ? grid.waits : 0} />}
+      {isCut && !(isRead && !hasTape(grid, machine)) && (
+        <ToReadings waits={isThis || broke ? grid.waits : 0} />
+      )}
     </section>
   );
 }
@@ -35,55 +43,57 @@ const ENDED = {
 };
 
 /** How far the cut came, and what can be done. */
-function broken(grid: Grid, { kind, phase }: Machine): string {
+function broken(grid: Grid, machine: Machine): string {
   const { broke_off, perhaps, goes_on, is_proposed } = grid;
   if (broke_off == null) return "";
   const names = grid.marks.map(({ name }) => name);
   const words = brokenWords(broke_off, perhaps, names);
   if (broke_off === names.length) return words;
-  const connect = kind !== "none" && phase !== "lost" ? "" : " Connect the machine.";
-  const fresh = kind === "virtual" || is_proposed ? "" : " on a fresh sheet";
+  const connect = isConnected(machine) ? "" : " Connect the machine.";
+  const fresh = machine.kind === "virtual" || is_proposed ? "" : " on a fresh sheet";
   const next = perhaps > 0 ? ", or go on" : `, or go on from mark ${names[broke_off]}`;
   return `${words}${connect} Begin again${fresh}${goes_on ? next : ""}.`;
 }
 
-interface DoneParts {
-  grid: Grid;
-  /** Marks that are cut and not read. */
-  waits: number;
-}
-
-function Done({ grid, waits }: DoneParts) {
+/** Reads the marks that are cut: a virtual machine has its tape. */
+export function Read({ grid }: { grid: Grid }) {
   const { take } = useProject();
   const machine = useMachine();
   const [busy, run, refusal] = useDo();
-  if (waits === 0)
-    return (
-      <a class="button" href="#/readings">
-        Look at the readings
-      </a>
-    );
-  const read = () =>
-    run(async () => {
-      take(await send<Project>("POST", "machine/readings", { form: grid.form }));
-      location.hash = "#/readings";
-    });
+  if (!hasTape(grid, machine)) return <ToReadings waits={grid.waits} isNext />;
+  const read = async () => {
+    take(await send<Project>("POST", "machine/readings", { form: grid.form }));
+    location.hash = "#/readings";
+  };
   return (
     <>
-      {machine.kind === "virtual" && (
-        <button
-          type="button"
-          class="primary"
-          disabled={busy || !isReady(machine)}
-          onClick={() => void read()}
-        >
-          Let a tape read the {waits} marks
-        </button>
-      )}{" "}
-      <a class="button" href="#/readings">
-        Type what your tape says
-      </a>
+      <button
+        type="button"
+        class="primary"
+        disabled={busy || !isReady(machine)}
+        onClick={() => void run(read)}
+      >
+        Let a tape read the {grid.waits} marks
+      </button>
       {refusal}
     </>
+  );
+}
+
+function hasTape(grid: Grid, { kind }: Machine): boolean {
+  return kind === "virtual" && grid.waits > 0;
+}
+
+interface ToReadingsParts {
+  /** Marks that are cut and not read. */
+  waits: number;
+  isNext?: boolean;
+}
+
+export function ToReadings({ waits, isNext }: ToReadingsParts) {
+  return (
+    <a class={isNext ? "button primary" : "button"} href="#/readings">
+      {waits === 0 ? "Look at the readings" : "Type what your tape says"}
+    </a>
   );
 }

@@ -1,4 +1,5 @@
 // Where the sled is, is not known: the machine is given the lengths of its chains.
+import type { ComponentChild } from "preact";
 import { useState } from "preact/hooks";
 import { send } from "../../api/client";
 import { shownLength, typedLength } from "../../controls/lengths";
@@ -6,8 +7,10 @@ import { useDo } from "../../shell/doing";
 import { useProject } from "../../shell/project";
 
 const USUAL = 1651; // [mm] of both chains at their marks
+const FORM = "set-chains";
 
-export function SetChains() {
+/** The form for both lengths, and the button that sends it. */
+export function useSetChains(): [form: ComponentChild, act: ComponentChild] {
   const { project } = useProject();
   const [busy, run, refusal] = useDo();
   const unit = project.choices.units ?? "mm";
@@ -17,8 +20,9 @@ export function SetChains() {
   const known = lengths.every((length) => length !== undefined && length > 0);
   const tell = () =>
     run(() => send("POST", "machine/line", { text: `B06 L${lengths[0]} R${lengths[1]}` }));
-  return (
+  const form = (
     <form
+      id={FORM}
       class="set-chains"
       onSubmit={(event) => {
         event.preventDefault();
@@ -46,10 +50,15 @@ export function SetChains() {
           onInput={(event) => setRight(event.currentTarget.value)}
         />
       </label>
-      <button type="submit" class="primary" disabled={!known || busy}>
+    </form>
+  );
+  const act = (
+    <>
+      <button type="submit" form={FORM} class="primary" disabled={!known || busy}>
         Set both lengths; nothing moves
       </button>
       {refusal}
-    </form>
+    </>
   );
+  return [form, act];
 }

@@ -2,24 +2,25 @@
 import { Progress } from "../../controls/Progress";
 import type { Mark } from "../../sheet/marks";
 import { Sheet } from "../../sheet/Sheet";
-import { useAnswer } from "../../shell/answer";
 import { useMachine } from "../../shell/machine";
 import { useProject } from "../../shell/project";
 import { TakeMarks } from "./TakeMarks";
 import type { NextAnswer, Size, VerdictParts } from "./words";
 
+/** The proposal as far as it is worked out, or why there is none. */
+interface Asked {
+  answer: NextAnswer | undefined;
+  refused: string;
+}
+
 interface NextParts {
   sheet: Size;
   marks: VerdictParts["marks"];
-  /** Whether somebody asked for it; this outlasts a verdict that is worked out again. */
-  wanted: boolean;
+  next: Asked;
 }
 
-export function NextStep({ sheet, marks, wanted }: NextParts) {
-  const { answer, refused } = useAnswer<NextAnswer>("next", wanted);
+export function NextStep({ sheet, marks, next: { answer, refused } }: NextParts) {
   const { project } = useProject();
-  const isVirtual = useMachine().kind === "virtual";
-  if (!wanted) return null;
   if (refused) return <p class="trouble">{refused}</p>;
   if (answer?.nothing) return <p>Nothing that can be proposed would tell more.</p>;
   const next = answer?.next;
@@ -48,13 +49,11 @@ export function NextStep({ sheet, marks, wanted }: NextParts) {
           />
         )}
       </div>
-      {next.taking ? (
-        <TakeMarks taking={next.taking} />
-      ) : (
-        <p class="take">
-          <a class="button primary" href={`#/known/${next.by_hand}`}>
-            {isVirtual ? "Measure it" : "Type what you measured"}
-          </a>
+      {next.taking && (
+        <p>
+          {next.taking.program
+            ? `${next.taking.program} cuts them, ${next.taking.form} waits for their readings.`
+            : `${next.taking.form} waits for them; nothing is cut.`}
         </p>
       )}
       <Others next={next} />
@@ -63,6 +62,19 @@ export function NextStep({ sheet, marks, wanted }: NextParts) {
         <code>{answer.command}</code>
       </details>
     </section>
+  );
+}
+
+/** The button of the screen once something is proposed. */
+export function NextAct({ next: { answer, refused } }: { next: Asked }) {
+  const isVirtual = useMachine().kind === "virtual";
+  const next = answer?.next;
+  if (refused || !next) return null;
+  if (next.taking) return <TakeMarks taking={next.taking} />;
+  return (
+    <a class="button primary" href={`#/known/${next.by_hand}`}>
+      {isVirtual ? "Measure it" : "Type what you measured"}
+    </a>
   );
 }
 

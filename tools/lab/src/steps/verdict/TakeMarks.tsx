@@ -19,27 +19,21 @@ export function TakeMarks({ taking, title }: TakeParts) {
       take(await send<Project>("POST", "next", { choose: taking.choose, digest: taking.digest }));
       location.hash = taking.program ? "#/cut" : "#/readings";
     });
-  if (title !== undefined)
-    return (
-      <>
+  const { program, marks } = taking;
+  return (
+    <>
+      {title === undefined ? (
+        <button type="button" class="primary" disabled={busy} onClick={press}>
+          {program
+            ? `Take these ${marks} marks; nothing moves yet`
+            : `Take these ${marks} readings`}
+        </button>
+      ) : (
         <button type="button" aria-label={`Take: ${title}`} disabled={busy} onClick={press}>
           Take
         </button>
-        {refusal}
-      </>
-    );
-  const { form, program, marks } = taking;
-  return (
-    <p class="take">
-      <button type="button" class="primary" disabled={busy} onClick={press}>
-        {program ? `Take these ${marks} marks; nothing moves yet` : `Take these ${marks} readings`}
-      </button>{" "}
-      <small>
-        {program
-          ? `${program} cuts them, ${form} waits for their readings.`
-          : `${form} waits for them; nothing is cut.`}
-      </small>
+      )}
       {refusal}
-    </p>
+    </>
   );
 }
