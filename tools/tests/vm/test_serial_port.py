@@ -209,6 +209,36 @@ def test_a_program_that_waits_is_stopped_by_s_and_where_nobody_can_answer(served
     assert re.search(r"x (4\.9|5\.0)\d,", plumb("read", "--port", "maslow", folder=tmp_path))
 
 
+def test_z_is_moved_and_set_in_a_pause_and_the_depth_holds_from_there(served, tmp_path):
+    served()
+    (tmp_path / "job.nc").write_text("G21\nG0 Z5\nM0\nG1 Z-2 F300\nG0 Z5\nM30\n")
+    typed = "G91 G0 Z-3 G90\nG0 X5\nG10 Z\u00bd\nG10 Z0\n\n"
+    said = plumb("send", "--port", "maslow", "job.nc", folder=tmp_path, typed=typed)
+    assert "error: the program waits" in said and "is no plain text" in said
+    assert "Z goes back to 5.00" in said and "6 lines were sent" in said
+    read = plumb("read", "--port", "maslow", folder=tmp_path)
+    assert "x 0.00" in read and "the bit at z 5.0" in read
+
+
+def test_what_the_board_saw_is_said_before_it_is_reset_and_forgets(served, tmp_path):
+    served()
+    plumb("send", "--port", "maslow", "$42=0.2", folder=tmp_path)
+    (tmp_path / "job.nc").write_text("G21\nG1 X60 F900\nG0 X0\n")
+    said = plumb("send", "--json", "--port", "maslow", "job.nc", folder=tmp_path)
+    answer, end = json.JSONDecoder().raw_decode(said)
+    assert answer["warnings"]
+    assert all("mm behind; 0.2 mm stops" in each for each in answer["warnings"])
+    assert "- The " in said[end:] and "2 mm stops" in said[end:].replace("\n", " ")
+
+
+def test_a_program_of_which_nothing_is_done_is_not_gone_on_with(served, tmp_path):
+    served("--fresh")
+    (tmp_path / "job.nc").write_text("G21\nG0 X5\nG0 X10\n")
+    said = plumb("send", "--port", "maslow", "job.nc", folder=tmp_path, code=2)
+    assert "Nothing of job.nc is surely done.\n" in said and "All before" not in said
+    assert "To begin again:" in said and "--line 1 " in said
+
+
 def test_ctrl_c_ends_the_machine_from_the_moment_that_its_port_is_there(tmp_path, monkeypatch):
     link, memory = tmp_path / "maslow", tmp_path / "memory.bin"
 
