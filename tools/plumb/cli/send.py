@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import math
 import signal
 import sys
 from collections.abc import Callable, Sequence
@@ -175,13 +176,13 @@ def _print_written(arguments: argparse.Namespace, done: tuple[Written, str]) -> 
 
 def _watched(sender: Sender, numbers: dict[int, float]) -> list[str]:
     """Print what deserves a look, before the line is closed: the next program that opens it resets
-    the board, which then has forgotten what it saw.
+    the board, which then has forgotten what it saw. How far a motor fell behind is no matter: the
+    feed yields, and the machine says so.
     """
     telemetry = telemetry_in("\n".join(sender.ask("B30")))
     if telemetry is None:
         return []
-    limit, rate = numbers.get(42, 2.0), int(numbers.get(69, 100))
-    said = list(warnings(telemetry, limit_mm=limit, rate_hz=rate))
+    said = list(warnings(telemetry, limit_mm=math.inf, rate_hz=int(numbers.get(69, 100))))
     if said:
         print(sentences(said))
     return said

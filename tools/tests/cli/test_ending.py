@@ -75,6 +75,20 @@ def test_little_is_loaded_before_ctrl_c_is_quiet():
     assert subprocess.check_output([sys.executable, "-S", "-c", code], cwd=TOOLS) == b"set()\n"
 
 
+def test_the_command_is_quiet_before_it_looks_for_its_package(tmp_path):
+    (tmp_path / "plumb/cli").mkdir(parents=True)
+    (tmp_path / "plumb/__init__.py").write_text("import os, time; os.kill(os.getpid(), 2)\n")
+    command = [sys.executable, "-S", str(TOOLS / "core/plumb"), "effects"]
+    look_here = {"PYTHONPATH": str(tmp_path)}
+    with INTERRUPTIBLE(command, stderr=subprocess.PIPE, env=look_here) as process:
+        _, complaint = process.communicate(timeout=60)
+    assert (process.returncode, complaint) == (-signal.SIGINT, b"")
+    # In the background of a shell a signal that is ignored stays so.
+    ignored = f"trap '' INT; exec {sys.executable} -S {TOOLS / 'core/plumb'} --version"
+    done = subprocess.run(["sh", "-c", ignored], env=look_here, capture_output=True, text=True)
+    assert "No module named 'plumb.cli.start'" in done.stderr
+
+
 def test_ctrl_c_ends_quietly(tmp_path):
     pipe = tmp_path / "log"
     os.mkfifo(pipe)

@@ -9,6 +9,7 @@ import subprocess
 import pytest
 import serial
 from plumb.cli.main import main
+from plumb.cli.vm import EEPROM_BYTES, TRAVELS
 from plumb.diary.file import append, read_diary
 from plumb.line.port import port_for
 from plumb.text.errors import InputError
@@ -222,13 +223,12 @@ def test_z_is_moved_and_set_in_a_pause_and_the_depth_holds_from_there(served, tm
 
 def test_what_the_board_saw_is_said_before_it_is_reset_and_forgets(served, tmp_path):
     served()
-    plumb("send", "--port", "maslow", "$42=0.2", folder=tmp_path)
-    (tmp_path / "job.nc").write_text("G21\nG1 X60 F900\nG0 X0\n")
+    plumb("send", "--port", "maslow", "$75=0.95", folder=tmp_path)
+    (tmp_path / "job.nc").write_text("G21\nG1 X5 F900\n")
     said = plumb("send", "--json", "--port", "maslow", "job.nc", folder=tmp_path)
     answer, end = json.JSONDecoder().raw_decode(said)
-    assert answer["warnings"]
-    assert all("mm behind; 0.2 mm stops" in each for each in answer["warnings"])
-    assert "- The " in said[end:] and "2 mm stops" in said[end:].replace("\n", " ")
+    assert [each[:24] for each in answer["warnings"]] == ["The Mega's 5 V fell to 4"]
+    assert "- The Mega's 5 V fell to 4.3" in said[end:]
 
 
 def test_a_program_of_which_nothing_is_done_is_not_gone_on_with(served, tmp_path):
@@ -272,6 +272,25 @@ def test_the_memory_outlives_the_program(served, tmp_path):
     first.stop()
     served("--eeprom", "memory.bin")
     assert "2981" in plumb("read", "--port", "maslow", folder=tmp_path)
+
+
+def test_the_sled_hangs_at_the_next_start_where_it_hung_at_the_end(served, tmp_path):
+    def hangs() -> tuple[float, ...]:
+        return TRAVELS.unpack((tmp_path / "memory.bin").read_bytes()[EEPROM_BYTES:])
+
+    first = served("--eeprom", "memory.bin")
+    plumb("send", "--port", "maslow", "G1 X-700 Y-200 Z4 F900", folder=tmp_path)
+    first.stop()
+    before = hangs()
+    second = served("--eeprom", "memory.bin")
+    assert "x -700.00, y -200.00, the bit at z 4.0" in plumb(
+        "read", "--port", "maslow", folder=tmp_path
+    )
+    second.stop()
+    assert hangs() == pytest.approx(before, abs=0.05) and hangs()[2] == pytest.approx(4, abs=0.05)
+    (tmp_path / "memory.bin").write_bytes(b"\xff" * EEPROM_BYTES)  # as older files are
+    served("--eeprom", "memory.bin").stop()
+    assert hangs() == pytest.approx((1651, 1651, 0), abs=0.05)
 
 
 def test_a_fresh_machine_knows_no_chains(served, tmp_path):
