@@ -46,7 +46,7 @@ from plumb.model.predict import CANNOT_HANG, REACH_WORDS, USABLE
 from plumb.pictures.job import Drawn, draw_job
 from plumb.settings.machine import GRAVITY, MachineSettings
 from plumb.text.answers import Internal, part
-from plumb.text.values import bare, brief, signed, time_text, unit, worded
+from plumb.text.values import INCH, bare, brief, signed, time_text, unit, worded
 
 NAMED = 30  # parts that get their number in the picture
 
@@ -360,7 +360,7 @@ def _error(error: Error | None) -> str:
 def _notes(checked: Checked) -> list[str]:
     notes = [
         f"{_count(each.moves, 'move')} slower than the program asks, by {each.because}: line "
-        f"{each.line} asks for {each.asked:.0f} mm/min and gets {each.feed:.0f}"
+        f"{each.line} asks for {_feed(each.asked)} {unit()}/min and gets {_feed(each.feed)}"
         for each in checked.slower
     ]
     notes += [
@@ -380,6 +380,11 @@ def _notes(checked: Checked) -> list[str]:
     if checked.hanging is not None:
         notes += checked.hanging.assumed
     return notes
+
+
+def _feed(feed: float) -> str:
+    """Return a feed [mm/min] in the unit of lengths."""
+    return f"{feed:.0f}" if unit() == "mm" else f"{feed / INCH:.1f}"
 
 
 def _lines(numbers: Sequence[int]) -> str:

@@ -198,9 +198,8 @@ class Parser(argparse.ArgumentParser):
     def _refuse(self, what: str, word: str) -> NoReturn:
         known = [each for each in self._option_string_actions if each.startswith("--")]
         name = word.partition("=")[0]
-        raise InputError(
-            f"there is no {what} {name} here{meant(name, known)}; see {self.prog} --help"
-        )
+        near = meant(name, known, begin="--")
+        raise InputError(f"there is no {what} {name} here{near}; see {self.prog} --help")
 
     def _check_value(self, action: argparse.Action, value: Any) -> None:
         """Refuse a word that is no choice, with the nearest choice."""
@@ -215,10 +214,13 @@ class Parser(argparse.ArgumentParser):
         raise argparse.ArgumentError(action, f"'{value}' is not known{hint}")
 
 
-def meant(word: str, known: Iterable[str]) -> str:
-    """`; did you mean ...?` with the nearest known word, or nothing."""
-    near = get_close_matches(word.lower(), list(known), 1)
-    return f"; did you mean {near[0]}?" if near else ""
+def meant(word: str, known: Iterable[str], *, begin: str = "") -> str:
+    """`; did you mean ...?` with the nearest known word, or nothing; `begin`: how all words begin,
+    which makes none of them nearer.
+    """
+    named = [each.removeprefix(begin) for each in known]
+    near = get_close_matches(word.removeprefix(begin).lower(), named, 1)
+    return f"; did you mean {begin}{near[0]}?" if near else ""
 
 
 class Version(argparse.Action):

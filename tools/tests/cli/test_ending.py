@@ -38,6 +38,11 @@ def test_version_is_that_of_the_package(capsys, run):
         (["xyz"], "there is no command 'xyz'; see plumb --help"),
         (["effects", "--jason"], "no option --jason here; did you mean --json?; see plumb effects"),
         (["effects", "--jason=1"], "no option --jason here; did you mean --json?"),
+        (
+            ["compare", str(SETTINGS), str(MARKS), "--lnie", "5"],
+            "there is no option --lnie here; see plumb compare --help",
+        ),
+        (["resume", str(SETTINGS), "--lnie", "5"], "no option --lnie here; did you mean --line?"),
         (["effects", "--colour"], "there is no option --colour here; see plumb effects --help"),
         (["effects", "more"], "there is no argument more here; see plumb effects --help"),
         (["bench", "--scenario"], "expected at least one argument; see plumb bench --help"),
