@@ -46,7 +46,7 @@ from plumb.model.predict import CANNOT_HANG, REACH_WORDS, USABLE
 from plumb.pictures.job import Drawn, draw_job
 from plumb.settings.machine import GRAVITY, MachineSettings
 from plumb.text.answers import Internal, part
-from plumb.text.values import INCH, bare, brief, signed, time_text, unit, worded
+from plumb.text.values import bare, brief, signed, time_text, unit, worded
 
 NAMED = 30  # parts that get their number in the picture
 

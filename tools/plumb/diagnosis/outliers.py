@@ -107,15 +107,19 @@ class Outlier:
         """How far it is off [mm]."""
         return float(np.hypot(*self.offset)) if len(self.offset) == 2 else abs(self.offset[0])
 
+    @property
+    def called(self) -> str:
+        """What it is, with its name."""
+        return f"{'distance' if len(self.offset) == 1 else 'mark'} {self.name}"
+
     @computed_field
     @property
     def sentence(self) -> str:
         """What to do, for people."""
-        what = "distance" if len(self.offset) == 1 else "mark"
         cause = f"; {self.guess}" if self.guess else ""
         advice = "" if self.guess else self._advice
         said = f"it reads {worded(self.length, 1)} {self.way}{cause}{advice}"
-        return f"remeasure {what} {self.name}: {said}"
+        return f"remeasure {self.called}: {said}"
 
     @property
     def _advice(self) -> str:
