@@ -244,7 +244,7 @@ class _Attendant:
 
     def attend(self, sender: Sender) -> None:
         """Hold, ask, and do what is answered; called again and again."""
-        waits = self._question is not None or self._waits_now or self._has_slipped_in
+        waits = self._question is not None or self._waits_now
         self._followed.look(pauses=waits or (sender.status or NOWHERE).state == PAUSED)
         if self._question:
             self._settle(sender, self._question)
