@@ -8,6 +8,7 @@ from __future__ import annotations
 import argparse
 import os
 import re
+import signal
 import sys
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from difflib import get_close_matches
@@ -84,6 +85,9 @@ def _run(arguments: Sequence[str]) -> int:
     run: Callable[[argparse.Namespace], int] = loaded(f"plumb.cli.{parsed.command}").run
     for line in loaded("plumb.model.sketches").BROKEN:
         raise InputError(f"sketch {line}")
+    # Until here it ends the program at once: numpy would call an interruption a broken library.
+    if signal.getsignal(signal.SIGINT) is signal.SIG_DFL:
+        signal.signal(signal.SIGINT, signal.default_int_handler)
     units = "mm" if "json" in parsed and parsed.json else getattr(parsed, "units", None)
     with results_of(parsed), shown_in(units or "mm"):
         return run(parsed)
