@@ -112,8 +112,12 @@ class Axes {
   /// How often a chain may have slipped, since the start; see motion::SlipWatch. Wraps round.
   uint8_t slips(Axis chain) const { return slips_[chain]; }
 
-  /// The worst fault since the last call.
-  motion::Fault fault();
+  /// The worst fault since the last call, and its axis.
+  struct AxisFault {
+    motion::Fault fault;
+    Axis axis;
+  };
+  AxisFault fault();
   /// Whether, since the axis last got power, a fault has proved its counts wrong.
   bool isDisproved(Axis axis) const { return axis_[axis].isDisproved(); }
   /// Whether the encoder of an axis missed many steps since a length was declared: the length is

@@ -71,12 +71,12 @@ AxisState Axes::state(Axis axis) const {
   return axis_[axis].state();
 }
 
-motion::Fault Axes::fault() {
+Axes::AxisFault Axes::fault() {
   const WithoutTicks hold(clock_);
-  motion::Fault worst = motion::Fault::kNone;
-  for (TickedAxis& axis : axis_) {
-    const motion::Fault seen = axis.fault();
-    if (seen > worst) worst = seen;
+  AxisFault worst = {motion::Fault::kNone, kLeftAxis};
+  for (uint8_t i = 0; i < kAxisCount; ++i) {
+    const motion::Fault seen = axis_[i].fault();
+    if (seen > worst.fault) worst = {seen, Axis(i)};
   }
   return worst;
 }

@@ -80,12 +80,13 @@ class Machine : private Waiting, private Dispatch {
   /// What a person does after an alarm.
   enum class Remedy : uint8_t { kOpen, kLookForHold, kMendAndSet, kSwitchOff };
   /// Says the texts and the remedy as one line.
-  void raiseAlarm(Remedy remedy, FlashText text, FlashText more = FLASH(""));
+  void raiseAlarm(Remedy remedy, FlashText text, FlashText more = FLASH(""),
+                  FlashText last = FLASH(""));
   void sayRemedy(Remedy remedy);
   void watchStack();
   void watchAxes();
   void watchEncoders();
-  void raiseAlarmOf(motion::Fault fault);
+  void raiseAlarmOf(Axes::AxisFault worst);
   void override(gcode::Quick quick);
   void resetOverrides();
   void applyOverrides();

@@ -132,7 +132,7 @@ void Machine::resetSoftly() {
   greeting_.sayReady();
 }
 
-void Machine::raiseAlarm(Remedy remedy, FlashText text, FlashText more) {
+void Machine::raiseAlarm(Remedy remedy, FlashText text, FlashText more, FlashText last) {
   if (!course_.take(Event::kAlarm)) return;
   forgetUnanswered();
   cutter_.off();
@@ -140,7 +140,7 @@ void Machine::raiseAlarm(Remedy remedy, FlashText text, FlashText more) {
   axes_.brakeAll();
   planner_.forget();
   axes_.standStill();
-  out_.alarm(grbl::kAlarmOfFault) << text << more << FLASH(". ");
+  out_.alarm(grbl::kAlarmOfFault) << text << more << last << FLASH(". ");
   sayRemedy(remedy);
   out_.line(FLASH("."));
 }
@@ -184,10 +184,10 @@ void Machine::watchAxes() {
         FLASH("The feed yields: a chain or z falls behind. Look for a weak supply or what holds "
               "the sled, or ask for a slower feed."));
   watchEncoders();
-  const motion::Fault fault = axes_.fault();
+  const Axes::AxisFault worst = axes_.fault();
   // Tests make errors on purpose.
   if (axis_tests_.isTesting()) return;
-  if (fault != motion::Fault::kNone) raiseAlarmOf(fault);
+  if (worst.fault != motion::Fault::kNone) raiseAlarmOf(worst);
 }
 
 void Machine::watchEncoders() {
@@ -199,17 +199,21 @@ void Machine::watchEncoders() {
   }
 }
 
-void Machine::raiseAlarmOf(motion::Fault fault) {
+void Machine::raiseAlarmOf(Axes::AxisFault worst) {
   const FlashText kFirst = FLASH("The sled is not keeping up with its expected position");
-  if (fault == motion::Fault::kLeftBehind)
-    return raiseAlarm(Remedy::kLookForHold, kFirst, FLASH(" and has halted"));
+  const FlashText name = worst.axis == kLeftAxis    ? FLASH(": the left motor")
+                         : worst.axis == kRightAxis ? FLASH(": the right motor")
+                                                    : FLASH(": the z motor");
+  if (worst.fault == motion::Fault::kLeftBehind)
+    return raiseAlarm(Remedy::kLookForHold, kFirst, name,
+                      FLASH(" is left behind, and the sled has halted"));
   // Each of these faults proves counts wrong.
   place_.doubtCounts();
-  if (fault == motion::Fault::kStands)
-    return raiseAlarm(Remedy::kMendAndSet, kFirst,
-                      FLASH(": a motor is driven and its encoder stands still"));
-  raiseAlarm(Remedy::kMendAndSet, kFirst,
-             FLASH(": a motor turns against its drive; it or its encoder is wired in reverse"));
+  if (worst.fault == motion::Fault::kStands)
+    return raiseAlarm(Remedy::kMendAndSet, kFirst, name,
+                      FLASH(" is driven and its encoder stands still"));
+  raiseAlarm(Remedy::kMendAndSet, kFirst, name,
+             FLASH(" turns against its drive; it or its encoder is wired in reverse"));
 }
 
 void Machine::noteHang() {

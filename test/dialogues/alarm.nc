@@ -3,7 +3,7 @@
 -> G1 X300 F800
 ~~ wait 3
 ~~ block left
-<- ALARM: The sled is not keeping up*
+<- ALARM: The sled is not keeping up with its expected position: the left motor is driven*
 ~~ wait 0.5
 ~~ off left
 ~~ off right

@@ -6,7 +6,7 @@
 <- ok
 ~~ wait 1
 ~~ unplug right
-<- ALARM: The sled is not keeping up with its expected position: a motor is driven and its encoder stands still*
+<- ALARM: The sled is not keeping up with its expected position: the right motor is driven and its encoder stands still*
 ~~ off right
 ~~ plug right
 ~~ wait 1
@@ -48,7 +48,7 @@
 ~~ reverse left
 -> G91 G1 X-5 Y-5 G90
 <- ok
-<- ALARM: The sled is not keeping up with its expected position: a motor turns against its drive*
+<- ALARM: The sled is not keeping up with its expected position: the left motor turns against its drive*
 ~~ off left
 >> !
 <- ok

@@ -15,7 +15,7 @@
 ; The next move says so, slow as it is, before the chain has run far. Where a chain pulls, the alarm comes sooner, and
 ; this move is refused.
 -> G1 X40 F60
-<* ALARM: The sled is not keeping up with its expected position: a motor is driven and its encoder stands still*
+<* ALARM: The sled is not keeping up with its expected position: the left motor is driven and its encoder stands still*
 ~~ off left
 ~~ chains 1717.98 1685.66 2.4
 ~~ answers from now

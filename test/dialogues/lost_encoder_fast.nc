@@ -7,7 +7,7 @@
 -> G1 X200
 ~~ wait 5
 ~~ unplug left
-<* ALARM: The sled is not keeping up with its expected position: a motor is driven and its encoder stands still*
+<* ALARM: The sled is not keeping up with its expected position: the left motor is driven and its encoder stands still*
 ~~ off left
 ~~ wait 1
 ~~ chains 1751.9 1653.4 1.2

@@ -2,7 +2,7 @@
 ~~ include setup.inc
 ~~ reverse z
 -> G0 Z-1
-<* ALARM: The sled is not keeping up with its expected position: a motor turns against its drive*
+<* ALARM: The sled is not keeping up with its expected position: the z motor turns against its drive*
 ~~ wait 1
 ~~ off z
 >> !

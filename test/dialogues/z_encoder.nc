@@ -6,7 +6,7 @@
 ~~ quiet
 ~~ unplug z
 -> G0 Z0
-<- ALARM: The sled is not keeping up with its expected position: a motor is driven and its encoder stands still*
+<- ALARM: The sled is not keeping up with its expected position: the z motor is driven and its encoder stands still*
 ~~ off z
 ~~ plug z
 >> !

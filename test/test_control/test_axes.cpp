@@ -110,7 +110,7 @@ TEST(Axes, YieldWhereTheSupplyIsWeakAndRiseAgain) {
         if (seconds > 8 && seconds < 12) weak = std::max(weak, speed);
         if (seconds > 16 && seconds < 18) strong = std::max(strong, speed);
       }
-      EXPECT_EQ(motion::Fault::kNone, bench.axes.fault()) << "motor " << seed;
+      EXPECT_EQ(motion::Fault::kNone, bench.axes.fault().fault) << "motor " << seed;
       EXPECT_LT(worst, 1.95) << "motor " << seed;
       EXPECT_LT(weak, 13) << "motor " << seed;
       EXPECT_GT(strong, 14.5) << "motor " << seed;

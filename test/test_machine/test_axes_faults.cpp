@@ -44,7 +44,7 @@ struct Faults : testing::Test {
 TEST_F(Faults, AnAxisThatStandsIsDisprovedAlone) {
   axes.jumpTo(kLeftAxis, 50);
   tick(120);
-  EXPECT_EQ(motion::Fault::kStands, axes.fault());
+  EXPECT_EQ(motion::Fault::kStands, axes.fault().fault);
   EXPECT_TRUE(axes.isDisproved(kLeftAxis));
   EXPECT_FALSE(axes.isDisproved(kRightAxis));
   EXPECT_FALSE(axes.isDisproved(kZAxis));
@@ -52,7 +52,9 @@ TEST_F(Faults, AnAxisThatStandsIsDisprovedAlone) {
 
 TEST_F(Faults, AnAxisThatIsLeftBehindIsNotDisproved) {
   leaveRightBehind();
-  EXPECT_EQ(motion::Fault::kLeftBehind, axes.fault());
+  const Axes::AxisFault worst = axes.fault();
+  EXPECT_EQ(motion::Fault::kLeftBehind, worst.fault);
+  EXPECT_EQ(kRightAxis, worst.axis);
   EXPECT_FALSE(axes.isDisproved(kRightAxis));
 }
 
@@ -60,7 +62,9 @@ TEST_F(Faults, TheWorstIsTold) {
   axes.jumpTo(kLeftAxis, 50);
   tick(120);
   leaveRightBehind();
-  EXPECT_EQ(motion::Fault::kStands, axes.fault()) << "the right axis is left behind later";
+  const Axes::AxisFault worst = axes.fault();
+  EXPECT_EQ(motion::Fault::kStands, worst.fault) << "the right axis is left behind later";
+  EXPECT_EQ(kLeftAxis, worst.axis);
 }
 
 TEST_F(Faults, ANewStartForgetsThem) {
@@ -69,6 +73,6 @@ TEST_F(Faults, ANewStartForgetsThem) {
   axes.releaseAll();
   axes.standStill();
   axes.follow();
-  EXPECT_EQ(motion::Fault::kNone, axes.fault());
+  EXPECT_EQ(motion::Fault::kNone, axes.fault().fault);
   EXPECT_FALSE(axes.isDisproved(kLeftAxis));
 }

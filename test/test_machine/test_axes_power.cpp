@@ -51,7 +51,7 @@ TEST(AxesPower, AnAxisWithoutAGainIsNotWatchedAndYieldsNothing) {
   powered.axes.follow();
   powered.axes.jumpTo(kZAxis, 5);  // the limit is 2 mm
   powered.ticks(20);
-  EXPECT_EQ(motion::Fault::kNone, powered.axes.fault());
+  EXPECT_EQ(motion::Fault::kNone, powered.axes.fault().fault);
   EXPECT_FALSE(powered.axes.hasYielded());
   EXPECT_FALSE(powered.axes.isDisproved(kZAxis));
 }

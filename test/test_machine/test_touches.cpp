@@ -118,7 +118,7 @@ Signature howDriven(const Values& values) {
   for (float behind = 0.01f; behind < 20; behind *= 1.2f) {
     for (uint8_t i = 0; i < kAxisCount; ++i) axes.jumpTo(Axis(i), axes.length(Axis(i)) + behind);
     axes.tick();
-    result.push_back(float(axes.fault()));
+    result.push_back(float(axes.fault().fault));
   }
   return result;
 }

@@ -90,7 +90,7 @@ class Round:
                 "checked on marks not used."
             )
         if diagnosis.outliers:
-            names = ", ".join(dict.fromkeys(slip.name for slip in diagnosis.outliers))
+            names = ", ".join(dict.fromkeys(slip.called for slip in diagnosis.outliers))
             return f"Not yet: read {names} again, and correct the file."
         best = self.best
         if best is None:

@@ -360,7 +360,7 @@ def _error(error: Error | None) -> str:
 def _notes(checked: Checked) -> list[str]:
     notes = [
         f"{_count(each.moves, 'move')} slower than the program asks, by {each.because}: line "
-        f"{each.line} asks for {each.asked:.0f} mm/min and gets {each.feed:.0f}"
+        f"{each.line} asks for {_feed(each.asked)} {unit()}/min and gets {_feed(each.feed)}"
         for each in checked.slower
     ]
     notes += [
@@ -380,6 +380,11 @@ def _notes(checked: Checked) -> list[str]:
     if checked.hanging is not None:
         notes += checked.hanging.assumed
     return notes
+
+
+def _feed(feed: float) -> str:
+    """Return a feed [mm/min] in the unit of lengths."""
+    return f"{feed:.0f}" if unit() == "mm" else f"{feed / INCH:.1f}"
 
 
 def _lines(numbers: Sequence[int]) -> str:

@@ -8,6 +8,7 @@ from __future__ import annotations
 import argparse
 import os
 import re
+import signal
 import sys
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from difflib import get_close_matches
@@ -84,6 +85,9 @@ def _run(arguments: Sequence[str]) -> int:
     run: Callable[[argparse.Namespace], int] = loaded(f"plumb.cli.{parsed.command}").run
     for line in loaded("plumb.model.sketches").BROKEN:
         raise InputError(f"sketch {line}")
+    # Until here it ends the program at once: numpy would call an interruption a broken library.
+    if signal.getsignal(signal.SIGINT) is signal.SIG_DFL:
+        signal.signal(signal.SIGINT, signal.default_int_handler)
     units = "mm" if "json" in parsed and parsed.json else getattr(parsed, "units", None)
     with results_of(parsed), shown_in(units or "mm"):
         return run(parsed)
@@ -198,9 +202,8 @@ class Parser(argparse.ArgumentParser):
     def _refuse(self, what: str, word: str) -> NoReturn:
         known = [each for each in self._option_string_actions if each.startswith("--")]
         name = word.partition("=")[0]
-        raise InputError(
-            f"there is no {what} {name} here{meant(name, known)}; see {self.prog} --help"
-        )
+        near = meant(name, known, begin="--")
+        raise InputError(f"there is no {what} {name} here{near}; see {self.prog} --help")
 
     def _check_value(self, action: argparse.Action, value: Any) -> None:
         """Refuse a word that is no choice, with the nearest choice."""
@@ -215,10 +218,13 @@ class Parser(argparse.ArgumentParser):
         raise argparse.ArgumentError(action, f"'{value}' is not known{hint}")
 
 
-def meant(word: str, known: Iterable[str]) -> str:
-    """`; did you mean ...?` with the nearest known word, or nothing."""
-    near = get_close_matches(word.lower(), list(known), 1)
-    return f"; did you mean {near[0]}?" if near else ""
+def meant(word: str, known: Iterable[str], *, begin: str = "") -> str:
+    """`; did you mean ...?` with the nearest known word, or nothing; `begin`: how all words begin,
+    which makes none of them nearer.
+    """
+    named = [each.removeprefix(begin) for each in known]
+    near = get_close_matches(word.removeprefix(begin).lower(), named, 1)
+    return f"; did you mean {begin}{near[0]}?" if near else ""
 
 
 class Version(argparse.Action):

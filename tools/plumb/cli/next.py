@@ -50,7 +50,7 @@ FEW = 5  # proposals of a short answer
 HEADS = {
     SETTLE: "chance to settle",
     CONFIRM: "chance to confirm",
-    FIND: "could hide then",
+    FIND: "may act unseen then",
     REREAD: "chance to show it",
     EXPLORE: "",
 }

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated
 
-from plumb.cli.arguments import add_force, add_json, add_machine, count, place
+from plumb.cli.arguments import add_force, add_json, add_machine, add_units, count, place
 from plumb.cli.output import STDOUT, write_outputs
 from plumb.cli.screen import next_step, print_json, sentences
 from plumb.fit.inputs import settings_in
@@ -15,7 +15,7 @@ from plumb.job.dry_run import comment_of, program_in
 from plumb.job.resume import Machine, Resumed, resume_at_line, resume_at_place
 from plumb.text.answers import key
 from plumb.text.errors import InputError
-from plumb.text.values import bare, worded
+from plumb.text.values import bare, unit, worded
 
 SHOWN = 8  # passes that are named
 
@@ -58,7 +58,7 @@ def run(arguments: argparse.Namespace) -> int:
 
 def _report(resumed: Resumed, name: str) -> list[str]:
     x, y, z = resumed.begins
-    where = f"X{bare(x)} Y{bare(y)}"
+    where = f"X{bare(x)} Y{bare(y)}" + (" inch" if unit() == "inch" else "")
     if resumed.entry is None:
         return [f"{name} goes on with line {resumed.first}, from {where}, where the bit was free."]
     said = [f"{name} goes on in the middle of line {resumed.first}, at {where}, {worded(-z)} deep."]
@@ -102,4 +102,5 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="the program [the standard output]",
     )
     add_force(parser)
+    add_units(parser)
     add_json(parser)

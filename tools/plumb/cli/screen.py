@@ -16,6 +16,7 @@ import textwrap
 import time
 from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
+from threading import Thread
 from typing import Literal
 
 from rich.console import Console
@@ -277,3 +278,29 @@ def free_name(stem: str, ending: str) -> str:
         if not os.path.exists(name):
             return name
         number += 1
+
+
+# A question in the terminal; whoever asks goes on working, and looks for the answer meanwhile.
+
+STDIN = 0  # not sys.stdin: its lock would be held at the end of the program
+
+
+class Question:
+    """A question whose answer is a line."""
+
+    def __init__(self, text: str) -> None:
+        self.answer: str | None = None  # None: not yet; empty: just Enter
+        self.is_unheard = False  # nobody can answer: the input has ended
+        print(text, end="", flush=True)
+        Thread(target=self._listen, daemon=True).start()
+
+    def _listen(self) -> None:
+        typed = b""
+        while not typed.endswith(b"\n"):
+            came = os.read(STDIN, 1)
+            if not came:
+                self.is_unheard = True
+                print()
+                break
+            typed += came
+        self.answer = typed.decode(errors="replace").strip()

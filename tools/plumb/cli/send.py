@@ -3,22 +3,23 @@
 from __future__ import annotations
 
 import argparse
-import os
+import math
 import signal
 import sys
 from collections.abc import Callable, Sequence
 from contextlib import nullcontext, redirect_stdout
 from dataclasses import dataclass, field
 from pathlib import Path
-from threading import Event, Thread
+from threading import Event
 from typing import Annotated
 
 from plumb.cli.arguments import add_json, add_port
 from plumb.cli.followed import NOWHERE, Followed, time_left
 from plumb.cli.output import say_failure
-from plumb.cli.screen import free_name, next_step, print_json, sentences
+from plumb.cli.screen import Question, free_name, next_step, print_json, sentences
 from plumb.diary.file import PROGRAM, keep, program_entry, write_and_keep
 from plumb.firmware.settings import refuse_other_numbers, refuse_other_origin
+from plumb.firmware.telemetry import telemetry_in, warnings
 from plumb.grid.cut_with import form_of
 from plumb.job.dry_run import program_in, refuse_other_files
 from plumb.line.memory import Written, kept_before, lines_for, read_numbers
@@ -39,6 +40,7 @@ SETTINGS = (
     "groundcontrol.ini",
     "webcontrol.json",
 )  # that a program may be sent with
+EARLY = 3  # reports after which a line is surely the operator's, and none of the program's
 SHOWN = 20  # changed numbers in the answer
 
 
@@ -57,6 +59,14 @@ class SendAnswer:
         dict[int, tuple[float, float]], meant("Numbers before and after, by $-number.")
     ] = field(default_factory=dict)
     kept: Annotated[str | None, meant("The file of the numbers before.")] = None
+    warnings: Annotated[
+        list[str], meant("What deserves a look after a program, as in the answer of telemetry.")
+    ] = field(default_factory=list)
+
+    def hear(self, line: str) -> None:
+        """Note what the machine says, and print it on lines that fit the screen."""
+        self.said.append(line)
+        print(sentences([line], mark=""))
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -73,16 +83,12 @@ def _send(arguments: argparse.Namespace, answer: SendAnswer) -> bool:
     """Send it and note what comes of it; whether all was done."""
     what = arguments.what
 
-    def hear(line: str) -> None:
-        answer.said.append(line)
-        _say(line)
-
     numbers = _numbers(what, back=arguments.undo) if not arguments.more else None
     text = _program(what, arguments.more) if numbers is None else []
     marks_of = None if arguments.force else _cut_with(what, text)
     port = SerialPort(port_for(arguments.port))
     try:
-        sender = Sender(port, said=hear)
+        sender = Sender(port, said=answer.hear)
         sender.await_start()
         if marks_of:
             name = marks_of.file.name if marks_of.file else what
@@ -96,7 +102,7 @@ def _send(arguments: argparse.Namespace, answer: SendAnswer) -> bool:
             _print_written(arguments, (written, kept))
             return True
         answer.lines = sum(1 for _ in cleaned(text))
-        answer.stopped_at = _stream_and_note(sender, arguments, text, hear)
+        answer.stopped_at = _stream_and_note(sender, arguments, text, answer)
         return answer.stopped_at is None
     finally:
         port.close()
@@ -152,11 +158,6 @@ def _write(sender: Sender, path: str, lines: list[str], *, back: bool) -> tuple[
     return written, kept
 
 
-def _say(line: str) -> None:
-    """Print what the machine says, on lines that fit the screen."""
-    print(sentences([line], mark=""))
-
-
 def _print_written(arguments: argparse.Namespace, done: tuple[Written, str]) -> None:
     written, kept = done
     rows = [f"${number}: {old:g} -> {new:g}" for number, (old, new) in written.changed.items()]
@@ -173,12 +174,27 @@ def _print_written(arguments: argparse.Namespace, done: tuple[Written, str]) -> 
         print(next_step("To bring them back:", undo))
 
 
+def _watched(sender: Sender, numbers: dict[int, float]) -> list[str]:
+    """Print what deserves a look, before the line is closed: the next program that opens it resets
+    the board, which then has forgotten what it saw. How far a motor fell behind is no matter: the
+    feed yields, and the machine says so.
+    """
+    telemetry = telemetry_in("\n".join(sender.ask("B30")))
+    if telemetry is None:
+        return []
+    said = list(warnings(telemetry, limit_mm=math.inf, rate_hz=int(numbers.get(69, 100))))
+    if said:
+        print(sentences(said))
+    return said
+
+
 def _print_resume(arguments: argparse.Namespace, reached: Reached) -> None:
     """Say how far a program came, and how to go on."""
     job = Path(arguments.what)
     if not job.is_file():
         return
-    print(sentences([f"All before line {reached.line} of {job.name} is done."], mark=""))
+    far = f"All before line {reached.line} of {job.name} is done."
+    print(sentences([far if reached.done else f"Nothing of {job.name} is surely done."], mark=""))
     known = [job.with_name(name) for name in SETTINGS if job.with_name(name).is_file()]
     port = ["--port", arguments.port] if arguments.port else []
     if not known:
@@ -186,7 +202,7 @@ def _print_resume(arguments: argparse.Namespace, reached: Reached) -> None:
     settings = str(known[0]) if known else SETTINGS[0]
     rest = free_name("rest", ".nc")
     resume = ["resume", str(job), settings, "--line", str(reached.line), "-o", rest]
-    print(next_step("To go on from there:", resume))
+    print(next_step("To go on from there:" if reached.done else "To begin again:", resume))
 
 
 class _Attendant:
@@ -209,7 +225,9 @@ class _Attendant:
         self._waits = {wait.lines: wait.do for wait in waits_in(text)}
         self._done = 0
         self._waits_now = False
+        self._has_slipped_in = False
         self._question: Question | None = None
+        self._asked_at = 0  # reports that had come then
 
     def answered(self, done: int) -> None:
         """Note that the machine took this many lines."""
@@ -230,42 +248,59 @@ class _Attendant:
         self._followed.look(pauses=waits or (sender.status or NOWHERE).state == PAUSED)
         if self._question:
             self._settle(sender, self._question)
+        elif self._has_slipped_in and sender.has_answered:
+            self._has_slipped_in = False
+            self._ask(sender, "The machine waits.")
         elif self._waits_now:
             self._waits_now = False
-            self._ask(f"The program waits: {self._waits.get(self._done) or 'it does not say why'}.")
+            why = self._waits.get(self._done) or "it does not say why"
+            self._ask(sender, f"The program waits: {why}.")
         elif self.pressed.is_set():
             self.pressed.clear()
             sender.hold()
-            self._ask("The machine holds.")
+            self._ask(sender, "The machine holds.")
 
-    def _ask(self, why: str) -> None:
+    def _ask(self, sender: Sender, why: str) -> None:
+        self._asked_at = sender.reports
         self._followed.clear()
         self._question = Question(f"{why} Enter goes on; s and Enter stops: ")
 
+    def _slip_in(self, sender: Sender, typed: str) -> None:
+        """Send what was typed to a machine that waits; once that is answered, ask again."""
+        try:
+            sender.slip_in(typed)
+        except InputError as error:
+            print(error)
+        self._has_slipped_in = True
+
     def _settle(self, sender: Sender, question: Question) -> None:
         """Do what was answered. Ctrl-C, and an input that has ended, stop the machine."""
-        if question.answer is None and not self.pressed.is_set():
+        is_early = sender.reports - self._asked_at < EARLY
+        if not self.pressed.is_set() and (question.answer is None or is_early):
             return
         self._question = None
-        gives_up = self.pressed.is_set() or question.is_unheard
-        if gives_up or (question.answer or "").lower().startswith("s"):
+        gives_up, typed = self.pressed.is_set() or question.is_unheard, question.answer or ""
+        if gives_up or typed.lower().startswith("s"):
             self._reached.end()
             sender.stop()
-        sender.go_on()
+        if typed:
+            self._slip_in(sender, typed)
+        else:
+            sender.go_on()
 
 
 def _stream_and_note(
     sender: Sender,
     arguments: argparse.Namespace,
     text: Sequence[str],
-    said: Callable[[str], None],
+    answer: SendAnswer,
 ) -> int | None:
     """Stream a program; that goes into the diary of the program's folder, if there is such. The
     line where it stopped; None: it did not.
     """
     is_whole, what = False, arguments.what
     try:
-        stopped_at = _stream(sender, arguments, text, said)
+        stopped_at = _stream(sender, arguments, text, answer)
         is_whole = stopped_at is None
     finally:
         is_file = Path(what).is_file()
@@ -279,7 +314,7 @@ def _stream(
     sender: Sender,
     arguments: argparse.Namespace,
     text: Sequence[str],
-    said: Callable[[str], None],
+    answer: SendAnswer,
 ) -> int | None:
     """Stream a program, and wait until the place is kept; Ctrl-C holds the machine where it is.
     The line where it stopped; None: it did not.
@@ -289,7 +324,7 @@ def _stream(
     lines = list(cleaned(text))
     reached = Reached(sender, text)
     followed = Followed(text, time_left(sender, numbers, text))
-    attendant = _Attendant(followed, text, reached, said)
+    attendant = _Attendant(followed, text, reached, answer.hear)
     sender.attend, sender.said = attendant.attend, attendant.hear
     before = signal.signal(signal.SIGINT, lambda *_: attendant.pressed.set())
     try:
@@ -297,12 +332,14 @@ def _stream(
         sender.await_rest(attended=True)
     except StoppedError:
         print("The machine has stopped. It knows where it is; the rest was not sent.")
+        answer.warnings = _watched(sender, numbers)
         _print_resume(arguments, reached)
         return reached.line
     except RefusedError:
         reached.end()
         sender.brake()
         sender.await_rest()
+        answer.warnings = _watched(sender, numbers)
         _print_resume(arguments, reached)
         raise
     except LostError:
@@ -312,6 +349,7 @@ def _stream(
         followed.clear()
         signal.signal(signal.SIGINT, before)
     if len(lines) > 1:
+        answer.warnings = _watched(sender, numbers)
         print(f"{len(lines)} lines were sent, and the machine took each.")
     return None
 
@@ -348,29 +386,3 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "made for",
     )
     add_json(parser)
-
-
-# A question in the terminal; whoever asks goes on working, and looks for the answer meanwhile.
-
-STDIN = 0  # not sys.stdin: its lock would be held at the end of the program
-
-
-class Question:
-    """A question whose answer is a line."""
-
-    def __init__(self, text: str) -> None:
-        self.answer: str | None = None  # None: not yet; empty: just Enter
-        self.is_unheard = False  # nobody can answer: the input has ended
-        print(text, end="", flush=True)
-        Thread(target=self._listen, daemon=True).start()
-
-    def _listen(self) -> None:
-        typed = b""
-        while not typed.endswith(b"\n"):
-            came = os.read(STDIN, 1)
-            if not came:
-                self.is_unheard = True
-                print()
-                break
-            typed += came
-        self.answer = typed.decode(errors="replace").strip()

@@ -5,8 +5,7 @@ from __future__ import annotations
 import signal
 import sys
 
-IGNORED = signal.getsignal(signal.SIGINT) is signal.SIG_IGN  # as in the background of a shell
-if not IGNORED:
+if signal.getsignal(signal.SIGINT) is not signal.SIG_IGN:  # as in the background of a shell
     signal.signal(signal.SIGINT, signal.SIG_DFL)
 
 
@@ -14,8 +13,6 @@ def start() -> int:
     """Run the command that the words of the command line name; return its exit code."""
     from plumb.cli.main import main
 
-    if not IGNORED:
-        signal.signal(signal.SIGINT, signal.default_int_handler)
     return main()
 
 

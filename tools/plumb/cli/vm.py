@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import struct
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -31,6 +32,7 @@ from plumb.vm.pseudo_terminal import Pace, PseudoTerminal, preload
 from plumb.vm.tape import BLANK, Tape
 
 EEPROM_BYTES = 4096
+TRAVELS = struct.Struct("<3d")  # behind them: the left chain, the right chain, z [mm]
 SAVE_EVERY, LOOK_EVERY = 1.0, 0.1  # [s] of this computer's time
 
 
@@ -95,7 +97,7 @@ def serve(
     finally:
         terminal.close()
         machine.stop()
-        _save(machine.eeprom, arguments.eeprom)
+        _save(_memory(machine), arguments.eeprom)
     return 0
 
 
@@ -123,12 +125,14 @@ def _form(arguments: argparse.Namespace) -> str:
 def _wake(
     machine: VirtualMachine, settings: MachineSettings, arguments: argparse.Namespace
 ) -> None:
-    """Give the machine the memory of its last evening."""
+    """Give the machine the memory of its last evening, its sled where it hung."""
     if arguments.eeprom and Path(arguments.eeprom).exists():
         content = read_bytes(arguments.eeprom)
-        if len(content) != EEPROM_BYTES:
+        if len(content) not in (EEPROM_BYTES, EEPROM_BYTES + TRAVELS.size):
             raise InputError(arguments.eeprom, f"is no memory of {EEPROM_BYTES} bytes")
-        machine.eeprom = content
+        machine.eeprom = content[:EEPROM_BYTES]
+        if content[EEPROM_BYTES:]:
+            _hang(machine, content[EEPROM_BYTES:])
     elif not arguments.fresh:
         machine.start()
         sender = Sender(InProcessPort(machine))
@@ -137,6 +141,18 @@ def _wake(
         # Until all is in the EEPROM.
         machine.advance(10_000)
         machine.stop()
+
+
+def _memory(machine: VirtualMachine) -> bytes:
+    """Return what a machine keeps until its next start: its EEPROM, and how its sled hangs."""
+    return machine.eeprom + TRAVELS.pack(*machine.chains, machine.height)
+
+
+def _hang(machine: VirtualMachine, state: bytes) -> None:
+    """Hang the sled as it hung at the end of the last run."""
+    now = (*machine.chains, machine.height)
+    for axis, travel, was in zip(("left", "right", "z"), now, TRAVELS.unpack(state), strict=True):
+        machine.slip(axis, was - travel)
 
 
 def _serve(
@@ -157,8 +173,8 @@ def _serve(
                 look()
                 looked = now
             if now - saved > SAVE_EVERY:
-                if machine.eeprom != memory:
-                    memory = machine.eeprom
+                if _memory(machine) != memory:
+                    memory = _memory(machine)
                     _save(memory, arguments.eeprom)
                 saved = now
 
@@ -219,7 +235,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("--reveal", action="store_true", help="say at the end what was hidden")
     parser.add_argument(
-        "--eeprom", metavar="FILE", help="keep the board's memory in this file from run to run"
+        "--eeprom",
+        metavar="FILE",
+        help="keep the board's memory, and where the sled hangs, in this file from run to run",
     )
     parser.add_argument(
         "--fresh",

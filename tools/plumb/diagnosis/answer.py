@@ -151,7 +151,7 @@ def verdict_sentence(diagnosis: Diagnosis) -> str:
 
 
 def _outlier(diagnosis: Diagnosis) -> str:
-    names = list(dict.fromkeys(outlier.name for outlier in diagnosis.outliers))
+    names = list(dict.fromkeys(outlier.called for outlier in diagnosis.outliers))
     shown = names[:MOST_NAMED]
     more = f" and {len(names) - len(shown)} more" if len(names) > len(shown) else ""
     which = "One reading disagrees" if len(diagnosis.outliers) == 1 else "Some readings disagree"

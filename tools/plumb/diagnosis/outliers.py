@@ -99,23 +99,24 @@ class Outlier:
     expected: tuple[float, ...]  # [mm] what the rest says
     guess: str  # the likely cause, or nothing
     against: Internal[str] = EXPLANATIONS  # what it disagrees with
-    # [mm] what was meant, if the guess is right
-    corrected: Internal[tuple[float, ...] | None] = None
+    corrected: Internal[tuple[float, ...] | None] = None  # [mm] what was meant, if that is right
 
     @property
     def length(self) -> float:
         """How far it is off [mm]."""
         return float(np.hypot(*self.offset)) if len(self.offset) == 2 else abs(self.offset[0])
 
+    @property
+    def called(self) -> str:
+        """What it is, with its name."""
+        return f"{'distance' if len(self.offset) == 1 else 'mark'} {self.name}"
+
     @computed_field
     @property
     def sentence(self) -> str:
         """What to do, for people."""
-        what = "distance" if len(self.offset) == 1 else "mark"
-        cause = f"; {self.guess}" if self.guess else ""
-        advice = "" if self.guess else self._advice
-        said = f"it reads {worded(self.length, 1)} {self.way}{cause}{advice}"
-        return f"remeasure {what} {self.name}: {said}"
+        because = f"; {self.guess}" if self.guess else self._advice
+        return f"remeasure {self.called}: it reads {worded(self.length, 1)} {self.way}{because}"
 
     @property
     def _advice(self) -> str:
@@ -130,8 +131,7 @@ class Outlier:
         if len(self.offset) == 1:
             return "too long" if self.offset[0] > 0 else "too short"
         x, y = self.offset
-        across = "right" if x > 0 else "left"
-        along = "up" if y > 0 else "down"
+        across, along = "right" if x > 0 else "left", "up" if y > 0 else "down"
         if abs(y) < 0.4 * abs(x):
             return f"off to the {across}"
         if abs(x) < 0.4 * abs(y):

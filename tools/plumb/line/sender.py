@@ -35,6 +35,8 @@ KEPT = 2.0  # [s] after the motors are off: then the position is in the memory
 COMMENT = re.compile(r"\([^)]*\)")
 NUMBER = re.compile(r"\$(9|71)\s*=\s*([\d.]+)")  # that say how long motors hold, and are ahead
 STATUS = re.compile(r"<(\w+),MPos:(-?[\d.]+),(-?[\d.]+),(-?[\d.]+)")
+MM_PER_INCH = 25.4
+IN_INCHES = re.compile(r"<\w+,MPos:-?\d+\.\d{4}")  # after G20; a report in mm has two decimals
 
 
 class RefusedError(InputError):
@@ -75,7 +77,8 @@ class Sender:
     _halted_from: int = 0  # reports that had come when it was last seen to do something
     _spare: int = 0  # answers to come that belong to no line
     _has_held: bool = False  # no `~` has come since the last hold
-    _left: int = 0  # answers to come for lines that were on their way behind a refused line
+    # Answers to come for lines that were on their way behind a refused line, or were slipped in.
+    _left: int = 0
     _on_the_way: deque[tuple[str, int]] = field(default_factory=deque)
 
     def await_start(self) -> None:
@@ -178,6 +181,19 @@ class Sender:
         self.await_rest()
         raise StoppedError
 
+    def slip_in(self, line: str) -> None:
+        """Send a line while the machine waits: it does that at once, or says why not. InputError
+        for what cannot be sent.
+        """
+        for text in cleaned([line]):
+            self.port.write(text.encode("ascii") + b"\n")
+            self._left += 1  # its answer belongs to no line of the program
+
+    @property
+    def has_answered(self) -> bool:
+        """Whether no line that was slipped in waits for its answer."""
+        return not self._left
+
     def brake(self) -> None:
         """Stop a machine that nothing is being sent to."""
         self.port.write(STOP)
@@ -277,7 +293,8 @@ class Sender:
         """Return whether a line is a report."""
         match = STATUS.match(line)
         if match:
-            x, y, z = map(float, match.groups()[1:])
+            scale = MM_PER_INCH if IN_INCHES.match(line) else 1.0
+            x, y, z = (scale * float(number) for number in match.groups()[1:])
             self.status = Status(match[1], (x, y, z))
             self._note_motion(self.status)
             self.reports += 1

@@ -33,6 +33,7 @@ if TYPE_CHECKING:
 Array = np.ndarray
 TITLE, FOOT = 0.45, 0.8  # [inch]
 AROUND = 0.08  # of the job's size, left free around it
+POINT = 0.1  # [mm] of sheet; a way that is shorter leads straight down
 LEAST = 20.0  # [mm] of wood that is shown from near
 TALLEST = 1.0  # height of the near view over its width
 DEEP = "#8f6236"  # the deepest wood
@@ -134,6 +135,10 @@ def _draw_ways(axis: Axes, job: Drawn, scale: float) -> None:
         )
         lines.set_zorder(order)
         axis.add_collection(lines)
+    # Straight down is no line from above.
+    for way in job.ways["bad"]:
+        if np.ptp(way, axis=0).max() < POINT:
+            axis.plot(*way[0], "o", color=BAD, markersize=10 * scale, zorder=5)
 
 
 def _draw_frame(axis: Axes, low: Array, high: Array) -> None:

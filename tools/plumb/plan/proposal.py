@@ -287,7 +287,7 @@ def _hope(best: Proposal) -> str:
         first = best.rooms[0]
         noun = noun_of(first.effect)
         now, then = (worded(size, 1) for size in (first.now, first.then))
-        return f". {noun[0].upper()}{noun[1:]} could hide {now} now, {then} then"
+        return f". {noun[0].upper()}{noun[1:]} may act unseen by {now} now, by {then} then"
     if best.chance is None:
         return ""
     verb = VERBS.get(best.question, "")

@@ -192,7 +192,7 @@ def next_step_of(findings: Findings, commands: Sequence[Command]) -> NextStep:
 def _headline(findings: Findings, best: Proposal | None) -> str:
     diagnosis, chosen = findings.diagnosis, findings.auto.chosen
     if diagnosis.verdict == "slip":
-        names = ", ".join(dict.fromkeys(slip.name for slip in diagnosis.outliers))
+        names = ", ".join(dict.fromkeys(slip.called for slip in diagnosis.outliers))
         return f"read {names} again, and correct the file."
     if diagnosis.verdict == "one_suspect" and chosen:
         return f"add {plainly(chosen)}, then cut new marks to see that it holds."

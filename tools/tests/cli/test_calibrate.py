@@ -162,7 +162,7 @@ def test_a_slip_comes_first_and_the_mark_can_be_left_out(run):
     write_machine_toml("first.toml", TRUE)
     Path("a.csv").write_text(csv_of(marks))
     code, said, _ = run("calibrate", "first.toml", "a.csv", "--sigma", "0.2")
-    assert code == 1 and "Not yet: read 11 again, and correct the file." in said
+    assert code == 1 and "Not yet: read mark 11 again, and correct the file." in said
     assert not Path("machine.toml").exists()
     corrected, without = printed(said)
     assert corrected == ["calibrate", "first.toml", "a.csv", "--sigma", "0.2"]

@@ -38,6 +38,11 @@ def test_version_is_that_of_the_package(capsys, run):
         (["xyz"], "there is no command 'xyz'; see plumb --help"),
         (["effects", "--jason"], "no option --jason here; did you mean --json?; see plumb effects"),
         (["effects", "--jason=1"], "no option --jason here; did you mean --json?"),
+        (
+            ["compare", str(SETTINGS), str(MARKS), "--lnie", "5"],
+            "there is no option --lnie here; see plumb compare --help",
+        ),
+        (["resume", str(SETTINGS), "--lnie", "5"], "no option --lnie here; did you mean --line?"),
         (["effects", "--colour"], "there is no option --colour here; see plumb effects --help"),
         (["effects", "more"], "there is no argument more here; see plumb effects --help"),
         (["bench", "--scenario"], "expected at least one argument; see plumb bench --help"),
@@ -64,15 +69,29 @@ def test_ctrl_c_is_quiet_while_modules_load():
         "output.refuse_stale = lambda: __import__('os').kill(__import__('os').getpid(), 2); "
         "sys.exit(door.start())"
     )
-    for code, ends_with in ((early, -signal.SIGINT), (late, INTERRUPTED)):
+    for code in (early, late):
         with INTERRUPTIBLE([sys.executable, "-c", code], stderr=subprocess.PIPE) as process:
             _, complaint = process.communicate()
-        assert (process.returncode, complaint) == (ends_with, b"")
+        assert (process.returncode, complaint) == (-signal.SIGINT, b"")
 
 
 def test_little_is_loaded_before_ctrl_c_is_quiet():
     code = "import sys, plumb.cli.start; print({'typing', 're', 'argparse'} & {*sys.modules})"
     assert subprocess.check_output([sys.executable, "-S", "-c", code], cwd=TOOLS) == b"set()\n"
+
+
+def test_the_command_is_quiet_before_it_looks_for_its_package(tmp_path):
+    (tmp_path / "plumb/cli").mkdir(parents=True)
+    (tmp_path / "plumb/__init__.py").write_text("import os, time; os.kill(os.getpid(), 2)\n")
+    command = [sys.executable, "-S", str(TOOLS / "core/plumb"), "effects"]
+    look_here = {"PYTHONPATH": str(tmp_path)}
+    with INTERRUPTIBLE(command, stderr=subprocess.PIPE, env=look_here) as process:
+        _, complaint = process.communicate(timeout=60)
+    assert (process.returncode, complaint) == (-signal.SIGINT, b"")
+    # In the background of a shell a signal that is ignored stays so.
+    ignored = f"trap '' INT; exec {sys.executable} -S {TOOLS / 'core/plumb'} --version"
+    done = subprocess.run(["sh", "-c", ignored], env=look_here, capture_output=True, text=True)
+    assert "No module named 'plumb.cli.start'" in done.stderr
 
 
 def test_ctrl_c_ends_quietly(tmp_path):

@@ -143,6 +143,17 @@ def test_json_and_files_stay_in_mm(ask, run, tmp_path):
     assert "8.91 mm before" in machine.read_text()
 
 
+def test_feeds_and_places_of_a_job_are_in_inches_on_request(run, tmp_path):
+    job = tmp_path / "job.nc"
+    job.write_text("G20 G90\nG0 Z0.2\nG0 X2 Y1\nG1 Z-0.1 F10\nG1 X4 F30\nG0 Z0.2\n")
+    said = run("check", job, INI, *INCHES)[1]
+    assert "asks for 10.0 inch/min and gets 2." in " ".join(said.split()) and "mm" not in said
+    assert "asks for 254 mm/min and gets 5" in " ".join(run("check", job, INI)[1].split())
+    resume = ("resume", job, INI, "--line", "5", "-o", tmp_path / "rest.nc")
+    assert "from X2.000 Y1.000 inch, where" in " ".join(run(*resume, *INCHES)[1].split())
+    assert "from X50.80 Y25.40, where" in " ".join(run(*resume, "--force")[1].split())
+
+
 def test_the_unit_of_a_command_does_not_stay_for_the_next(run):
     run("compare", INI, MARKS, "--units", "inch")
     assert "inch" not in run("compare", INI, MARKS)[1]

@@ -117,16 +117,18 @@ def test_odds_are_as_fine_as_they_are_known(share, words):
 
 
 def test_of_many_slips_the_first_are_named():
-    slips = [SimpleNamespace(name=f"{i} - 5", against=f"{i % 2}") for i in range(30)]
+    slips = [SimpleNamespace(called=f"distance {i} - 5", against=f"{i % 2}") for i in range(30)]
     said = verdict_sentence(SimpleNamespace(verdict="slip", outliers=slips))
-    assert len(said.split()) <= 40 and "0 - 5, 1 - 5 and 28 more again before" in said
+    assert len(said.split()) <= 40
+    assert "distance 0 - 5, distance 1 - 5 and 28 more again before" in said
 
 
 @pytest.mark.parametrize(
     ("count", "words"), [(1, "One reading disagrees"), (2, "Some readings disagree")]
 )
 def test_the_sentence_counts_the_slips(count, words):
-    slips = [SimpleNamespace(name=name, against="every explanation") for name in "AB"[:count]]
+    names = [f"mark {name}" for name in "AB"[:count]]
+    slips = [SimpleNamespace(called=name, against="every explanation") for name in names]
     said = verdict_sentence(SimpleNamespace(verdict="slip", outliers=slips))
     assert said.startswith(words) and "A" in said
 

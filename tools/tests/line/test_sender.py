@@ -269,6 +269,26 @@ def test_a_line_may_come_in_pieces():
     assert sender.status == Status("Idle", (3.0, 4.0, 5.0))
 
 
+def test_a_place_that_is_reported_in_inches_is_one_in_mm():
+    board = Board()
+    board.read = iter([b"<Idle,MPos:1.0000,-2.5000,0.1000,WPos:0,0,0>\r\nok\r\n"]).__next__
+    sender = Sender(board)
+    sender.stream(["G20"])
+    assert sender.status == Status("Idle", pytest.approx((25.4, -63.5, 2.54)))
+
+
+def test_the_answer_of_a_line_that_is_slipped_in_is_for_no_line_of_the_program():
+    board = Board(lambda line: "error: only z" if line == "G0 X5" else "ok")
+    heard = list[str]()
+    sender = Sender(board, said=heard.append)
+    sender.slip_in("G0 X5 (there)")
+    sender.slip_in("G10 Z0")
+    assert sender.stream(["G1 X1", "G1 X2"]) == 2
+    assert board.written == b"G0 X5\nG10 Z0\nG1 X1\nG1 X2\n" and heard == ["error: only z"]
+    with pytest.raises(InputError, match="is no plain text"):
+        sender.slip_in("G0 Z\u00bd")
+
+
 def test_a_hold_is_a_single_character_and_going_on_answers_no_line():
     board = Board()
     sender = Sender(board)

@@ -65,10 +65,10 @@ def test_the_headline_tells_minutes_and_hope(question, hope):
     assert headline_of(proposal(question, None)) == "4 more marks; about 9 minutes"
 
 
-def test_where_an_effect_could_hide_the_hope_is_how_much_less():
+def test_where_an_effect_may_act_unseen_the_hope_is_how_much_less():
     noun = noun_of("chain_sag")
     said = headline_of(proposal(FIND, rooms=ROOMS))
-    hope = f"{noun[0].upper()}{noun[1:]} could hide 5.0 mm now, 1.2 mm then"
+    hope = f"{noun[0].upper()}{noun[1:]} may act unseen by 5.0 mm now, by 1.2 mm then"
     assert said == f"4 more marks; about 9 minutes. {hope}"
     # Only what becomes clearly less is worth a word.
     assert promise_of(proposal(FIND, rooms=ROOMS)) == f"{noun} 5.0 -> 1.2 mm"
@@ -78,11 +78,11 @@ def test_where_an_effect_could_hide_the_hope_is_how_much_less():
     assert both == f"{noun_of('motor_level')} 9.0 -> 1.0 mm, {noun} 5.0 -> 1.2 mm"
 
 
-def test_a_table_of_what_could_hide_fits_the_screen():
+def test_a_table_of_what_may_act_unseen_fits_the_screen():
     rooms = (RoomThen("motor_level", 9.0, 1.0), RoomThen("chain_zero", 6.0, 5.2))
     both = (proposal(FIND, rooms=rooms), proposal(FIND, rooms=rooms))
     lines = table_of(Next("", None, both, None)).splitlines()
-    assert max(map(len, lines)) <= 80 and "could hide then" in lines[0]
+    assert max(map(len, lines)) <= 80 and "may act unseen then" in lines[0]
     assert f"{noun_of('chain_zero')} 6.0 -> 5.2 mm" in " ".join(" ".join(lines).split())
 
 

@@ -5,10 +5,12 @@ import os
 import re
 import shlex
 import subprocess
+import time
 
 import pytest
 import serial
 from plumb.cli.main import main
+from plumb.cli.vm import EEPROM_BYTES, TRAVELS
 from plumb.diary.file import append, read_diary
 from plumb.line.port import port_for
 from plumb.text.errors import InputError
@@ -151,11 +153,13 @@ def test_what_was_not_cut_is_resumed_by_the_command_that_is_printed(served, tmp_
 
 def test_programs_are_told_where_a_job_stopped(served, tmp_path):
     served()
+    plumb("send", "--port", "maslow", "$75=0.95", folder=tmp_path)
     (tmp_path / "job.nc").write_text(WAITING)
     words = ("send", "--json", "--port", "maslow", "job.nc")
     said = plumb(*words, folder=tmp_path, code=1, typed="s\n")
     answer, end = json.JSONDecoder().raw_decode(said)
     assert answer["lines"] == 6 and answer["stopped_at"] <= 4
+    assert "5 V fell" in answer["warnings"][0]
     assert "The machine has stopped." in said[end:]
     said = plumb("send", "--json", "--port", "maslow", "B10 L", folder=tmp_path)
     answer, _ = json.JSONDecoder().raw_decode(said)
@@ -209,6 +213,38 @@ def test_a_program_that_waits_is_stopped_by_s_and_where_nobody_can_answer(served
     assert re.search(r"x (4\.9|5\.0)\d,", plumb("read", "--port", "maslow", folder=tmp_path))
 
 
+def test_z_is_moved_and_set_in_a_pause_and_the_depth_holds_from_there(served, tmp_path):
+    served()
+    (tmp_path / "job.nc").write_text("G21\nG0 Z5\nM0\nG1 Z-2 F300\nG0 Z5\nM30\n")
+    typed = "G91 G0 Z-3 G90\nG0 X5\nG10 Z\u00bd\nG10 Z0\n\n"
+    said = plumb("send", "--port", "maslow", "job.nc", folder=tmp_path, typed=typed)
+    assert "error: the program waits" in said and "is no plain text" in said
+    # What the machine answers stands before the next question.
+    assert said[: said.index("error:")].count("The machine waits.") == 1
+    assert "Z goes back to 5.00" in said and "6 lines were sent" in said
+    read = plumb("read", "--port", "maslow", folder=tmp_path)
+    assert "x 0.00" in read and "the bit at z 5.0" in read
+
+
+def test_what_the_board_saw_is_said_before_it_is_reset_and_forgets(served, tmp_path):
+    served()
+    plumb("send", "--port", "maslow", "$75=0.95", folder=tmp_path)
+    (tmp_path / "job.nc").write_text("G21\nG1 X5 F900\n")
+    said = plumb("send", "--json", "--port", "maslow", "job.nc", folder=tmp_path)
+    answer, end = json.JSONDecoder().raw_decode(said)
+    assert [each[:24] for each in answer["warnings"]] == ["The Mega's 5 V fell to 4"]
+    assert "- The Mega's 5 V fell to 4.3" in said[end:]
+
+
+def test_a_program_of_which_nothing_is_done_is_not_gone_on_with(served, tmp_path):
+    served("--fresh")
+    plumb("send", "--port", "maslow", "$75=0.95", folder=tmp_path)
+    (tmp_path / "job.nc").write_text("G21\nG0 X5\nG0 X10\n")
+    said = plumb("send", "--port", "maslow", "job.nc", folder=tmp_path, code=2)
+    assert "Nothing of job.nc is surely done.\n" in said and "All before" not in said
+    assert "To begin again:" in said and "--line 1 " in said and "5 V fell" in said
+
+
 def test_ctrl_c_ends_the_machine_from_the_moment_that_its_port_is_there(tmp_path, monkeypatch):
     link, memory = tmp_path / "maslow", tmp_path / "memory.bin"
 
@@ -242,6 +278,34 @@ def test_the_memory_outlives_the_program(served, tmp_path):
     first.stop()
     served("--eeprom", "memory.bin")
     assert "2981" in plumb("read", "--port", "maslow", folder=tmp_path)
+
+
+def test_the_sled_hangs_at_the_next_start_where_it_hung_at_the_end(served, tmp_path):
+    def hangs() -> tuple[float, ...]:
+        return TRAVELS.unpack((tmp_path / "memory.bin").read_bytes()[EEPROM_BYTES:])
+
+    first = served("--eeprom", "memory.bin")
+    plumb("send", "--port", "maslow", "G1 X-700 Y-200 Z4 F900", folder=tmp_path)
+    first.stop()
+    before = hangs()
+    second = served("--eeprom", "memory.bin")
+    assert "x -700.00, y -200.00, the bit at z 4.0" in plumb(
+        "read", "--port", "maslow", folder=tmp_path
+    )
+    second.stop()
+    assert hangs() == pytest.approx(before, abs=0.05) and hangs()[2] == pytest.approx(4, abs=0.05)
+    third = served("--eeprom", "memory.bin")  # killed in the middle of a move
+    words = ["send", "--port", "maslow", "G1 X0 Y0 F900"]
+    sending = subprocess.Popen([*PLUMB, *words], cwd=tmp_path, stderr=subprocess.DEVNULL)
+    end = time.monotonic() + START
+    while abs(hangs()[0] - before[0]) < 20 and time.monotonic() < end:
+        time.sleep(0.1)
+    third.program.kill()
+    sending.wait()
+    assert 20 <= abs(hangs()[0] - before[0]) < abs(1600 - before[0])
+    (tmp_path / "memory.bin").write_bytes(b"\xff" * EEPROM_BYTES)  # as older files are
+    served("--eeprom", "memory.bin").stop()
+    assert hangs() == pytest.approx((1651, 1651, 0), abs=0.05)
 
 
 def test_a_fresh_machine_knows_no_chains(served, tmp_path):

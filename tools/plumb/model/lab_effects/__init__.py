@@ -187,7 +187,7 @@ TAPE_SCALE = LabEffect(
         "the tape against a certified length",
         "Hold the tape against a steel rule or a certified length of 1 m, or a second tape over "
         "2 m, and read the difference to 0.1 mm per metre.",
-        "(what the tape reads - the true length) / the true length",
+        "mm that the tape reads too much over a metre, / 1000",
         4.0,
     ),
     hidden_as="strain",
