@@ -90,7 +90,7 @@ def test_the_command_is_quiet_before_it_looks_for_its_package(tmp_path):
     assert (process.returncode, complaint) == (-signal.SIGINT, b"")
     # In the background of a shell a signal that is ignored stays so.
     ignored = f"trap '' INT; exec {sys.executable} -S {TOOLS / 'core/plumb'} --version"
-    done = subprocess.run(["sh", "-c", ignored], env=look_here, capture_output=True, text=True)
+    done = subprocess.run(["bash", "-c", ignored], env=look_here, capture_output=True, text=True)
     assert "No module named 'plumb.cli.start'" in done.stderr
 
 
