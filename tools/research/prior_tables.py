@@ -60,6 +60,8 @@ def priors_table() -> str:
         ("`USUAL`, sag", _usual(SAG), "the same", "chains differ by a tenth in weight"),
         ("`PITCH_CHANCE`, `PITCH_SPREAD`", f"{priors.PITCH_CHANCE:g}, {priors.PITCH_SPREAD:g}",
          "that chains are a little off, and by how much", "ANSI allows 0.26 % too long"),
+        ("`PITCH_CORRELATION`", f"{priors.PITCH_CORRELATION:g}", "of both chains' pitches where "
+         "they are far from usual", "one machine: 0.35 and 0.36 %"),
         ("`PRIORS` of the frame", ", ".join(f"{name} {spread:g}" for name, spread in
          PRIORS.items()), "standard deviations [mm, rad]", "a tape, a pulled chain"),
     ]  # fmt: skip

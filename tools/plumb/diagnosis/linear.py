@@ -23,6 +23,7 @@ from plumb.diagnosis.priors import (
     ROUND_SPREAD,
     SizePriors,
     size_priors,
+    turned,
 )
 from plumb.model.catalogue import ZEROING_NAMES
 
@@ -36,7 +37,7 @@ class LinearBoard:
     """Readings and slopes about a fit. Measured numbers come first, then direct checks.
 
     Rows of measured numbers are in mm, those of checks in their standard deviations; effects are
-    in typical sizes, the frame in standard deviations of its priors.
+    in typical sizes (pitches as `turned` has them), the frame in standard deviations of its priors.
     """
 
     measured: int  # rows of measured numbers
@@ -61,7 +62,7 @@ class LinearBoard:
         return LinearBoard(
             measured=count,
             frame=slopes[:, board.frame],
-            effects=slopes[:, columns],
+            effects=turned(board, columns, slopes[:, columns]),
             read=read - slopes[:, columns] @ sizes.mean[:, np.newaxis],
             columns={
                 name: np.arange(low, high)

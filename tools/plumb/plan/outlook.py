@@ -29,7 +29,7 @@ from plumb.diagnosis.explanation import Board
 from plumb.diagnosis.linear import LinearBoard, Metric
 from plumb.diagnosis.noise import Noise
 from plumb.diagnosis.posterior import listing, together
-from plumb.diagnosis.priors import PITCH, TOGETHER, SizePriors
+from plumb.diagnosis.priors import PITCH, TOGETHER, SizePriors, turned
 from plumb.model.catalogue import EVERY_MACHINE
 from plumb.model.plain import ascending
 from plumb.plan.case import Ahead, Case, Planned
@@ -219,7 +219,7 @@ class SoFar:
         new, is_read = rows.slopes[rows.so_far :], rows.marks[rows.so_far :]
         new = np.where(is_read[:, np.newaxis], known.sigma, 1.0) * new
         columns = known.columns(tuple(self.board.columns))
-        frame, effects = new[:, known.frame], new[:, columns]
+        frame, effects = new[:, known.frame], turned(known, columns, new[:, columns])
         read, truths, drawn_sizes = [], [], []
         noise = np.where(is_read[:, np.newaxis], self.sigma, 1.0)
         counts = _counts(np.concatenate([each.chances for each in self.truths]) * draws)

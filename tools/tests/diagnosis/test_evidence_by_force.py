@@ -1,5 +1,7 @@
 """Evidence against the same worked out with full covariances, and orthants against integrals."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 import scipy.special
@@ -17,7 +19,12 @@ from plumb.diagnosis.evidence import (
 from plumb.diagnosis.explanation import explain, measured_board
 from plumb.diagnosis.linear import LinearBoard, Metric, fields
 from plumb.diagnosis.posterior import felt_effects
-from plumb.diagnosis.priors import OUTLIER_SPREADS
+from plumb.diagnosis.priors import (
+    OUTLIER_SPREADS,
+    PITCH_CORRELATION,
+    PITCH_SPREAD,
+    size_priors,
+)
 from plumb.fit.inputs import Inputs
 
 SIGMA = 0.6
@@ -82,6 +89,29 @@ def test_the_evidence_of_sets_is_the_density_of_the_readings(more):
             density, signs = by_force(part.index[place], part.variance[place], **more)
             assert fit.loose[0, place] - part.log_prior[place] == pytest.approx(density, abs=1e-6)
             assert fit.possible[0, place] == pytest.approx(signs, abs=0.1)
+
+
+def test_pitches_of_both_chains_are_as_alike_as_chains_of_a_reel():
+    """By the covariance of the two: sum and difference, as the board has them, draw the same."""
+    columns = FRAME.board.columns(["chain_pitch"])
+    inside = FRAME.slopes[: BOARD.measured, columns] * FRAME.board.sigma
+    turned, sizes = BOARD.columns["chain_pitch"], BOARD.sizes
+    drawn = BOARD.effects[: BOARD.measured, turned]
+    for spread, largest in ((sizes.typical, 1.0), (sizes.largest, 6.0)):
+        alike = largest**2 * np.array([[1.0, PITCH_CORRELATION], [PITCH_CORRELATION, 1.0]])
+        whole = drawn @ np.diag(spread[turned] ** 2) @ drawn.T
+        assert whole == pytest.approx(inside @ alike @ inside.T, rel=1e-9, abs=1e-12)
+    by_itself = (PITCH_SPREAD / 0.001) ** 2 * np.eye(2)
+    usual = drawn @ np.diag(sizes.pitch[turned] ** 2) @ drawn.T
+    assert usual == pytest.approx(inside @ by_itself @ inside.T, rel=1e-9, abs=1e-12)
+
+
+@pytest.mark.parametrize("known", [("left", "right"), ("left",)])
+def test_settings_that_have_a_pitch_have_no_usual_drift(known):
+    settings = replace(PUBLISHED, effects={"chain_pitch": dict.fromkeys(known, 0.001)})
+    marks = cut(Hidden(((causes_of("sled_swing")[0], 2.0),)), plan(3, 3), seed=4).measurements
+    board = measured_board(Inputs(settings, marks))
+    assert not size_priors(board, board.columns(["chain_pitch"])).pitch.any()
 
 
 def test_signs_that_rule_an_account_out_cost_as_much_as_they_should():
