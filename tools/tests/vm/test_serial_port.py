@@ -295,7 +295,7 @@ def test_the_sled_hangs_at_the_next_start_where_it_hung_at_the_end(served, tmp_p
     second.stop()
     assert hangs() == pytest.approx(before, abs=0.05) and hangs()[2] == pytest.approx(4, abs=0.05)
     third = served("--eeprom", "memory.bin")  # killed in the middle of a move
-    words = ["send", "--port", "maslow", "G1 X0 Y0 F900"]
+    words = ["send", "--port", "maslow", "G1 X0 Y0 F100"]  # some seconds
     sending = subprocess.Popen([*PLUMB, *words], cwd=tmp_path, stderr=subprocess.DEVNULL)
     end = time.monotonic() + START
     while abs(hangs()[0] - before[0]) < 20 and time.monotonic() < end:
