@@ -110,10 +110,18 @@ def size_priors(board: Board, columns: Array) -> SizePriors:
             ]
         ),
         typical=alike,
-        largest=np.array([max(abs(each.low), abs(each.high)) for each in met]) / scale * alike,
+        largest=largest_met(board, columns) * alike,
         least=np.where([each.low >= 0 for each in met], -start, -np.inf),
         pitch=drift,
     )
+
+
+def largest_met(board: Board, columns: Array) -> Array:
+    """Return the largest sizes (p,) that real machines have of these columns, in typical sizes."""
+    met = [plausible_range(board.problem.names[column]) for column in columns]
+    sizes = np.array([max(abs(each.low), abs(each.high)) for each in met])
+    largest: Array = sizes / board.problem.scale[columns]
+    return largest
 
 
 def turned(board: Board, columns: Array, slopes: Array) -> Array:

@@ -9,7 +9,7 @@ import numpy as np
 import scipy
 
 from plumb.diagnosis.explanation import measured_board
-from plumb.diagnosis.priors import size_priors
+from plumb.diagnosis.priors import largest_met
 from plumb.diagnosis.readings import clean_readings
 from plumb.fit.inputs import Inputs
 from plumb.fit.problem import Problem
@@ -136,7 +136,7 @@ class Believed:
         kept[count : count + int(held.sum())] = False
         effects = np.flatnonzero(~held)
         precision = np.ones(len(held))
-        precision[effects] = 1 / (SPREAD * size_priors(board, effects).largest) ** 2
+        precision[effects] = 1 / (SPREAD * largest_met(board, effects)) ** 2
         slopes = frame.slopes[kept]
         information = slopes.T @ slopes + np.diag(precision)
         pull = slopes.T @ frame.residual[kept] - precision * frame.unknowns

@@ -18,7 +18,7 @@ from pydantic import computed_field
 from plumb.diagnosis.answer import NOTHING
 from plumb.diagnosis.explanation import FEWEST_NUMBERS, Board, Explanation
 from plumb.diagnosis.posterior import posterior_of
-from plumb.diagnosis.priors import chance_of, size_priors
+from plumb.diagnosis.priors import chance_of, largest_met
 from plumb.diagnosis.sizes import hidden_share
 from plumb.fit.inputs import Stated
 from plumb.fit.observations import different_numbers, model_and_observations
@@ -227,7 +227,7 @@ def _smallest(board: Board, effect: str, seen: float) -> float | None:
 
 
 def _is_seen(smallest: float | None) -> bool:
-    return smallest is not None and smallest <= 1
+    return smallest is not None and bool(smallest <= 1)
 
 
 def _is_distinct(matrix: Array, i: int) -> bool:
@@ -249,10 +249,10 @@ def _needed(board: Board, effect: str, seen: float) -> float:
     z^2 / 2 * d^2 / (1 + d^2) - log(1 + d^2) / 2 (Laplace).
     """
     columns = board.columns([effect])
-    spreads = size_priors(board, columns)
+    largest = float(np.mean(largest_met(board, columns)))
     log_odds = np.log((1 - NOTHING) / NOTHING) - np.log(chance_of(effect) / (1 - chance_of(effect)))
     each = []
-    for spread in (1.0, float(np.mean(spreads.largest))):
+    for spread in (1.0, largest):
         squared = (spread * seen) ** 2
         price = len(columns) * np.log1p(squared) / 2
         each.append(2 * (log_odds + np.log(2) + price) * (1 + squared) / squared)

@@ -40,7 +40,7 @@ def test_whether_the_choice_matters_is_said_where_it_is_made(run, ask):
     for words in (("add", *BOARD, "--effect", "auto"), ("calibrate", *BOARD, "--details")):
         assert apart["sentence"] in " ".join(run(*words)[1].split())
     # Rivals that cut alike are no reason to wait.
-    alike = ("add", *BOARD, "--effect", "auto", *checked("tape_scale.strain", "motor_gap"))
+    alike = ("add", *BOARD, "--effect", "auto", *checked("tape_scale.strain"))
     assert ask(*alike)[1]["auto"]["apart"] is None and ask(*alike)[1]["auto"]["rivals"]
     said = " ".join(run(*alike, "--details")[1].split())
     assert "A choice: the likeliest is chains too long or too short and chain stretch, but" in said

@@ -102,7 +102,7 @@ def test_what_was_checked_is_not_proposed_again(ask):
     code, answer = ask("next", *EXAMPLE, "--checked", "motor_gap=2980.4±0.5")
     titles = [each["title"] for each in answer["next"]]
     assert code == 0 and gap not in titles
-    assert "the motors above the top edge of the sheet" in titles
+    assert "100 links of each chain" in titles
 
 
 @pytest.mark.parametrize(
