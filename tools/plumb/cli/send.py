@@ -41,6 +41,7 @@ SETTINGS = (
     "webcontrol.json",
 )  # that a program may be sent with
 EARLY = 3  # reports after which a line is surely the operator's, and none of the program's
+STOPS = ("s", "stop")  # in place of Enter
 SHOWN = 20  # changed numbers in the answer
 
 
@@ -280,7 +281,7 @@ class _Attendant:
             return
         self._question = None
         gives_up, typed = self.pressed.is_set() or question.is_unheard, question.answer or ""
-        if gives_up or typed.lower().startswith("s"):
+        if gives_up or typed.lower() in STOPS:
             self._reached.end()
             sender.stop()
         if typed:

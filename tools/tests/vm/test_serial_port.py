@@ -213,6 +213,13 @@ def test_a_program_that_waits_is_stopped_by_s_and_where_nobody_can_answer(served
     assert re.search(r"x (4\.9|5\.0)\d,", plumb("read", "--port", "maslow", folder=tmp_path))
 
 
+def test_a_line_that_begins_with_s_is_no_stop(served, tmp_path):
+    served()
+    (tmp_path / "job.nc").write_text(WAITING)
+    said = plumb("send", "--port", "maslow", "job.nc", folder=tmp_path, typed="S1000\n\n\n")
+    assert said.count("The machine waits.") == 1 and "6 lines were sent" in said
+
+
 def test_z_is_moved_and_set_in_a_pause_and_the_depth_holds_from_there(served, tmp_path):
     served()
     (tmp_path / "job.nc").write_text("G21\nG0 Z5\nM0\nG1 Z-2 F300\nG0 Z5\nM30\n")
