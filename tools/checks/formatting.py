@@ -1,4 +1,4 @@
-"""C++ as clang-format leaves it, Python as ruff leaves it; `--fix` rewrites the files."""
+"""What clang-format, ruff, shellcheck and codespell say; `--fix` rewrites C++ and Python."""
 
 import re
 import subprocess
@@ -12,14 +12,34 @@ TOOLS = Path(sys.executable).parent
 CONCISE = ["--output-format", "concise"]
 
 
+# A step of setup gets its variables from the script that sources it: SC2154.
+SHELLCHECK = ["shellcheck", "-s", "bash", "-e", "SC2154", "-f", "gcc"]
+# Words that codespell takes for misspelled others.
+SPELLED_RIGHTLY = "statics,fro"
+CAMEL_CASE = r"\b[a-z]+[A-Z]\w*"
+PROSE = {".md", ".py", ".ts", ".tsx", ".css", ".sh", ".ini", ".toml", *tree.CXX}
+
+
 def violations(root: Path) -> Iterator[str]:
-    """Yield the first place in each file that the formatters or the linter would change."""
+    """Yield the first place in each file at which one of the programs would change something."""
     cxx, python = both_kinds(root)
     if cxx:
         yield from first_in_each_file([*clang_format(), "--dry-run", "--Werror", *cxx], root)
     if python:
         yield from first_in_each_file([*ruff("check"), *CONCISE, *python], root)
         yield from first_in_each_file([*ruff("format"), "--check", *CONCISE, *python], root)
+    files = tree.own_files(root)
+    if scripts := [path for path in files if tree.is_shell(path)]:
+        yield from first_in_each_file([*SHELLCHECK, *scripts], root)
+    # Tests misspell words to see them refused.
+    prose = [
+        path
+        for path in files
+        if path.suffix in PROSE and "tests" not in path.relative_to(root).parts
+    ]
+    if prose:
+        codespell = [TOOLS / "codespell", "-L", SPELLED_RIGHTLY, "--ignore-regex", CAMEL_CASE]
+        yield from first_in_each_file([*codespell, *prose], root)
 
 
 def fix(root: Path) -> None:
@@ -56,7 +76,7 @@ def first_in_each_file(command: list, root: Path) -> Iterator[str]:
     lines = (done.stdout + done.stderr).strip().replace(f"{root}/", "").splitlines()
     first: dict[str, str] = {}
     for line in lines:
-        place = re.match(r"(\S+?):\d+:\d+: ", line)
+        place = re.match(r"(\S+?):\d+:(?:\d+:)? ", line)
         if place:
             first.setdefault(place[1], line)
     yield from first.values() or lines[-1:] or [f"{command[0]} failed"]
@@ -66,4 +86,7 @@ if __name__ == "__main__":
     if sys.argv[1:] == ["--fix"]:
         fix(tree.ROOT)
     else:
-        tree.run(violations, "formatting: clang-format and ruff have nothing to say")
+        tree.run(
+            violations,
+            "formatting: clang-format, ruff, shellcheck and codespell have nothing to say",
+        )

@@ -1,11 +1,9 @@
-"""Names that may not be given: Arduino's macros in lib/, crutches in Python and C++.
+"""Names that a compiler would stumble over: Arduino's macros in lib/, and joined suites' names.
 
-Two files of a suite in C++ never define the same name, as the compiler may read them as one file.
-lib/ avoids the names of Arduino's macros, so that both compile in either order. A name is a noun
-that says what it holds: `plan`, `effect`, `mark`.
+lib/ avoids the names of Arduino's macros, so that both compile in either order. Two files of a
+suite in C++ never define the same name, as the compiler may read them as one file.
 """
 
-import ast
 import re
 from collections.abc import Iterator
 from pathlib import Path
@@ -29,15 +27,10 @@ DEFINITION = re.compile(
     re.MULTILINE,
 )
 
-CRUTCHES = {"one", "own", "found", "told", "beside", "anew", "so_many", "stands_in"}
-# In C++ `found` is the word for an outcome; docs/words.md says so.
-CXX_CRUTCH = re.compile(r"(?<!\w)_?(?:one|own|told|beside|anew|so_many|stands_in)_?(?!\w)")
-
 
 def violations(root: Path) -> Iterator[str]:
     """Yield each such name, a line for each."""
-    yield from names_in_cxx(root)
-    yield from crutches(root)
+    yield from macros_in_lib(root)
     yield from defined_twice(root)
 
 
@@ -55,41 +48,16 @@ def defined_twice(root: Path) -> Iterator[str]:
                 yield f"{name}: {first.name} defines {defined} too"
 
 
-def names_in_cxx(root: Path) -> Iterator[str]:
-    """Yield each use of a macro's name in lib/, and each crutch in C++."""
+def macros_in_lib(root: Path) -> Iterator[str]:
+    """Yield each use of a macro's name in lib/."""
     for path in tree.own_files(root):
-        if path.suffix not in tree.CXX:
-            continue
         name = path.relative_to(root)
+        if path.suffix not in tree.CXX or name.parts[0] != "lib":
+            continue
         code = NOT_CODE.sub(blank, tree.text_of(path))
         for number, line in enumerate(code.splitlines(), 1):
-            for match in CXX_CRUTCH.finditer(line):
-                yield f"{name}:{number}: {match[0]} does not say what it holds"
-            for match in MACRO.finditer(line) if name.parts[0] == "lib" else ():
+            for match in MACRO.finditer(line):
                 yield f"{name}:{number}: {match[0].rstrip('( ')} is a macro of Arduino"
-
-
-def crutches(root: Path) -> Iterator[str]:
-    """Yield each crutch in Python."""
-    for path in tree.own_files(root):
-        if tree.is_python(path):
-            for line, word in crutches_in(tree.text_of(path)):
-                yield f"{path.relative_to(root)}:{line}: {word} does not say what it holds"
-
-
-def crutches_in(text: str) -> Iterator[tuple[int, str]]:
-    """Line and name of each parameter, variable, field and function with such a name."""
-    for node in ast.walk(ast.parse(text)):
-        if isinstance(node, ast.arg):
-            name = node.arg
-        elif isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store):
-            name = node.id
-        elif isinstance(node, ast.FunctionDef):
-            name = node.name
-        else:
-            continue
-        if name.lstrip("_") in CRUTCHES:
-            yield node.lineno, name
 
 
 def blank(match: re.Match) -> str:
@@ -98,4 +66,4 @@ def blank(match: re.Match) -> str:
 
 
 if __name__ == "__main__":
-    tree.run(violations, "names: no macro of Arduino in lib/, no crutch in Python and C++")
+    tree.run(violations, "names: no macro of Arduino in lib/, no name twice in a suite")

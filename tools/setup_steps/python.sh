@@ -16,7 +16,6 @@ setup_python() {
   fi
   say "installs the Python packages of $list"
   install_packages -r "$list"
-  [ "$1" != all ] || install_packages --no-deps -r tools/requirements_mutation.txt
   printf '%s %s\n' "$wanted" "$1" >"$note"
 }
 

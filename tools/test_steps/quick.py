@@ -11,12 +11,8 @@ QUICK_CHECKS = (
     "arrows",
     "effects",
     "unused",
-    "size",
     "names",
     "formatting",
-    "words",
-    "prose",
-    "programs",
 )
 SLOW_CHECKS = ("annotations", "generated")
 ROOMS = "tools/tests"
@@ -40,7 +36,6 @@ ROWS: tuple[tuple[str, tuple[str, ...], tuple[str, ...]], ...] = (
         (),
         (f"{PROJECT}/test_project_checks.py",),
     ),
-    ("tools/mutation/*", (), (f"{PROJECT}/test_mutation.py",)),
     ("tools/setup*", (), (f"{PROJECT}/test_setup.py",)),
     ("tools/test", (), (f"{PROJECT}/test_test_run.py",)),
     ("tools/test_steps/*", (), (f"{PROJECT}/test_test_run.py", f"{PROJECT}/test_counts.py")),

@@ -36,7 +36,6 @@ from plumb.cli.slip import SlipAnswer
 from plumb.cli.telemetry import WatchedTelemetry
 from plumb.cli.vm import VmAnswer
 from plumb.fit.compare import Comparison
-from plumb.model.predict import MotorGap
 from plumb.text.answers import schema_of
 from plumb.vm.practice import Score
 
@@ -62,7 +61,6 @@ ANSWERS: dict[str, Any] = {
     "diary": DiaryAnswer,
     "effects": Library,
     "forward": Places,
-    "gap": MotorGap,
     "grid": PlannedGrid,
     "guide": GuideAnswer,
     "home": HomeAnswer,

@@ -54,7 +54,6 @@ GROUPS: Mapping[str, Mapping[str, str]] = {
         "recheck": "say from two marks whether the machine is as it was fitted, or what changed",
         "home": "keep a hole as home mark, and restore a lost position with the bit in it",
         "slip": "say from touched marks whether a chain slipped, and how to repair it",
-        "gap": "work out the motor gap from a chain that B11 pulled tight",
         "diary": "show how errors and numbers of a machine went over time",
         "telemetry": "how the machine is doing, from a client's log with an answer to B30",
     },

@@ -2,19 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from functools import cache
-from math import hypot, sqrt
-from typing import TYPE_CHECKING, Annotated, Literal, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from pydantic import computed_field
 
 from plumb import _core
 from plumb.settings.machine import HOLEY_CHAIN_WEIGHT, MachineSettings, frame_of
-from plumb.text.answers import key
 
 if TYPE_CHECKING:
     from plumb._core import FrameWords
@@ -286,78 +283,6 @@ def _longer(settings: MachineSettings) -> Array:
     published = settings.published
     percent: Array = np.array([published.left_tolerance, published.right_tolerance], dtype=float)
     return 1 + percent / 100
-
-
-# The motor gap from the length of a chain that is pulled tight from motor to motor.
-
-PULL, PULL_SHARE = 80.0, 0.15  # [N] of B11, and how well it is known without the chain's drop
-STRETCH, STRETCH_SIGMA = 5.17e-6, 1.0e-6  # [1/N] of a No. 25 chain
-FLEX, FLEX_SIGMA = 0.5, 0.5  # [mm per 100 N] of a frame that nobody measured
-FLEX_SHARE = 0.1  # how well a flex is measured
-DROP_SIGMA, READING_SIGMA = 1.0, 0.05  # [mm] of a ruler; of a chain's length
-MOST_SPREAD = 0.5  # [mm] of lengths that agree
-BEYOND = 12.7  # [mm] of links past the other sprocket, as the clients count them
-TWO_SIGMA = 1.96
-
-
-@dataclass(frozen=True)
-class MotorGap:
-    """A motor gap and what was taken off the chain for it."""
-
-    gap: Annotated[float, key("gap_mm")]  # [mm]
-    # [mm] half of the 95 % interval, for a chain of true pitch
-    interval: Annotated[float, key("interval_mm")]
-    pull: Annotated[float, key("pull_N")]
-    pull_by: Literal["drop", "B11"]  # what says the pull: the chain's drop, or B11
-    sag: Annotated[float, key("sag_mm")]  # [mm] by which the chain is longer than the gap
-    stretch: Annotated[float, key("stretch_mm")]  # [mm] by which it is stretched
-    flex: Annotated[float, key("flex_mm")]  # [mm] by which the motors came closer
-    spread: Annotated[float, key("spread_mm")]  # [mm] of the lengths
-
-    @computed_field
-    @property
-    def beyond_mm(self) -> float:
-        """Links past the other sprocket."""
-        return BEYOND
-
-    @computed_field
-    @property
-    def pull_again(self) -> bool:
-        """Whether the lengths differ by more than pulls of a sound machine do."""
-        return self.spread > MOST_SPREAD
-
-
-def motor_gap(
-    lengths: Sequence[float],
-    *,
-    chain_weight: float,
-    pull: float = PULL,
-    drop: float | None = None,
-    flex: float | None = None,
-) -> MotorGap:
-    """Return the gap [mm] from lengths of the chain [mm] as B10 says them.
-
-    `chain_weight` [N/mm]; `drop` [mm] of the chain's middle below a string between its ends, which
-    says the pull; `flex` [mm] by which the motors come closer for 100 N.
-    """
-    length = sum(lengths) / len(lengths) - BEYOND
-    share = PULL_SHARE
-    if drop is not None:
-        pull, share = chain_weight * length**2 / (8 * drop), DROP_SIGMA / drop
-    give = FLEX if flex is None else flex
-    sag = chain_weight**2 * length**3 / (24 * pull**2)
-    stretch, closer = STRETCH * pull * length, give * pull / 100
-    give_sigma = FLEX_SIGMA if flex is None else FLEX_SHARE * flex
-    sigma = hypot(
-        share * (2 * sag + stretch + closer),
-        STRETCH_SIGMA * pull * length,
-        give_sigma * pull / 100,
-        READING_SIGMA / sqrt(len(lengths)),
-    )
-    spread = max(lengths) - min(lengths)
-    gap = length - sag + stretch + closer
-    pull_by: Literal["drop", "B11"] = "B11" if drop is None else "drop"
-    return MotorGap(gap, TWO_SIGMA * sigma, pull, pull_by, sag, stretch, closer, spread)
 
 
 # How far the hanging sled gives way to a force along the sheet, such as friction.

@@ -39,8 +39,6 @@ QUESTIONS = (
     ("diary", "kept"),
     ("effects",),
     ("forward", INI, "--lengths", "pairs.csv"),
-    ("gap", TOML, "--length", "2989.29"),
-    ("gap", TOML, "--length", "2989.29", "2990.10", "--flex", "1", "--drop", "18.3"),
     ("grid", *GRID),
     ("grid", *GRID, "--output", "grid.nc", "--marks", "form.toml"),
     ("home", "kept.toml", "--keep=low=0,-400", "-o", "hole.nc"),

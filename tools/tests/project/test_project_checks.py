@@ -12,7 +12,6 @@ CHECKS = Path(__file__).resolve().parents[2] / "checks"
 sys.path.append(str(CHECKS))
 import generated  # noqa: E402
 
-PACKAGES = "tools/setup_steps/debian_packages.txt"
 LONELY = "inline int lonely(int steps) { return steps; }\n"
 GOOD = {
     "lib/Kinematics/src/strand.h": "#include <math.h>\n",
@@ -32,15 +31,8 @@ GOOD = {
     "tools/plumb/__init__.py": '"""The lab."""\n',
     "tools/plumb/model/__init__.py": '"""The model."""\n',
     "tools/plumb/model/predict.py": "from plumb import _core\nimport plumb.text.errors\n",
-    "tools/research/curves.py": "from plumb.model import predict\nprint(re.found, {'own': 1})\n",
+    "tools/research/curves.py": "from plumb.model import predict\n",
     "tools/plumb/fit/problem.py": "from plumb.model import predict\nimport plumb.marks.model\n",
-    "docs/page.md": "one mark, one of them, one by one; `own.toml`\n| " + "word | " * 30 + "\n",
-    "docs/other.md": "```\nthe own screen\n```\nhttps://example.org/" + "a" * 120 + "\n",
-    "docs/effects.md": "word " * 25 + "\n",
-    "docs/screen.md": "```console\n$ plumb reach\n" + "word " * 25 + "\n```\n",
-    "CHANGELOG.md": "its own history\n",
-    "tools/build": '#!/usr/bin/env bash\ngo() { :; }\ngo\nmake "$1"\n"./$1"\n',
-    PACKAGES: "# a comment\nmake | all | make | builds\nbash | base | bash | runs scripts\n",
 }
 
 
@@ -70,9 +62,7 @@ def refused(check: str, root: Path, name: str, text: str, expected: str) -> None
     assert expected in out
 
 
-@pytest.mark.parametrize(
-    "check", ["arrows", "size", "names", "words", "prose", "unused", "effects", "programs"]
-)
+@pytest.mark.parametrize("check", ["arrows", "names", "unused", "effects"])
 def test_good_tree_passes(tmp_path, check):
     code, text = said(check, plant(tmp_path, GOOD))
     assert (code, text.count("\n")) == (0, 1), text
@@ -118,61 +108,16 @@ def test_arrows_refuse(tmp_path, name, line):
     refused("arrows", tmp_path, name, f"{line}\n", "name the room" if without_room else ":1:")
 
 
-def cxx(lines: int) -> str:
-    return "int f(int x) {\n" + "  x += 1;\n" * (lines - 3) + "  return x;\n}\n"
-
-
-def python(lines: int) -> str:
-    return "def f(x):\n" + "    x += 1\n" * (lines - 2) + "    return x\n"
-
-
-def component(lines: int) -> str:
-    return "function F() {\n" + "  x += 1;\n" * (lines - 2) + "}\n"
-
-
-@pytest.mark.parametrize(
-    ("name", "text", "expected"),
-    [
-        ("src/a.cpp", cxx(61), "f() has 61 lines of code, the most is 60"),
-        ("tools/a.py", python(61), "f() has 61 lines of code, the most is 60"),
-        ("tools/a", "#!/usr/bin/env python3\n" + python(61), "the most is 60"),
-        ("tools/lab/src/F.tsx", component(101), "F() has 101 lines of code, the most is 100"),
-        ("src/a.cpp", cxx(41), "1 of 2 functions are over 40"),
-        ("src/a.cpp", "// a line\n" * 401, "401 lines, the most is 400"),
-        ("tools/a", "#!/usr/bin/env bash\n" * 401, "401 lines, the most is 400"),
-        ("platformio.ini", "; a line\n" * 401, "401 lines, the most is 400"),
-        ("docs/a.md", "word " * 25, ":1: 125 columns, the most is 120"),
-        ("src/a.cpp", "\n// " + "word " * 25, ":2: 128 columns, the most is 120"),
-        ("test/fuzz/Makefile", "FLAGS =" + " -Wall" * 20, ":1: 127 columns, the most is 120"),
-        ("docs/a.md", "```console\n```\n" + "word " * 25, ":3: 125 columns, the most is 120"),
-    ],
-)
-def test_size_refuses(tmp_path, name, text, expected):
-    refused("size", tmp_path, name, text, expected)
-
-
-def test_size_allows_one_long_function_in_fifty(tmp_path):
-    short = "".join(cxx(5).replace("f(", f"f{i}(") for i in range(49))
-    plant(tmp_path, {"src/a.cpp": cxx(41), "src/b.cpp": short})
-    assert said("size", tmp_path)[0] == 0
-
-
 @pytest.mark.parametrize(
     ("name", "line", "word"),
     [
         ("lib/Motion/src/Motion.h", "x = max (a, b);", "max is a macro"),
         ("lib/Motion/src/Motion.h", "x = 2 * PI;", "PI is a macro"),
         ("lib/Motion/src/Motion.h", "int B0;", "B0 is a macro"),
-        ("src/board.cpp", "for (auto& one : all) told_ += 1;", ""),
-        ("tools/a.py", "for one in range(3):", "one does not"),
-        ("tools/a.py", "def f(own: int) -> int:", "own does not"),
-        ("tools/a.py", "places = [found for found in ()]", "found does not"),
-        ("tools/a.py", "def _told() -> None: ...", "_told does not"),
     ],
 )
 def test_names_refuse(tmp_path, name, line, word):
-    body = "\n    pass\n" if line.endswith(":") else "\n"
-    code, out = said("names", plant(tmp_path, {**GOOD, name: f"\n{line}{body}"}))
+    code, out = said("names", plant(tmp_path, {**GOOD, name: f"\n{line}\n"}))
     assert code == 1 and out.startswith(f"{name}:2:") and word in out, out
 
 
@@ -188,68 +133,6 @@ def test_names_refuse_a_name_that_two_files_of_a_suite_define(tmp_path, text, wo
     plant(tmp_path, {"test/test_motion/test_mover.cpp": text})
     expected = f"test_mover.cpp defines {word} too"
     refused("names", tmp_path, "test/test_motion/test_stops.cpp", text, expected)
-
-
-# Put together here, so that the check does not find them in this file.
-WORDS = (
-    "see /" + "work/main",
-    "cd /home" + "/ann/plumb",
-    "// TO" + "DO later",
-    "GTEST_" + "SKIP();",
-    "TEST(A, DIS" + "ABLED_B)",
-    "@pytest.mark." + "skipif(True, reason='x')",
-    "@pytest.mark." + "xfail",
-    "pytest." + "importorskip('x')",
-    "EXPECT_TRUE(" + "true);",
-    "assert " + "True",
-)
-
-
-@pytest.mark.parametrize("line", WORDS)
-def test_words_refuse(tmp_path, line):
-    refused("words", tmp_path, "docs/a.md", f"first\n{line}\n", ":2:")
-
-
-def test_words_allow_an_address_with_such_a_folder(tmp_path):
-    text = "https://example.org/wor" + "k/page, ../ro" + "ot/x\n"
-    assert said("words", plant(tmp_path, {"docs/page.md": text}))[0] == 0
-
-
-PROSE = [
-    "its own name",
-    "the left one pulls",
-    "a chain, and the next one.",
-    "no chain is a short one",
-    "longer ones than these",
-    "if there is one, it counts",
-    "what was told",
-    "beside it",
-    "So many marks",
-    "written anew",
-    "it stands in for a board",
-    "wich mark",
-]
-
-
-@pytest.mark.parametrize("line", PROSE)
-def test_prose_refuses_in_a_page(tmp_path, line):
-    refused("prose", tmp_path, "docs/a.md", f"first\n{line}\n", ":2:")
-
-
-@pytest.mark.parametrize(
-    ("name", "text", "line"),
-    [
-        ("src/a.h", 'int a;\nf("x, // its own");  // {}\n', 2),
-        ("src/a.h", "int a;\n/* first\n   {} */\n", 3),
-        ("tools/lab/src/a.ts", "const a = 1; // {}\n", 1),
-        ("tools/a.py", '"""First.\n\n{}\n"""\n', 3),
-        ("tools/a.py", "x = 'own'\ny = 2  # {}\n", 2),
-        ("tools/a.py", 'def f():\n    """{}"""\n', 2),
-    ],
-)
-@pytest.mark.parametrize("prose", [PROSE[0], PROSE[-1]])
-def test_prose_refuses_in_a_comment(tmp_path, name, text, line, prose):
-    refused("prose", tmp_path, name, text.format(prose), f":{line}:")
 
 
 @pytest.mark.parametrize(
@@ -318,6 +201,8 @@ BRANCHES = "def f(x):\n" + "".join(f"    if x == {i}:\n        x += 1\n" for i i
         ("tools/a.py", "import os\n"),
         ("tools/a.py", f"{BRANCHES}    return x\n"),
         ("tools/a", "#!/usr/bin/env python3\nx = {  }\n"),
+        ("tools/a", "#!/usr/bin/env bash\nrm $1\n"),
+        ("docs/a.md", "Wich mark?\n"),
     ],
 )
 def test_formatting_refuses(tmp_path, name, text):
@@ -333,50 +218,8 @@ def test_generated_reports_a_stale_page(tmp_path):
     assert said_of == ["stale.py --check: docs/effects.md is stale"]
 
 
-@pytest.mark.parametrize(
-    ("name", "text", "line"),
-    [
-        ("a.sh", "x=$(ls | foo)\n", 1),
-        ("a.sh", "nice -n 5 timeout 6 foo bar\n", 1),
-        ("a.sh", "env A=1 foo\n", 1),
-        ("a.sh", '"${as_root[@]}" foo\n', 1),
-        ("Makefile", "all:\n\t@foo -p x\n", 2),
-        ("Makefile", "CXX := foo\n", 1),
-        ("Makefile", "x = $(shell foo .)\n", 1),
-        ("a.py", 'import subprocess\n\nsubprocess.run(["foo", "-x"])\n', 3),
-        ("a.py", 'import subprocess\n\ncommand = ["foo"]\nsubprocess.Popen([*command, 1])\n', 3),
-        ("a.py", 'import subprocess\n\ncommand = ["foo"]\nsubprocess.run(command)\n', 3),
-        ("a.py", 'output("foo", "-x")\n', 1),
-        ("a.py", 'env.Replace(CC="foo")\n', 1),
-        ("a.py", 'env.VerboseAction("foo -O ihex", "Builds")\n', 1),
-        ("a.cpp", 'FILE* f = popen("foo -x", "r");\n', 1),
-    ],
-)
-def test_programs_names_a_program_that_no_package_brings(tmp_path, name, text, line):
-    packages = GOOD[PACKAGES] + "coreutils | base | env ls nice timeout | common commands\n"
-    plant(tmp_path, {"b.sh": "ls\ntimeout 1 nice env true\n", name: text})
-    plant(tmp_path, {PACKAGES: packages, "tools/build": GOOD["tools/build"]})
-    expected = f"{name}:{line}: calls foo, which no package in {PACKAGES} brings\n"
-    assert said("programs", tmp_path) == (1, expected)
-
-
-@pytest.mark.parametrize(
-    ("row", "expected"),
-    [
-        ("gcc | all | gcc | compiles", ":4: nothing calls gcc of gcc"),
-        ("gcc | some | - | compiles", ":4: write package | lab, all or base | programs | why"),
-        ("gcc | all | - |", ":4: write package | lab, all or base | programs | why"),
-        ("dpkg | all | make | builds", ":4: dpkg does not bring make"),
-    ],
-)
-def test_programs_names_a_row_that_is_wrong(tmp_path, row, expected):
-    refused("programs", tmp_path, PACKAGES, GOOD[PACKAGES] + row + "\n", expected)
-
-
 def test_checks_pass_over_what_gitignore_names_and_need_no_git(tmp_path):
-    bad = WORDS[2] + "\n"
-    ignored = {".gitignore": "/.venv/\n*.pyc\n", ".venv/lib/a.md": bad, "docs/b.pyc": bad}
-    plant(tmp_path, {**GOOD, **ignored, ".git/a.md": bad})
-    assert said("words", tmp_path)[0] == 0
-    plant(tmp_path, {"docs/.venv/c.md": bad})
-    assert said("words", tmp_path)[1].startswith("docs/.venv/c.md:1:")
+    bad = "inline int lonely(int steps) { return max(steps, 1); }\n"
+    ignored = {".gitignore": "/lib/built/\n*.gen.h\n", "lib/built/a.h": bad, "lib/b.gen.h": bad}
+    plant(tmp_path, {**GOOD, **ignored, ".git/lib/a.h": bad})
+    assert said("names", tmp_path)[0] == 0

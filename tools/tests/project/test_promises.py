@@ -54,12 +54,10 @@ def promised() -> dict[str, list[str]]:
     """The safety sentences of each page, by the page's path from docs."""
     different = part("docs/first-start.md", "## What is different", "What you can send:")
     beyond = part("docs/first-start.md", "## Beyond the sheet", "## Talk to it without a client")
-    faults = (ROOT / "tools/research/faults.md").read_text(encoding="utf-8")
     return {
         "first-start.md": bullets(different) + paragraphs(beyond),
         "../lib/GCode/README.md": [*halting_codes(), *quick_characters()],
         "states.md": bullets((ROOT / "docs/states.md").read_text(encoding="utf-8")),
-        "../tools/research/faults.md": bullets(faults.split("\n| fault |")[0]),
     }
 
 
