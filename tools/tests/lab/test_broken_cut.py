@@ -16,7 +16,6 @@ from screens import fitted_machine
 from served_lab import serve
 
 SHEET = (2438.4, 1219.2)
-UNDER_WAY_MS = 800  # until the sled is surely on its way to the next mark, at 10 times its speed
 LINES = [
     "G21",
     "G90",
@@ -151,7 +150,8 @@ def test_a_stopped_cut_goes_on_from_the_next_mark(lab, page):
     expect(page.get_by_label(re.compile("[2-4] of 9 marks are cut"))).to_be_visible(
         timeout=PATIENCE
     )
-    page.wait_for_timeout(UNDER_WAY_MS)
+    with lab.client() as client:  # on its way to the next mark
+        until(client, lambda machine: machine["moves"] and machine["place"][2] > 3)
     bar(page).get_by_role("button", name="Stop").click()
     expect(page.get_by_text(re.compile("Cut [2-5] of 9 marks, then it broke off"))).to_be_visible()
     expect(page.get_by_role("button", name="Begin again: move the sled")).to_be_visible()

@@ -17,7 +17,7 @@ import quick  # noqa: E402
 import run  # noqa: E402
 from part import Part  # noqa: E402
 
-ENDING = 30.0  # [s] after which what has not happened will not happen
+ENDING = 300.0  # [s] after which what has not happened will not happen
 
 
 @pytest.fixture(autouse=True)
