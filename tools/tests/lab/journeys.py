@@ -36,12 +36,17 @@ class Garage:
         self._mine = threading.Lock()
         self.plug_in()
 
-    def plug_in(self):
+    def plug_in(self, speed=SPEED):
         """A cable to the machine; its port may have another name than before."""
-        self._terminal, self._pace = PseudoTerminal(self.owner.machine), Pace(SPEED)
+        self._terminal = PseudoTerminal(self.owner.machine)
+        self.run_at(speed)
         self._is_pulled = threading.Event()
         self._clock = threading.Thread(target=self._run)
         self._clock.start()
+
+    def run_at(self, speed):
+        """Let it run this many times as fast as a real machine."""
+        self._pace = Pace(speed)
 
     @property
     def path(self):
@@ -62,6 +67,12 @@ class Garage:
         marks = read_marks(copy, sheet=SHEET).readings
         copy.unlink()
         return [(x + SHEET[0] / 2, SHEET[1] / 2 - y) for _, (x, y) in marks]
+
+    @property
+    def lengths(self):
+        """What a tape says of both chains, and of the bit's height [mm]."""
+        with self._mine:
+            return *self.owner.machine.chains, self.owner.machine.height
 
     @property
     def marks(self):

@@ -56,7 +56,6 @@ def test_readings_count_from_the_edges_that_are_named_with_them(open_machine, pa
     await_question(page, saves)
     # What the page would ask then is answered before this.
     page.evaluate("() => fetch('/').then((answer) => answer.text())")
-    at_rest(page)
     assert float(left.input_value()) == x
     saves[0].continue_()
     right = page.get_by_label("Mark 1 from the right, mm", exact=True)

@@ -7,8 +7,8 @@ import pytest
 from folder import asked, finished, got
 from lab_machine import PATIENCE, bar, start_virtual
 from playwright.sync_api import expect
-from plumb.lab.broken_cut import NOTES, BrokenCut
-from plumb.lab.project import CUT, digest_of
+from plumb.lab.broken_cut import NOTES, BrokenCut, digest_of_sent
+from plumb.lab.project import CUT
 from screens import at_rest, fitted_machine, measured_machine, with_check_marks
 
 WIDE, NARROW = {"width": 1280, "height": 800}, {"width": 390, "height": 844}
@@ -312,7 +312,7 @@ def note_break(folder, *, marks, begun):
     """Note how many marks are surely cut, and how many perhaps."""
     with asked(folder) as client:
         text = got(client.get("/api/grid"))["text"]
-    cut = BrokenCut(digest=digest_of(text.encode()), marks=marks, begun=begun, is_virtual=False)
+    cut = BrokenCut(digest=digest_of_sent(text), marks=marks, begun=begun, is_virtual=False)
     (folder / CUT).write_bytes(NOTES.dump_json({"grid-2.nc": cut}))
 
 

@@ -9,16 +9,17 @@ def test_the_page_is_at_rest_once_all_is_answered_saved_and_drawn(lab, page):
     page.goto(f"{lab.url}#/readings")
     rest = page.locator("html[data-rest]")
     at_rest(page)
+    held = []
+    field = page.get_by_label("Mark 2 from the left, mm", exact=True)
     for path, press in (
-        ("readings", lambda: page.get_by_label("Mark 2 from the left, mm", exact=True).fill("650")),
+        ("readings", lambda: field.fill("650")),
         ("verdict", lambda: page.evaluate("() => { location.hash = '#/verdict' }")),
     ):
-        held = []
-        page.route(f"**/api/{path}", held.append)
+        page.route(f"**/api/{path}", lambda route: held.append(route))
         press()
         await_question(page, held)
         expect(rest).to_have_count(0)
-        page.unroute(f"**/api/{path}")
         held.pop().continue_()
+        page.unroute(f"**/api/{path}")
         at_rest(page)
     assert page.locator(".sheet circle.place").count() == 23

@@ -16,6 +16,7 @@ from screens import (
     SMALLEST_TEXT,
     WANTED,
     WIDER,
+    at_rest,
     axe_findings,
     fitted_machine,
     measured_machine,
