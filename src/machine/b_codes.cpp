@@ -91,6 +91,7 @@ bool Machine::measureOut(uint8_t, const Words& words) {
 bool Machine::setChains(uint8_t, const Words& words) {
   if (!words.has('L') || !words.has('R'))
     return answers_.refuseWords(FLASH("B06 needs the lengths of both chains, L and R"));
+  if (!single_axis_.mayHang(words.value('L'), words.value('R'))) return false;
   out_.line(FLASH("Setting Chain Lengths To: "));
   return single_axis_.setChains(words.value('L'), words.value('R'));
 }

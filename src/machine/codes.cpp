@@ -24,7 +24,10 @@ bool Machine::find(const gcode::Piece& piece, Code& found) {
       {'G', 281, &Machine::keepGoal},
       {'G', 300, &Machine::goToKept},
       {'G', 301, &Machine::keepGoal},
-      {'G', 382, &Machine::probeDown},
+      {'G', 382, &Machine::probe},
+      {'G', 383, &Machine::probe},
+      {'G', 384, &Machine::probe},
+      {'G', 385, &Machine::probe},
       {'G', 430, &Machine::forgetToolLength},
       {'G', 431, &Machine::takeToolLength},
       {'G', 490, &Machine::forgetToolLength},
@@ -84,8 +87,10 @@ bool Machine::beginMotion(const gcode::Piece& piece) {
 bool Machine::dwell(const gcode::Piece& piece) {
   const Words& words = piece.words;
   if (words.hasPlace()) return answers_.refuseWords(FLASH("G4 takes P or S and goes nowhere"));
+  // P is in seconds for a sender of Grbl, else in milliseconds.
+  const float part = out_.speaksGrbl() ? 1 : 0.001f;
   const float seconds =
-      float(fabs(words.value('P') != 0 ? words.value('P') / 1000 : words.value('S')));
+      float(fabs(words.value('P') != 0 ? words.value('P') * part : words.value('S')));
   if (!(seconds < 86400)) return answers_.refuseWords(FLASH("a dwell is shorter than a day"));
   if (!drain()) return false;
   out_ << FLASH("dwell time ");
@@ -105,10 +110,13 @@ bool Machine::declare(const gcode::Piece& piece) {
   return true;
 }
 
-bool Machine::probeDown(const gcode::Piece& piece) {
+bool Machine::probe(const gcode::Piece& piece) {
   if (goesAcross(piece.words))
     return answers_.refuseWords(FLASH("a probe goes along z, and takes no X or Y"));
-  return single_axis_.probe(moves_.targetOf(piece.words).z);
+  const uint8_t kind = uint8_t(piece.tenths - 382);
+  if (!single_axis_.probe(moves_.targetOf(piece.words).z, kind < 2, kind % 2 == 0)) return false;
+  if (out_.speaksGrbl()) sayProbed();
+  return true;
 }
 
 bool Machine::takeToolLength(const gcode::Piece& piece) {

@@ -32,6 +32,7 @@ bool endsLine(uint16_t tenths) { return tenths <= 20 || tenths == 300; }
 void Machine::loop() {
   service();
   if (isStopping()) return finishStop();
+  if (course_.is(State::kJogging) && !isMoving()) course_.take(Event::kStood);
   char line[gcode::Input::kRoom + 1];
   if (course_.isWaiting() || !input_.takeLine(line)) return clock_.sleep();
   answers_.begin(line);
@@ -61,32 +62,40 @@ void Machine::halt() {
 
 bool Machine::execute(char* line) {
   if (input_.wasTooLong()) {
-    if (isHalted()) return refuseHalted();
+    if (isHalted()) return refuseNow(kCode);
     answers_.begin("");
     return answers_.refuseWords(tooLongALine());
   }
   char* first = line;
   while (*first == ' ') ++first;
-  if (*first == 'b' || *first == 'B') {
-    if (isHalted() && !isQuestion(bCodeOf(first))) return refuseHalted();
+  if (isOfMaslow(first)) speakMaslow();
+  const bool is_b = *first == 'b' || *first == 'B';
+  if (is_b && mayRun(kindOf(first))) {
     // The first words of GroundControl, WebControl and the lab.
-    if (bCodeOf(first) == 5) out_.speak(Dialect::kMaslow);
+    if (bCodeOf(first) == 5) speakMaslow();
     echo(first);
-    gcode::clean(line);
-    return runB(line);
   }
   gcode::clean(line);
   if (*line == '\0') return true;
+  if (!mayRun(kindOf(line))) return refuseNow(kindOf(line));
+  if (is_b) return runB(line);
   if (*line == '$') return out_.speaksGrbl() ? runGrbl(line) : runSetting(line);
-  if (isHalted()) return refuseHalted();
-  if (is_checking_) return checkCode(line);
-  if (isJogging()) return answers_.refuseBare(grbl::kLocked);
-  is_jogging_ = false;
-  return runCode(line);
+  return course_.is(State::kChecking) ? checkCode(line) : runCode(line);
+}
+
+/// The gate of every line.
+bool Machine::mayRun(Kind kind) const {
+  // A jog begins, and so does the check, where nothing is on its way.
+  const bool needs_rest = (kind == kJog || kind == kCheck) && course_.isRunning();
+  return course_.allows(kind) && !(needs_rest && isMoving());
 }
 
 /// A line comes after an alarm: only a sender of Grbl counts on an answer.
-bool Machine::refuseHalted() { return out_.speaksGrbl() && answers_.refuseBare(grbl::kLocked); }
+bool Machine::refuseNow(Kind kind) {
+  if (isHalted() && !out_.speaksGrbl()) return false;
+  const bool is_line_of_dollar = kind != kCode && kind != kAct;
+  return answers_.refuseBare(is_line_of_dollar ? grbl::kNotIdle : grbl::kLocked);
+}
 
 void Machine::echo(const char* line) {
   uint8_t length = 0;
@@ -176,6 +185,12 @@ bool Machine::runQuestion(const char* line) {
 
 bool Machine::runSetting(const char* line) {
   const char* const text = line + 1;
+  // Some senders of Grbl begin with these, and no client of Maslow's does.
+  if ((*text == 'I' || *text == 'G') && text[1] == '\0') {
+    is_sure_ = true;
+    out_.speak(Dialect::kGrbl);
+    return runGrbl(line);
+  }
   if (*text == '\0') {
     out_.line(
         FLASH("$$ shows all settings, $n=value sets one, $RST=$ or # or * restores defaults"));
@@ -199,6 +214,10 @@ bool Machine::runReset(const char* what) {
   using settings::Reset;
   const bool is_known = (what[0] == '$' || what[0] == '#' || what[0] == '*') && what[1] == '\0';
   if (!is_known) return answers_.refuseStatement();
+  if (what[0] == '#' && out_.speaksGrbl()) {
+    coordinates_.forget();
+    return true;
+  }
   restoreDefaults(what[0] == '$'   ? Reset::kSettings
                   : what[0] == '#' ? Reset::kSettingsAndPosition
                                    : Reset::kEverything);

@@ -55,6 +55,12 @@ bool Coordinates::shift(const gcode::Words& words) {
   return true;
 }
 
+void Coordinates::forget() {
+  for (uint8_t row = kFirstPlaceSetting; row < kSettingCount; ++row)
+    memory_.setRow(row, values_.table().at(row).usual);
+  offsets_.clearShift();
+}
+
 void Coordinates::endShift(uint16_t tenths) {
   if (tenths == 921) offsets_.clearShift();
   if (tenths == 922) offsets_.suspendShift();

@@ -42,6 +42,8 @@ class Coordinates {
   const float* goal(const gcode::Piece& piece);
   /// `$#`.
   void show();
+  /// Forgets G54 to G59, G28, G30 and G92.
+  void forget();
   /// What is kept: places 0 to 5 are the beginnings of G54 to G59, 6 and 7 those to which G28 and
   /// G30 go; 0,0,0 where none is kept [mm].
   Place kept(uint8_t place) const;

@@ -9,23 +9,31 @@ void Machine::askStatus(bool is_in_line) {
   // Maslow clients never send it, so at the beginning of a line it says who is there.
   if (!out_.speaksGrbl() && is_in_line) return;
   if (!out_.speaksGrbl()) is_new_to_grbl_ = true;
+  is_sure_ = out_.speaksGrbl();
   out_.speak(Dialect::kGrbl);
   is_status_due_ = true;
 }
 
-gcode::Quick Machine::meantByGrbl(gcode::Quick quick) const {
-  using gcode::Quick;
-  if (quick != Quick::kStop && quick != Quick::kHold) return quick;
-  return isJogging() ? Quick::kJogCancel : Quick::kHold;
+/// Whether a line shows that the only `?` so far was noise: GroundControl and WebControl put a
+/// space behind each line, and senders of Grbl go on asking.
+bool Machine::isOfMaslow(const char* line) const {
+  const size_t length = strlen(line);
+  return out_.speaksGrbl() && !is_sure_ && length != 0 && line[length - 1] == ' ';
+}
+
+/// A client of Maslow's is there: it knows nothing of check mode.
+void Machine::speakMaslow() {
+  out_.speak(Dialect::kMaslow);
+  if (course_.is(State::kChecking)) course_.take(Event::kCheck);
 }
 
 FlashText Machine::stateForGrbl() {
   // No program begins from a place that nobody knows, and its place in the status is none.
   if (isHalted() || !place_.isKnown()) return FLASH("Alarm");
   if (course_.isWaiting()) return axes_.isAtRest() ? FLASH("Hold:0") : FLASH("Hold:1");
-  if (isJogging()) return FLASH("Jog");
-  if (isMoving() || is_executing_) return FLASH("Run");
-  return is_checking_ ? FLASH("Check") : FLASH("Idle");
+  if (course_.is(State::kChecking)) return FLASH("Check");
+  if (course_.is(State::kJogging) && isMoving()) return FLASH("Jog");
+  return isMoving() || is_executing_ ? FLASH("Run") : FLASH("Idle");
 }
 
 /// Three coordinates [mm], in the units of reports.
@@ -66,7 +74,6 @@ void Machine::resetAsGrbl() {
   stopNow();
   resetOverrides();
   resetModes();
-  is_checking_ = false;
   greeting_.sayWelcome();
 }
 
@@ -80,9 +87,11 @@ void Machine::resetModes() {
 bool Machine::runGrbl(const char* line) {
   const char* const text = line + 1;
   if (strncmp_P(text, PSTR("J="), 2) == 0) return jog(text + 2);
+  if (text[0] == 'N' && text[1] != '\0')
+    return answers_.refuse(FLASH("no lines are kept for the start"));
   if (strncmp_P(text, PSTR("RST="), 4) == 0) return drain() && runReset(text + 4);
-  if (text[0] != '\0' && text[1] != '\0' && text[0] != 'N')
-    return drain() && settings_lines_.setForGrbl(text);
+  if (strchr(text, '=') != nullptr) return drain() && settings_lines_.setForGrbl(text);
+  if (text[0] != '\0' && text[1] != '\0') return answers_.refuseStatement();
   switch (*text) {
     case '\0':
       out_.line(FLASH("[HLP:$$ $# $G $I $N $x=val $J=line $C $X $H $RST= ~ ! ? ctrl-x]"));
@@ -102,7 +111,6 @@ bool Machine::runGrbl(const char* line) {
       out_.line(FLASH("[OPT:V,16,128]"));
       return true;
     case 'N':
-      if (text[1] != '\0') return answers_.refuse(FLASH("no lines are kept for the start"));
       out_.line(FLASH("$N0="));
       out_.line(FLASH("$N1="));
       return true;
@@ -135,7 +143,13 @@ void Machine::showCoordinates() {
   out_ << FLASH("[TLO:");
   out_.fixed(inches ? offsets.toolLength() / gcode::kMmPerInch : offsets.toolLength(), 3);
   out_.line(FLASH("]"));
-  out_.line(FLASH("[PRB:0.000,0.000,0.000:0]"));
+  sayProbed();
+}
+
+void Machine::sayProbed() {
+  out_ << FLASH("[PRB:");
+  sayPlace(single_axis_.probed());
+  out_.line(single_axis_.hasProbed() ? FLASH(":1]") : FLASH(":0]"));
 }
 
 void Machine::showModes() {
@@ -165,10 +179,10 @@ bool Machine::unlock() {
 }
 
 bool Machine::toggleCheck() {
-  if (isHalted() || isMoving()) return answers_.refuseBare(grbl::kNotIdle);
-  is_checking_ = !is_checking_;
-  out_.line(is_checking_ ? FLASH("[MSG:Enabled]") : FLASH("[MSG:Disabled]"));
-  if (!is_checking_) resetModes();
+  course_.take(Event::kCheck);
+  const bool checks = course_.is(State::kChecking);
+  out_.line(checks ? FLASH("[MSG:Enabled]") : FLASH("[MSG:Disabled]"));
+  if (!checks) resetModes();
   return true;
 }
 

@@ -6,8 +6,7 @@ namespace machine {
 using gcode::Words;
 
 bool Machine::jog(const char* text) {
-  if (isHalted()) return answers_.refuseBare(grbl::kLocked);
-  if (isMoving() && !is_jogging_) return answers_.refuseBare(grbl::kNotIdle);
+  course_.take(Event::kJog);
   const gcode::Modal program = modal_;
   // Nothing of a program depends on a jog, so no refusal halts the machine.
   answers_.serve(true);
@@ -34,7 +33,6 @@ bool Machine::queueJog(const char* text) {
     return answers_.refuse(FLASH("z has no motor ($16)"), grbl::kBadJog);
   // A jog begins where the sled is, even at the sheet's edge.
   program_.countFromAim();
-  is_jogging_ = true;
   const float kLeastFeed = 1;  // [mm/min]
   const float most = moves_.feedOf(0), asked = modal_.toMm(words.value('F'));
   const float feed = !(asked > kLeastFeed) ? kLeastFeed : asked < most ? asked : most;
@@ -56,19 +54,9 @@ bool Machine::readJog(const char* text, Words& words) {
   return words.hasPlace() || answers_.refuse(FLASH("a jog needs X, Y or Z"), grbl::kBadJog);
 }
 
-void Machine::cancelJog() {
-  if (!isJogging() || !course_.isRunning()) return;
+void Machine::endJog() {
   // A sender may have sent more of them than there is room for.
-  dropped_jogs_ = input_.lines();
-  is_jog_cancelled_ = true;
-  course_.take(Event::kStop);
-}
-
-bool Machine::endsJog() {
-  const bool ends = is_jog_cancelled_;
-  is_jog_cancelled_ = is_jogging_ = false;
-  if (ends) place_.search(Search::kStopped);
-  return ends;
+  if (course_.take(Event::kEndJog)) dropped_jogs_ = input_.lines();
 }
 
 bool Machine::isDroppedJog(const char* line) {

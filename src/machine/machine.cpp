@@ -34,7 +34,7 @@ Machine::Machine(const Ports& ports, const BoardName& board)
              pauses_, modal_, out_, answers_, *this),
       drilling_(modal_, coordinates_, program_, z_, moves_, answers_, *this),
       single_axis_(values_, geometry_, axes_, planner_, motors_, place_, z_, door_, ports.aux,
-                   modal_, out_, answers_, *this),
+                   program_, modal_, out_, answers_, *this),
       axis_tests_(axes_, values_, out_, motors_, place_, *this),
       aux_(ports.aux) {}
 

@@ -96,7 +96,8 @@ class Machine : private Waiting, private Dispatch {
 
   // commands.cpp: turns a line into pieces.
   __attribute__((noinline)) bool execute(char* line);
-  bool refuseHalted();
+  bool mayRun(Kind kind) const;
+  bool refuseNow(Kind kind);
   void answer(bool done) override;
   void halt();
   void echo(const char* line);
@@ -115,24 +116,23 @@ class Machine : private Waiting, private Dispatch {
   void answerStatus();
   FlashText stateForGrbl();
   void sayPlace(const Place& place);
-  gcode::Quick meantByGrbl(gcode::Quick quick) const;
+  bool isOfMaslow(const char* line) const;
+  void speakMaslow();
   void resetAsGrbl();
   void resetModes();
   __attribute__((noinline)) bool runGrbl(const char* line);
   void showCoordinates();
+  void sayProbed();
   void showModes();
   bool unlock();
   bool toggleCheck();
   bool checkCode(const char* text);
 
   // jogs.cpp: `$J=`, and the end of a jog.
-  bool isJogging() const { return is_jogging_ && isMoving(); }
   bool jog(const char* text);
   bool queueJog(const char* text);
   bool readJog(const char* text, gcode::Words& words);
-  void cancelJog();
-  /// Whether a stop ended a jog, and nothing else.
-  bool endsJog();
+  void endJog();
   bool isDroppedJog(const char* line);
 
   // codes.cpp: what each G and M code does, by a table.
@@ -145,7 +145,7 @@ class Machine : private Waiting, private Dispatch {
   bool declare(const gcode::Piece& piece);
   bool keepGoal(const gcode::Piece& piece) { return coordinates_.keepGoal(piece); }
   bool goToKept(const gcode::Piece& piece) { return moves_.goToKept(piece); }
-  bool probeDown(const gcode::Piece& piece);
+  bool probe(const gcode::Piece& piece);
   bool takeToolLength(const gcode::Piece& piece);
   bool forgetToolLength(const gcode::Piece& piece);
   bool beginCycle(const gcode::Piece& piece);
@@ -221,13 +221,11 @@ class Machine : private Waiting, private Dispatch {
   YieldNotice yield_notice_;
   Aux& aux_;
   uint8_t ticks_per_second_ = 100;
-  bool is_status_due_ = false;     ///< a `?` came
-  bool is_new_to_grbl_ = false;    ///< a sender of Grbl has asked for the first time
-  bool is_executing_ = false;      ///< a line of a program is in execution
-  bool is_checking_ = false;       ///< `$C`: lines are read and not done
-  bool is_jogging_ = false;        ///< the moves in the queue are jogs
-  bool is_jog_cancelled_ = false;  ///< a stop is on its way that ends jogs only
-  uint8_t dropped_jogs_ = 0;       ///< lines that waited then
+  bool is_status_due_ = false;   ///< a `?` came
+  bool is_new_to_grbl_ = false;  ///< a sender of Grbl has asked for the first time
+  bool is_sure_ = false;         ///< it has asked again, or in words
+  bool is_executing_ = false;    ///< a line of a program is in execution
+  uint8_t dropped_jogs_ = 0;     ///< lines that waited then
   volatile bool hung_ = false;
 };
 

@@ -54,7 +54,8 @@ void Machine::readWire() {
     if (quick == gcode::Quick::kStatus)
       askStatus(input.isInLine());
     else
-      takeQuick(out_.speaksGrbl() ? meantByGrbl(quick) : quick);
+      // To a sender of Grbl `!` is a hold.
+      takeQuick(out_.speaksGrbl() && quick == gcode::Quick::kStop ? gcode::Quick::kHold : quick);
   }
 }
 
@@ -74,11 +75,12 @@ void Machine::takeQuick(gcode::Quick quick) {
       // A chain does not go on at a duty. The line gets no answer, so the client must hear why.
       if (axes_.isDriven() || axis_tests_.isTesting())
         return raiseAlarm(Remedy::kOpen, FLASH("A hold ended a pull or a test of motors"));
-      return operator_lines_.hold();
+      // A hold ends a jog.
+      return course_.is(State::kJogging) ? endJog() : operator_lines_.hold();
     case Quick::kReset:
       return out_.speaksGrbl() ? resetAsGrbl() : resetSoftly();
     case Quick::kJogCancel:
-      return cancelJog();
+      return endJog();
     case Quick::kOverflow:
       return raiseAlarm(Remedy::kOpen,
                         FLASH("Buffer overflow: more lines came than there is room for"));
@@ -109,9 +111,13 @@ void Machine::finishStop() {
   // A motor that was let go runs on for a while.
   awaitStandstill();
   // A new stop may come meanwhile: it is answered, and this stop goes on.
+  const bool ends_jog = course_.is(State::kJogEnds);
   course_.take(Event::kStood);
   motors_.stayOn(false);
-  if (endsJog()) return;
+  if (ends_jog) {
+    place_.search(Search::kStopped);
+    return;
+  }
   if (isHalted()) {
     place_.search(Search::kHalted);
     spindle_.turn(false);

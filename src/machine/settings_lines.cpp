@@ -51,6 +51,7 @@ void SettingsLines::dump() { dumpFrom(0); }
 /// Says all listed settings, with numbers from `first` on.
 void SettingsLines::dumpFrom(uint16_t first) {
   PutLetter put = {out_};
+  const bool speaks_grbl = out_.speaksGrbl();
   for (uint8_t i = 0; i < values_.count(); ++i) {
     if (values_.table().at(i).access != settings::Access::kListed) continue;
     settings::putSetting(values_, i, first, put);
@@ -58,6 +59,8 @@ void SettingsLines::dumpFrom(uint16_t first) {
     // Whatever else goes on, goes on; a stop ends the dump.
     waiting_.service();
     if (waiting_.isStopping()) return;
+    // A sender that takes the lines of both for one table keeps wrong numbers.
+    if (out_.speaksGrbl() != speaks_grbl) return dumpForGrbl();
   }
 }
 

@@ -11,26 +11,25 @@ const char kChainLetters[] = {'L', 'R'};
 
 }  // namespace
 
-bool SingleAxis::move(Axis axis, float goal, float feed, bool until_probe) {
+bool SingleAxis::move(Axis axis, float goal, float feed, Until until) {
   if (!waiting_.drain() || !motors_.wake()) return false;
   planner_.standAt(axes_.setPoint());
   planner_.addAxis(axis, goal, feed / 60);
-  bool touched = false;
+  bool ended = false;
   // A stop brakes along the path, so this goes on until the axis stands still.
-  while (waiting_.isMoving() && !touched) {
-    touched = until_probe && aux_.probeTouches();
+  while (waiting_.isMoving() && !ended) {
+    ended = until != Until::kGoal && aux_.probeTouches() == (until == Until::kTouch);
     waiting_.pass();
   }
-  const float touched_at = axes_.length(axis);
-  if (touched) {
+  if (ended) {
+    const Place& at = program_.aim();
+    probed_ = {at.x, at.y, axes_.length(axis)};
     planner_.forget();
     axes_.dropSetPoints();
   }
   waiting_.settle();
-  // The axis ran on for a moment.
-  if (touched) z_.declare(axes_.length(axis) - touched_at);
   planner_.standAt(axes_.setPoint());
-  return !waiting_.isStopping() && (touched || !until_probe);
+  return !waiting_.isStopping() && (ended || until == Until::kGoal);
 }
 
 bool SingleAxis::measureOut(Axis axis) {
@@ -45,6 +44,18 @@ bool SingleAxis::measureOut(Axis axis) {
   if (!completed) return false;
   out_.fixed(axes_.length(axis), 2).line(FLASH("mm"));
   return true;
+}
+
+bool SingleAxis::mayHang(float left, float right) {
+  const float kFarOff = 500;  // [mm] no sled is so far beyond the sheet while it is measured
+  const FoundPlace found = geometry_.forward(left, right, {0, 0});
+  if (!found.found || !(geometry_.sheet().distanceTo(found.at) > kFarOff)) return true;
+  answers_.beginError(grbl::kTravel);
+  out_ << FLASH("such chains put the sled at X");
+  out_.fixed(found.at.x, 0) << FLASH(" Y");
+  out_.fixed(found.at.y, 0)
+      .line(FLASH(", far off the sheet: measure again, or check the settings"));
+  return false;
 }
 
 bool SingleAxis::setChains(float left, float right) {
@@ -111,23 +122,29 @@ void SingleAxis::sayProbing(float target, float feed) {
   out_.line(modal_.inches ? FLASH(" in per min.") : FLASH(" mm per min."));
 }
 
-bool SingleAxis::probe(float target) {
+bool SingleAxis::probe(float target, bool until_touch, bool must) {
   if (!z_.hasMotor()) return answers_.refuseMotion(FLASH("a probe needs a z motor ($16)"));
   if (!door_.goesOnFromHere() || !door_.doesZFollow()) return false;
   if (!ZAxis::reaches(target)) return answers_.refuseMotion(tooLongForZ());
   if (!waiting_.drain()) return false;
-  if (aux_.probeTouches())
-    return answers_.refuseMotion(FLASH("the probe touches already: lift z, or look for a short"));
+  has_probed_ = false;
+  if (aux_.probeTouches() == until_touch)
+    return answers_.refuseMotion(
+        until_touch ? FLASH("the probe touches already: lift z, or look for a short")
+                    : FLASH("the probe touches nothing already"));
   const float feed = z_.mostFeed() < kProbeFeed ? z_.mostFeed() : kProbeFeed;
   sayProbing(target, feed);
-  const bool touched = move(kZAxis, target, feed, true);
+  has_probed_ = move(kZAxis, target, feed, until_touch ? Until::kTouch : Until::kLetGo);
   if (waiting_.isStopping()) return false;
-  if (!touched) {
-    place_.standHere();
-    return answers_.refuseMotion(FLASH("probe did not connect"));
+  if (has_probed_ && (!out_.speaksGrbl() || !place_.trustsZ())) {
+    // The axis ran on for a moment.
+    z_.declare(axes_.length(kZAxis) - probed_.z);
+    probed_.z = 0;
+    out_.line(FLASH("z axis zeroed"));
+    return true;
   }
-  out_.line(FLASH("z axis zeroed"));
-  return true;
+  place_.standHere();
+  return has_probed_ || !must || answers_.refuseMotion(FLASH("probe did not connect"));
 }
 
 }  // namespace machine

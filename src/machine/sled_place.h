@@ -70,6 +70,7 @@ class SledPlace {
   void reconsider() { keeper_.reconsider(); }
   /// Whether the lengths of both chains can be trusted.
   bool trustsChains() const { return keeper_.trustsChains(); }
+  bool trustsZ() const { return keeper_.trusts(kZAxis); }
   /// Somebody said where z is; nothing else changes.
   void trustZ() { keeper_.declareZ(); }
 

@@ -68,8 +68,8 @@ struct Parts : testing::Test, machine::Dispatch {
         moves(values, geometry, planner, motors, coordinates, program, z, door, cutter, pauses,
               modal, out, answers, waiting),
         drilling(modal, coordinates, program, z, moves, answers, waiting),
-        single_axis(values, geometry, axes, planner, motors, place, z, door, board, modal, out,
-                    answers, waiting),
+        single_axis(values, geometry, axes, planner, motors, place, z, door, board, program, modal,
+                    out, answers, waiting),
         axis_tests(axes, values, out, motors, place, waiting) {
     memory.start();
     values.setRow(kKinematics, 2);
