@@ -1,5 +1,7 @@
 // What a sender of Grbl asks for: the status at each `?`, and lines with a `$`. How lines look to
 // such a sender is the printer's; jogs are in jogs.cpp.
+#include <string.h>
+
 #include "machine.h"
 #include "version.h"
 
