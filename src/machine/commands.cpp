@@ -34,7 +34,8 @@ void Machine::loop() {
   if (isStopping()) return finishStop();
   if (course_.is(State::kJogging) && !isMoving()) course_.take(Event::kStood);
   char line[gcode::Input::kRoom + 1];
-  if (course_.isWaiting() || !input_.takeLine(line)) return clock_.sleep();
+  // A program waits here while its moves are made: nothing of a line stands on the stack.
+  if (course_.isWaiting() || !planner_.hasRoom() || !input_.takeLine(line)) return clock_.sleep();
   answers_.begin(line);
   if (isDroppedJog(line)) return answer(true);
   is_executing_ = *line != '$';

@@ -198,12 +198,8 @@ bool Moves::queueChords(const motion::Path<float>& path, const Place& target, fl
   // A chord of the angle a is farthest from its arc in the middle: by radius * a^2 / 8.
   const float turn = float(fabs(path.sweep));
   const uint16_t chords = uint16_t(turn * float(sqrt(path.radius / (8 * kMostCutOff)))) + 1;
-  // The wait is here, where little stands on the stack: with room for what edges make of a chord.
-  const auto isNearlyFull = [&] {
-    return planner_.queue().count() + kMostPieces > motion::MoveQueue::kMost;
-  };
   for (uint16_t chord = 1; chord <= chords; ++chord) {
-    if (!waiting_.waitWhile(isNearlyFull)) return false;
+    if (!awaitRoom(kMostPieces)) return false;
     if (!queueChord(path, float(chord) / float(chords), start, way, feed)) return false;
   }
   return true;
@@ -245,9 +241,10 @@ bool Moves::queue(const motion::Path<float>& path, const Place& target, float fe
   if (goes && !door_.doChainsFollow()) return false;
   if (feed < 0) feed = fittingFeed(path.length, target.z - aim.z, -feed);
   // Nearly every path is on the sheet; to look for its cuts would cost a tenth of a short line.
-  const bool queued = goes && geometry_.holds(path)
-                          ? queuePiece(path, motion::Space::kSheet, target.z, feed, beam)
-                          : queueCut(path, target.z, feed, beam);
+  const bool is_held = goes && geometry_.holds(path);
+  if (!awaitRoom(is_held || !goes ? 1 : kMostPieces)) return false;
+  const bool queued = is_held ? queuePiece(path, motion::Space::kSheet, target.z, feed, beam)
+                              : queueCut(path, target.z, feed, beam);
   if (queued) program_.countFrom(target.x, target.y);
   return queued;
 }
@@ -295,10 +292,16 @@ bool Moves::queuePieces(EdgeCut& cut, float z_to, float feed, uint8_t beam) {
   return true;
 }
 
-/// Waits for room in the queue: a program waits here while its moves are made.
+/// Waits for room for what edges make of a line, where little stands on the stack. The line's first
+/// move has room: see Machine::loop().
+bool Moves::awaitRoom(uint8_t pieces) {
+  return waiting_.waitWhile(
+      [&] { return planner_.queue().count() + pieces > motion::MoveQueue::kMost; });
+}
+
 bool Moves::queuePiece(const motion::Path<float>& piece, motion::Space space, float z, float feed,
                        uint8_t beam) {
-  if (!waiting_.waitWhile([&] { return !planner_.hasRoom(); }) || !motors_.wake()) return false;
+  if (!motors_.wake()) return false;
   if (!planner_.add(piece, z, feed / 60, space, beam, modal_.motion == 0))
     return answers_.refuseWords(FLASH("that is no path"));
   const bool cuts = modal_.motion >= 1 && modal_.motion <= 3;

@@ -64,9 +64,10 @@ class Moves {
   float fittingFeed(float length, float rise, float times) const;
   bool queue(const motion::Path<float>& path, const Place& target, float feed);
   __attribute__((noinline)) bool mayGo(const motion::Path<float>& path, const Area& area);
-  // Not inline: else every line would wait for room with the stack of the cuts.
+  // Not inline: else the wait for room would have the stack of the cuts.
   __attribute__((noinline)) bool queueCut(const motion::Path<float>& path, float z_to, float feed,
                                           uint8_t beam);
+  bool awaitRoom(uint8_t pieces);
   bool queuePieces(EdgeCut& cut, float z_to, float feed, uint8_t beam);
   bool queuePiece(const motion::Path<float>& piece, motion::Space space, float z, float feed,
                   uint8_t beam);
