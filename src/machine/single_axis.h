@@ -1,11 +1,8 @@
 // Moves of a single axis by its length: calibration, chains by hand, the probe.
 #pragma once
 
-#include "answers.h"
 #include "motion_door.h"
 #include "motor_power.h"
-#include "sled_place.h"
-#include "waiting.h"
 #include "z_axis.h"
 
 namespace machine {
@@ -13,24 +10,8 @@ namespace machine {
 /// B02, B06, B08 to B10, B15 and G38.2 to G38.5.
 class SingleAxis {
  public:
-  SingleAxis(const settings::Values& values, const Geometry& geometry, Axes& axes, Planner& mover,
-             MotorPower& motors, SledPlace& place, ZAxis& z, MotionDoor& door, Aux& aux,
-             const ProgramPlace& program, const gcode::Modal& modal, Printer& out, Answers& answers,
-             Waiting& waiting)
-      : values_(values),
-        geometry_(geometry),
-        axes_(axes),
-        planner_(mover),
-        motors_(motors),
-        place_(place),
-        z_(z),
-        door_(door),
-        aux_(aux),
-        program_(program),
-        modal_(modal),
-        out_(out),
-        answers_(answers),
-        waiting_(waiting) {}
+  SingleAxis(Basis& basis, MotorPower& motors, SledPlace& place, ZAxis& z, MotionDoor& door)
+      : base_(basis), motors_(motors), place_(place), z_(z), door_(door) {}
 
   /// [mm] Whether a chain or z can be that long.
   static bool isLength(float value) { return float(fabs(value)) <= kMostTravel; }
@@ -63,20 +44,11 @@ class SingleAxis {
   bool move(Axis axis, float goal, float feed, Until until = Until::kGoal);
   void sayProbing(float target, float feed);
 
-  const settings::Values& values_;
-  const Geometry& geometry_;
-  Axes& axes_;
-  Planner& planner_;
+  Basis& base_;
   MotorPower& motors_;
   SledPlace& place_;
   ZAxis& z_;
   MotionDoor& door_;
-  Aux& aux_;
-  const ProgramPlace& program_;
-  const gcode::Modal& modal_;
-  Printer& out_;
-  Answers& answers_;
-  Waiting& waiting_;
   Place probed_ = {0, 0, 0};
   bool has_probed_ = false;
 };
