@@ -148,14 +148,23 @@ class Diagnosis:
     def is_finding(self) -> bool:
         """Whether causes are named although the machine does something that nobody draws."""
         known = self.verdict == "not_in_library" and not self.disagreements
-        takes_most = bool(self.likely) and self.best.rms < TAKES_MOST * self.rms_before
+        takes_most = bool(self.likely) and self.left_mm < TAKES_MOST * self.rms_before
         return bool(known and takes_most and self.choice and self.choice.is_better)
 
     @property
     def pattern_mm(self) -> float:
         """What is left with the effects to go on with, beyond noise [mm RMS]."""
-        by_noise = left_by_noise(self.best, self.noise)
-        return float(np.sqrt(max(self.best.rms**2 - by_noise**2, 0.0)))
+        return float(np.sqrt(max(self.left_mm**2 - self.left_by_noise_mm**2, 0.0)))
+
+    @property
+    def left_mm(self) -> float:
+        """What is left with the effects to go on with [mm RMS]."""
+        return self.best.rms
+
+    @property
+    def left_by_noise_mm(self) -> float:
+        """What noise alone leaves of that fit [mm RMS]."""
+        return left_by_noise(self.best, self.noise)
 
     @computed_field
     @property
@@ -202,8 +211,7 @@ def _nothing_provable(diagnosis: Diagnosis) -> str:
 def _not_in_library(diagnosis: Diagnosis) -> str:
     if diagnosis.is_finding:
         return _finding(diagnosis)
-    by_noise = left_by_noise(diagnosis.best, diagnosis.noise)
-    left = _left(diagnosis.best.rms, by_noise)
+    left = _left(diagnosis.left_mm, diagnosis.left_by_noise_mm)
     what = _unknown(diagnosis)
     if not diagnosis.likely:
         return f"{what}. With the frame fitted {left}."

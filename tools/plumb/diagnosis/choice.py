@@ -31,7 +31,7 @@ from plumb.model.plain import ranked
 from plumb.model.predict import NAMES
 
 Array = np.ndarray
-FEIGNED = 0.02  # chance below which noise alone never improves on settings that are right
+FEIGNED = 0.005  # chance below which noise alone never improves on settings that are right
 SAME = 0.03  # share by which expected errors hardly differ: then the likelier is taken
 UNWEIGHED = -1e9  # log weight of what the posterior did not weigh
 WORTH = 0.85  # of the expected error of what is named: what is not named has to leave less

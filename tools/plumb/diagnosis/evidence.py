@@ -243,11 +243,11 @@ def log_orthant(mean: Array, covariance: Array, each: Array | None = None) -> Ar
 
 NOISE_STEP = 0.3  # of the logarithm of the noise, at most
 NOISE_REACH = 5.0  # spreads of its prior to both sides
-NEGLIGIBLE = 4.0  # nats below the best: what is less likely is not looked at
+NEGLIGIBLE = 6.0  # nats below the best: what is less likely is not looked at
 WEIGHED = 8.0  # nats below the best by single sizes: sets that are less likely are not weighed
 MOST_WEIGHED = 60  # sets with nothing else, or with a field
 MOST_TOGETHER = 4  # effects of the largest sets
-EXTENDED = {2: 30, 3: 6, 4: 0}  # how many sets of so many effects are tried with another
+EXTENDED = {2: 20, 3: 4, 4: 0}  # how many sets of so many effects are tried with another
 
 
 @dataclass(frozen=True)

@@ -38,7 +38,6 @@ from plumb.diagnosis.noise import Noise, noise_by
 from plumb.diagnosis.outliers import Reading, readings_of
 from plumb.diagnosis.priors import (
     FIELD,
-    FIELD_SPREADS,
     MOVED,
     OUTLIER,
     PITCH,
@@ -52,7 +51,7 @@ from plumb.model.catalogue import EVERY_MACHINE
 from plumb.model.plain import ascending, ranked
 
 Array = np.ndarray
-TRIED_FIELD = 3  # of the spreads of a field, that with which sets are looked for
+TRIED_SPREADS = (1.0, 4.0)  # [mm] of the fields beside which sets are looked for
 REFITTED = 8  # likeliest sets that are made linear about the fit of each
 NEAR = 5.0  # nats below the best within which they are
 LISTED = 0.95  # of all weight that the listed accounts hold together
@@ -203,7 +202,7 @@ def posterior_of(board: Board, stated: Stated | None) -> Posterior:
     linear = LinearBoard.of(frame, felt)
     middle, _ = noise_prior(stated)
     others = fields(frame, middle)
-    found = search(linear, stated, others[TRIED_FIELD :: len(FIELD_SPREADS)])
+    found = search(linear, stated, [each for each in others if each.spread in TRIED_SPREADS])
     noises, accounts = found.noises, accounts_with(linear, found.sets)
     near, with_field = accounts.among(found.clean), accounts.among(found.field)
     weights = _by_other(linear, with_field, noises, others, FIELD)
