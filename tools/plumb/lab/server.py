@@ -45,6 +45,7 @@ def serve(folder: Path, *, port: int, browser: bool, say: Callable[[str], None])
     with _listening(port) as listener:
         address = Address(HOST, listener.getsockname()[1])
         url = f"http://{HOST}:{address.port}/?token={token}"
+        say("The lab is at this address; Ctrl-C ends it.")
         say(url)
         if browser:
             Thread(target=_open, args=(url, say), daemon=True).start()
