@@ -46,67 +46,70 @@ bool BCodes::run(const char* line) {
   Words words;
   if (code != 255 && !isBare(code)) {
     const gcode::Mistake mistake = gcode::findMistake(line + 3, bareLetters(code));
-    if (mistake.fault != gcode::Fault::kNone) return base_.answers.refuseMistake(mistake);
+    if (mistake.fault != gcode::Fault::kNone) return parts_.answers.refuseMistake(mistake);
     gcode::Word word;
     for (const char* at = line + 3; gcode::readWord(at, word);) words.add(word.letter, word.value);
   }
   // All codes but questions act on the machine, so moves that were queued before come first. A line
   // of the operator during a wait acts at once.
   if (!isQuestion(code)) {
-    if (!base_.answers.isServing()) {
-      if (!base_.waiting.drain()) return false;
-      new_values_.refreshBeforeLine();
+    if (!parts_.answers.isServing()) {
+      if (!parts_.waiting.drain()) return false;
+      parts_.new_values.refreshBeforeLine();
     }
     if ((code == 2 || code == 11) && !words.has('L') && !words.has('R'))
-      return base_.answers.refuse(FLASH("B02 and B11 need a chain: L or R"));
+      return parts_.answers.refuse(FLASH("B02 and B11 need a chain: L or R"));
     if (!SingleAxis::isLength(words.value('L')) || !SingleAxis::isLength(words.value('R')))
-      return base_.answers.refuseMotion(tooLongForChains());
+      return parts_.answers.refuseMotion(tooLongForChains());
   }
   for (uint8_t i = 0; i < sizeof kCodes / sizeof kCodes[0]; ++i) {
     Code found;
     memcpy_P(&found, kCodes + i, sizeof found);
     if (found.code == code) return (this->*found.run)(code, words);
   }
-  return base_.answers.refuseStatement();
+  return parts_.answers.refuseStatement();
 }
 
 bool BCodes::sayVersion(uint8_t, const Words&) {
-  base_.out.line(FLASH("Firmware Version 1.28"));
+  parts_.out.line(FLASH("Firmware Version 1.28"));
   return true;
 }
 
 bool BCodes::sayNoCalibration(uint8_t, const Words&) {
-  base_.out.line(FLASH("Motor Calibration Not Needed"));
+  parts_.out.line(FLASH("Motor Calibration Not Needed"));
   return true;
 }
 
 bool BCodes::measureOut(uint8_t, const Words& words) {
-  return single_axis_.measureOut(words.value('L') != 0 ? kLeftAxis : kRightAxis);
+  return parts_.single_axis.measureOut(words.value('L') != 0 ? kLeftAxis : kRightAxis);
 }
 
 bool BCodes::setChains(uint8_t, const Words& words) {
   if (!words.has('L') || !words.has('R'))
-    return base_.answers.refuseWords(FLASH("B06 needs the lengths of both chains, L and R"));
-  if (!single_axis_.mayHang(words.value('L'), words.value('R'))) return false;
-  base_.out.line(FLASH("Setting Chain Lengths To: "));
-  return single_axis_.setChains(words.value('L'), words.value('R'));
+    return parts_.answers.refuseWords(FLASH("B06 needs the lengths of both chains, L and R"));
+  if (!parts_.single_axis.mayHang(words.value('L'), words.value('R'))) return false;
+  parts_.out.line(FLASH("Setting Chain Lengths To: "));
+  return parts_.single_axis.setChains(words.value('L'), words.value('R'));
 }
 
 bool BCodes::measureChain(uint8_t, const Words& words) {
-  return single_axis_.measureChain(words.has('L'));
+  return parts_.single_axis.measureChain(words.has('L'));
 }
 
-bool BCodes::wakeForTest() { return motors_.wake() && base_.waiting.untilRunning(); }
+bool BCodes::wakeForTest() { return parts_.motors.wake() && parts_.waiting.untilRunning(); }
 
-bool BCodes::testMotors(uint8_t, const Words&) { return wakeForTest() && axis_tests_.testMotors(); }
+bool BCodes::testMotors(uint8_t, const Words&) {
+  return wakeForTest() && parts_.axis_tests.testMotors();
+}
 
 bool BCodes::pullChain(uint8_t, const Words& words) {
   const float duty = words.has('S') ? words.value('S') : 100;
   const float seconds = words.has('T') ? words.value('T') : 1;
   if (!(fabs(duty) <= 255 && seconds >= 0 && seconds <= 60))
-    return base_.answers.refuse(FLASH("S is -255 to 255, T at most 60 s"));
+    return parts_.answers.refuse(FLASH("S is -255 to 255, T at most 60 s"));
   if (!wakeForTest()) return false;
-  return axis_tests_.pullChain(words.has('L') ? kLeftAxis : kRightAxis, int16_t(duty), seconds);
+  return parts_.axis_tests.pullChain(words.has('L') ? kLeftAxis : kRightAxis, int16_t(duty),
+                                     seconds);
 }
 
 bool BCodes::testLoop(uint8_t code, const Words& words) {
@@ -116,39 +119,39 @@ bool BCodes::testLoop(uint8_t code, const Words& words) {
   test.step_ms = step_ms >= 20 && step_ms <= 60000 ? uint16_t(step_ms) : 0;
   if (words.value('V') == 2) test.version = 2;
   if (!isMild(code, test.first) || !isMild(code, test.last))
-    return base_.answers.refuse(FLASH("S and F are at most 255, of B14 at most 1000"));
-  return axis_tests_.testLoop(code, test);
+    return parts_.answers.refuse(FLASH("S and F are at most 255, of B14 at most 1000"));
+  return parts_.axis_tests.testLoop(code, test);
 }
 
 bool BCodes::tellTelemetry(uint8_t, const Words&) {
-  telemetry_.tell();
+  parts_.telemetry.tell();
   return true;
 }
 
 bool BCodes::switchMotors(const char* word) {
   if (strncmp_P(word, PSTR("ON"), 3) == 0) return simulateMotors(true);
   if (*word == '\0' || strncmp_P(word, PSTR("OFF"), 4) == 0) return simulateMotors(false);
-  return base_.answers.refuse(FLASH("B99 is ON or OFF"));
+  return parts_.answers.refuse(FLASH("B99 is ON or OFF"));
 }
 
 bool BCodes::simulateMotors(bool on) {
-  if (!base_.waiting.drain()) return false;
-  base_.axes.releaseAll();
-  const bool was_on = base_.axes.isSimulated();
-  if (on && !was_on && !motors_.awaitRecord()) return false;
-  base_.memory.setRow(kSimulatedMotors, on);
-  base_.axes.simulate(on);
-  greeting_.sayMotors(on);
-  if (was_on && !on && base_.axes.isImagined()) place_.lose(settings::Doubt::kSimulated);
+  if (!parts_.waiting.drain()) return false;
+  parts_.axes.releaseAll();
+  const bool was_on = parts_.axes.isSimulated();
+  if (on && !was_on && !parts_.motors.awaitRecord()) return false;
+  parts_.memory.setRow(kSimulatedMotors, on);
+  parts_.axes.simulate(on);
+  parts_.greeting.sayMotors(on);
+  if (was_on && !on && parts_.axes.isImagined()) parts_.place.lose(settings::Doubt::kSimulated);
   return awaitStored();
 }
 
 bool BCodes::awaitStored() {
   const uint32_t kMostMs = 4000;  // to write all settings takes 3 s
-  const uint32_t start = base_.clock.milliseconds();
-  return base_.waiting.waitWhile([&] {
-    return !base_.memory.settingsStored() && !base_.memory.isWorn() &&
-           base_.clock.milliseconds() - start < kMostMs;
+  const uint32_t start = parts_.clock.milliseconds();
+  return parts_.waiting.waitWhile([&] {
+    return !parts_.memory.settingsStored() && !parts_.memory.isWorn() &&
+           parts_.clock.milliseconds() - start < kMostMs;
   });
 }
 

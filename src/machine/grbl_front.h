@@ -2,11 +2,6 @@
 #pragma once
 
 #include "b_lines.h"
-#include "moves.h"
-#include "overrides.h"
-#include "reports.h"
-#include "settings_lines.h"
-#include "single_axis.h"
 #include "stops.h"
 
 namespace machine {
@@ -14,23 +9,7 @@ namespace machine {
 /// Answers `?` and lines with a `$`, and does jogs, for a sender of Grbl.
 class GrblFront {
  public:
-  GrblFront(Basis& basis, LiveOverrides& overrides, Greeting& greeting, Reports& reports,
-            SledPlace& place, Spindle& spindle, ZAxis& z, NewValues& new_values,
-            Coordinates& coordinates, SettingsLines& settings_lines, Moves& moves,
-            SingleAxis& single_axis, Stops& stops)
-      : base_(basis),
-        overrides_(overrides),
-        greeting_(greeting),
-        reports_(reports),
-        place_(place),
-        spindle_(spindle),
-        z_(z),
-        new_values_(new_values),
-        coordinates_(coordinates),
-        settings_lines_(settings_lines),
-        moves_(moves),
-        single_axis_(single_axis),
-        stops_(stops) {}
+  GrblFront(Parts& parts, Stops& stops) : parts_(parts), stops_(stops) {}
 
   /// A `?` came.
   void askStatus(bool is_in_line);
@@ -60,18 +39,7 @@ class GrblFront {
   bool queueJog(const char* text);
   bool readJog(const char* text, gcode::Words& words);
 
-  Basis& base_;
-  LiveOverrides& overrides_;
-  Greeting& greeting_;
-  Reports& reports_;
-  SledPlace& place_;
-  Spindle& spindle_;
-  ZAxis& z_;
-  NewValues& new_values_;
-  Coordinates& coordinates_;
-  SettingsLines& settings_lines_;
-  Moves& moves_;
-  SingleAxis& single_axis_;
+  Parts& parts_;
   Stops& stops_;
   bool is_status_due_ = false;  ///< a `?` came
   bool is_new_ = false;         ///< it has asked for the first time

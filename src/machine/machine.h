@@ -24,8 +24,8 @@ class Machine : private Waiting, private Dispatch {
 
   /// The control tick. An interrupt calls it 100 or 200 times a second.
   void tick() {
-    base_.axes.tick();
-    base_.cutter.show(base_.axes.beam());
+    parts_.axes.tick();
+    parts_.cutter.show(parts_.axes.beam());
   }
 
   /// Called in place of tick() while the main program hangs. The board has taken the power off the
@@ -36,13 +36,13 @@ class Machine : private Waiting, private Dispatch {
   uint8_t ticksPerSecond() const { return ticks_per_second_; }
 
   // What a dry run looks at.
-  const Course& course() const { return base_.course; }
-  const Axes& axes() const { return base_.axes; }
-  const Planner& planner() const { return base_.planner; }
-  const gcode::Modal& modal() const { return base_.modal; }
-  const SledPlace& place() const { return place_; }
-  const ProgramPlace& program() const { return base_.program; }
-  const Coordinates& coordinates() const { return coordinates_; }
+  const Course& course() const { return parts_.course; }
+  const Axes& axes() const { return parts_.axes; }
+  const Planner& planner() const { return parts_.planner; }
+  const gcode::Modal& modal() const { return parts_.modal; }
+  const SledPlace& place() const { return parts_.place; }
+  const ProgramPlace& program() const { return parts_.program; }
+  const Coordinates& coordinates() const { return parts_.coordinates; }
 
  private:
   // What goes on while anything waits.
@@ -62,26 +62,7 @@ class Machine : private Waiting, private Dispatch {
   void echo(const char* line);
   bool runQuestion(const char* line) override;
 
-  // Each part knows the parts above it, never the parts below.
-  Basis base_;
-  LiveOverrides overrides_;
-  Greeting greeting_;
-  SledPlace place_;
-  Reports reports_;
-  Telemetry telemetry_;
-  MotorPower motors_;
-  Spindle spindle_;
-  ZAxis z_;
-  MotionDoor door_;
-  NewValues new_values_;
-  Coordinates coordinates_;
-  SettingsLines settings_lines_;
-  OperatorLines operator_lines_;
-  Pauses pauses_;
-  Moves moves_;
-  Drilling drilling_;
-  SingleAxis single_axis_;
-  AxisTests axis_tests_;
+  Parts parts_;
   Stops stops_;
   Codes codes_;
   BCodes b_codes_;

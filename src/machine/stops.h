@@ -1,10 +1,7 @@
 // Stops, halts and alarms.
 #pragma once
 
-#include "axis_tests.h"
-#include "operator_lines.h"
-#include "spindle.h"
-#include "telemetry.h"
+#include "parts.h"
 #include "yield_notice.h"
 
 namespace machine {
@@ -15,15 +12,7 @@ enum class Remedy : uint8_t { kOpen, kLookForHold, kMendAndSet, kSwitchOff };
 /// Stops the machine, by a character, a refusal or a fault, and says why.
 class Stops {
  public:
-  Stops(Basis& basis, SledPlace& place, Telemetry& telemetry, MotorPower& motors, Spindle& spindle,
-        OperatorLines& operator_lines, const AxisTests& axis_tests)
-      : base_(basis),
-        place_(place),
-        telemetry_(telemetry),
-        motors_(motors),
-        spindle_(spindle),
-        operator_lines_(operator_lines),
-        axis_tests_(axis_tests) {}
+  explicit Stops(Parts& parts) : parts_(parts) {}
 
   /// `!` or ctrl-X.
   void stop();
@@ -47,13 +36,7 @@ class Stops {
   void watchEncoders();
   void raiseFault(Axes::AxisFault worst);
 
-  Basis& base_;
-  SledPlace& place_;
-  Telemetry& telemetry_;
-  MotorPower& motors_;
-  Spindle& spindle_;
-  OperatorLines& operator_lines_;
-  const AxisTests& axis_tests_;
+  Parts& parts_;
   YieldNotice yield_notice_;
   volatile bool hung_ = false;
 };
