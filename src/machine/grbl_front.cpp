@@ -49,7 +49,7 @@ FlashText GrblFront::stateNow(bool is_executing) {
   return parts_.waiting.isMoving() || is_executing ? FLASH("Run") : FLASH("Idle");
 }
 
-void GrblFront::answerStatus(const Place& place, bool is_executing) {
+void GrblFront::answerStatus(bool is_executing) {
   if (!is_status_due_) return;
   is_status_due_ = false;
   const bool inches = parts_.values.at(kReportInches) != 0;
@@ -57,7 +57,8 @@ void GrblFront::answerStatus(const Place& place, bool is_executing) {
       60 * 1 / parts_.axes.secondsPerTick() * parts_.overrides.now().shareOfPlan();
   const float speed = parts_.axes.isPathAtRest() ? 0 : parts_.planner.speed() * a_minute;
   parts_.out << '<' << stateNow(is_executing) << FLASH("|MPos:");
-  parts_.reports.sayPlace(place);
+  parts_.reports.sayPlace(
+      parts_.place.now(parts_.waiting.isMoving() || parts_.waiting.isStopping()));
   parts_.out << FLASH("|FS:");
   parts_.out.fixed(inches ? speed / gcode::kMmPerInch : speed, inches ? 1 : 0) << ',';
   parts_.out.fixed(parts_.spindle.isOn() ? parts_.cutter.s() : 0, 0) << FLASH("|WCO:");

@@ -14,7 +14,7 @@ class GrblFront {
   /// A `?` came.
   void askStatus(bool is_in_line);
   /// Says the status if it was asked for.
-  void answerStatus(const Place& place, bool is_executing);
+  void answerStatus(bool is_executing);
   /// Whether a line of a client of Maslow's takes this one for a sender of Grbl: `$I` and `$G`.
   bool isGreetedBy(const char* line);
   bool isOfMaslow(const char* line) const;

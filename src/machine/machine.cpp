@@ -49,7 +49,7 @@ void Machine::service() {
 
 void Machine::keepReporting() {
   parts_.clock.idle();
-  if (parts_.out.speaksGrbl()) return grbl_.answerStatus(placeNow(), is_executing_);
+  if (parts_.out.speaksGrbl()) return grbl_.answerStatus(is_executing_);
   if (!parts_.reports.areDue()) return;
   parts_.reports.sayStatus(parts_.course.isWaiting()  ? FLASH("Pause")
                            : parts_.course.isHalted() ? FLASH("Stop")
