@@ -23,8 +23,8 @@ class Pauses {
  private:
   bool pause();
 
-  OperatorLines& operator_lines_;
   Basis& base_;
+  OperatorLines& operator_lines_;
   Spindle& spindle_;
   SledPlace& place_;
 };

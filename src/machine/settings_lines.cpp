@@ -46,6 +46,62 @@ GrblSetting grblAt(uint8_t index) {
 
 }  // namespace
 
+bool SettingsLines::run(const char* line) {
+  const char* const text = line + 1;
+  if (*text == '\0') {
+    base_.out.line(
+        FLASH("$$ shows all settings, $n=value sets one, $RST=$ or # or * restores defaults"));
+    return true;
+  }
+  if (!base_.waiting.drain()) return false;
+  if (*text == '$') {
+    if (text[1] != '\0') return base_.answers.refuseStatement();
+    dump();
+    return true;
+  }
+  if (text[0] == '#' && text[1] == '\0') {
+    coordinates_.show();
+    return true;
+  }
+  if (strncmp_P(text, PSTR("RST="), 4) == 0) return reset(text + 4);
+  return set(text);
+}
+
+bool SettingsLines::reset(const char* what) {
+  using settings::Reset;
+  const bool is_known = (what[0] == '$' || what[0] == '#' || what[0] == '*') && what[1] == '\0';
+  if (!is_known) return base_.answers.refuseStatement();
+  if (what[0] == '#' && base_.out.speaksGrbl()) {
+    coordinates_.forget();
+    return true;
+  }
+  restoreDefaults(what[0] == '$'   ? Reset::kSettings
+                  : what[0] == '#' ? Reset::kSettingsAndPosition
+                                   : Reset::kEverything);
+  return true;
+}
+
+void SettingsLines::restoreDefaults(settings::Reset what) {
+  base_.out.line(FLASH("Message: Restoring defaults "));
+  spindle_.switchLaser(false);
+  base_.memory.reset(what);
+  const bool forgets_position = what != settings::Reset::kSettings;
+  if (forgets_position) {
+    base_.axes.setCounts(0, 0, 0);
+    base_.keeper.startAfresh();
+  }
+  base_.axes.simulate(base_.values.at(kSimulatedMotors) != 0);
+  new_values_.take(NewValues::kAll);
+  greeting_.sayBoard();
+  greeting_.sayMotors(base_.axes.isSimulated());
+  greeting_.sayReady();
+  base_.answers.setAnswered(true);
+  if (!forgets_position) return;
+  new_values_.prepareGeometry();
+  place_.search(Search::kErased);
+  place_.sayUnset(true);
+}
+
 void SettingsLines::dump() { dumpFrom(0); }
 
 /// Says all listed settings, with numbers from `first` on.

@@ -1,15 +1,29 @@
 // Lines with a `$` that show or set a value.
 #pragma once
 
+#include "coordinates.h"
+#include "greeting.h"
 #include "new_values.h"
+#include "spindle.h"
 
 namespace machine {
 
 /// `$$` and `$n=value`.
 class SettingsLines {
  public:
-  SettingsLines(Basis& basis, NewValues& new_values) : base_(basis), new_values_(new_values) {}
+  SettingsLines(Basis& basis, Greeting& greeting, SledPlace& place, Spindle& spindle,
+                NewValues& new_values, Coordinates& coordinates)
+      : base_(basis),
+        greeting_(greeting),
+        place_(place),
+        spindle_(spindle),
+        new_values_(new_values),
+        coordinates_(coordinates) {}
 
+  /// Does a line that begins with `$`, for a client of Maslow's.
+  bool run(const char* line);
+  /// `$RST=` and a letter.
+  bool reset(const char* what);
   /// Says all listed settings, a line each.
   void dump();
   /// Takes the text behind the `$`: a number, `=`, a value.
@@ -24,13 +38,18 @@ class SettingsLines {
   enum : uint16_t { kFirstForGrbl = 1000 };
 
   /// `$n=value` behind the `$`; false, with a refusal, if it is none.
+  void restoreDefaults(settings::Reset what);
   bool read(const char* text, float& number, float& value);
   void dumpFrom(uint16_t first);
   bool setValue(uint8_t number, float value, uint16_t first);
   bool refuseChainSpeed();
 
   Basis& base_;
+  Greeting& greeting_;
+  SledPlace& place_;
+  Spindle& spindle_;
   NewValues& new_values_;
+  Coordinates& coordinates_;
 };
 
 }  // namespace machine

@@ -150,4 +150,10 @@ bool SingleAxis::probe(float target, bool until_touch, bool must) {
   return has_probed_ || !must || base_.answers.refuseMotion(FLASH("probe did not connect"));
 }
 
+void SingleAxis::sayProbed() {
+  base_.out << FLASH("[PRB:");
+  reports_.sayPlace(probed_);
+  base_.out.line(has_probed_ ? FLASH(":1]") : FLASH(":0]"));
+}
+
 }  // namespace machine

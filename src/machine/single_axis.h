@@ -3,6 +3,7 @@
 
 #include "motion_door.h"
 #include "motor_power.h"
+#include "reports.h"
 #include "z_axis.h"
 
 namespace machine {
@@ -10,8 +11,9 @@ namespace machine {
 /// B02, B06, B08 to B10, B15 and G38.2 to G38.5.
 class SingleAxis {
  public:
-  SingleAxis(Basis& basis, MotorPower& motors, SledPlace& place, ZAxis& z, MotionDoor& door)
-      : base_(basis), motors_(motors), place_(place), z_(z), door_(door) {}
+  SingleAxis(Basis& basis, Reports& reports, MotorPower& motors, SledPlace& place, ZAxis& z,
+             MotionDoor& door)
+      : base_(basis), reports_(reports), motors_(motors), place_(place), z_(z), door_(door) {}
 
   /// [mm] Whether a chain or z can be that long.
   static bool isLength(float value) { return float(fabs(value)) <= kMostTravel; }
@@ -31,12 +33,11 @@ class SingleAxis {
   /// B10.
   bool measureChain(bool left);
   /// G38.2 to G38.5: z goes on until the probe touches, or, away from it, until it lets go. There z
-  /// becomes zero, but keeps its height for a sender of Grbl, which counts from `probed()`. False,
+  /// becomes zero, but keeps its height for a sender of Grbl, which counts from there. False,
   /// with a refusal, also where it goes to the end though it must not.
   bool probe(float target, bool until_touch, bool must);
-  /// Where the last probe ended, and whether the probe had touched or let go.
-  const Place& probed() const { return probed_; }
-  bool hasProbed() const { return has_probed_; }
+  /// Says where the last probe ended, for a sender of Grbl.
+  void sayProbed();
 
  private:
   /// What ends a move before its goal.
@@ -45,6 +46,7 @@ class SingleAxis {
   void sayProbing(float target, float feed);
 
   Basis& base_;
+  Reports& reports_;
   MotorPower& motors_;
   SledPlace& place_;
   ZAxis& z_;

@@ -7,11 +7,7 @@
 
 #include "../settings_host/eeprom.h"
 #include "board_at_rest.h"
-#include "machine/axis_tests.h"
-#include "machine/drilling.h"
-#include "machine/new_values.h"
-#include "machine/operator_lines.h"
-#include "machine/single_axis.h"
+#include "machine/parts.h"
 #include "settings_flash.h"
 
 /// A main program whose rounds take a millisecond each; motors are simulated by B99.
@@ -48,23 +44,10 @@ struct BoardOfParts {
 };
 
 /// A machine with a ring whose sled hangs in the middle of the sheet.
-struct Parts : testing::Test, BoardOfParts, machine::Basis, machine::Dispatch {
-  Parts()
-      : Basis({board, board, board, board, eeprom, table}, waiting),
-        waiting(board, *this),
-        place(*this),
-        motors(*this, place),
-        spindle(*this),
-        z(*this, place),
-        door(*this, place),
-        new_values(*this, place),
-        coordinates(*this, place),
-        operator_lines(*this, motors, z, door, coordinates, *this),
-        pauses(*this, operator_lines, spindle, place),
-        moves(*this, motors, coordinates, z, door, pauses),
-        drilling(*this, coordinates, z, moves),
-        single_axis(*this, motors, place, z, door),
-        axis_tests(*this, motors, place) {
+struct PartsAtRest : testing::Test, BoardOfParts, machine::Parts, machine::Dispatch {
+  PartsAtRest()
+      : Parts({board, board, board, board, eeprom, table}, {2, ""}, waiting, *this),
+        waiting(board, *this) {
     memory.start();
     values.setRow(kKinematics, 2);
     values.setRow(kRotationRadius, 139);
@@ -109,19 +92,6 @@ struct Parts : testing::Test, BoardOfParts, machine::Basis, machine::Dispatch {
   }
 
   Rounds waiting;
-  machine::SledPlace place;
-  machine::MotorPower motors;
-  machine::Spindle spindle;
-  machine::ZAxis z;
-  machine::MotionDoor door;
-  machine::NewValues new_values;
-  machine::Coordinates coordinates;
-  machine::OperatorLines operator_lines;
-  machine::Pauses pauses;
-  machine::Moves moves;
-  machine::Drilling drilling;
-  machine::SingleAxis single_axis;
-  machine::AxisTests axis_tests;
   std::string asked;
   std::vector<bool> answered;
 };

@@ -3,7 +3,7 @@
 
 using namespace machine;
 
-struct MovesAlone : Parts {};
+struct MovesAlone : PartsAtRest {};
 
 TEST_F(MovesAlone, GoToTheTargetAndCountFromIt) {
   EXPECT_TRUE(moves.move(1, words("G1 X20 Y-10 Z-1")));
@@ -97,7 +97,7 @@ TEST_F(MovesAlone, GoToAKeptPlaceFirstUpThenAcross) {
   expectAt(30, 10, 2);
 }
 
-struct DrillingAlone : Parts {};
+struct DrillingAlone : PartsAtRest {};
 
 TEST_F(DrillingAlone, MakesAHoleAndComesBackUp) {
   EXPECT_TRUE(moves.move(0, words("G0 Z2")) && waiting.drain());
@@ -117,7 +117,7 @@ TEST_F(DrillingAlone, RefusesAHoleBeyondTheSheet) {
   EXPECT_FALSE(drilling.drill(words("G81 X0 Z-1")) && !answers.isAnswered());
 }
 
-struct CoordinatesAlone : Parts {};
+struct CoordinatesAlone : PartsAtRest {};
 
 TEST_F(CoordinatesAlone, BeginWhereTheyAreDeclared) {
   EXPECT_TRUE(moves.move(0, words("G0 X20 Y10")) && waiting.drain());
@@ -150,7 +150,7 @@ TEST_F(CoordinatesAlone, RefuseWhatHasNoMeaning) {
   EXPECT_TRUE(coordinates.shift(words("G92 Z0")));
 }
 
-struct SingleAxisAlone : Parts {};
+struct SingleAxisAlone : PartsAtRest {};
 
 TEST_F(SingleAxisAlone, TakesTheChainsLengthsAndLooksForThePlace) {
   keeper.doubtChains(settings::Doubt::kCounts);
@@ -190,7 +190,7 @@ TEST_F(SingleAxisAlone, MakesZeroWhereTheProbeTouches) {
   EXPECT_NEAR(axes.length(kZAxis), program.aim().z, 0.01) << "the next move begins there";
 }
 
-struct AxisTestsAlone : Parts {};
+struct AxisTestsAlone : PartsAtRest {};
 
 TEST_F(AxisTestsAlone, SayWhetherAnEncoderCountsTheRightWay) {
   axes.simulate(false);
