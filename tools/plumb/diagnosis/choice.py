@@ -68,8 +68,12 @@ class Choice:
         return not self.is_good and self.best.expected < self.as_set
 
 
-def choose(readings: CleanReadings, listed: Sequence[Listed], *, unknown: bool) -> Choice:
-    """Weigh all candidates; `unknown`: also those that predict best what a fit did not see."""
+def choose(
+    readings: CleanReadings, listed: Sequence[Listed], *, unknown: bool, silent: bool
+) -> Choice:
+    """Weigh all candidates; `unknown`: also those that predict best what a fit did not see;
+    `silent`: no cause is named.
+    """
     posterior = readings.posterior
     accounts = {each.account.effects: each.account for each in listed}
     found = [predicting(readings, posterior.felt)] if unknown else []
@@ -100,7 +104,7 @@ def choose(readings: CleanReadings, listed: Sequence[Listed], *, unknown: bool) 
     return Choice(
         candidates=tuple(best),
         as_set=_expected(truths, None),
-        is_good=is_feigned(readings, [fit for _, fit in possible]),
+        is_good=silent and is_feigned(readings, [fit for _, fit in possible]),
     )
 
 

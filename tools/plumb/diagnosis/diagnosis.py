@@ -33,11 +33,14 @@ def diagnose(inputs: Inputs) -> Diagnosis:
     judgement = judge(readings, inputs.stated)
     frame, noise = readings.frame, readings.noise
     explanations = tuple(readings.explained(each.account) for each in judgement.listed)
-    choice = (
-        None
-        if readings.outliers
-        else choose(readings, judgement.weighed, unknown=judgement.verdict == "not_in_library")
-    )
+    choice = None
+    if not readings.outliers:
+        choice = choose(
+            readings,
+            judgement.weighed,
+            unknown=judgement.verdict == "not_in_library",
+            silent=judgement.verdict == "nothing_provable",
+        )
     chosen = choice.best.account if choice else judgement.best
     best = readings.explained(chosen)
     doubts = doubts_of(readings, judgement.verdict, best, inputs.measurements.rounds)
