@@ -69,6 +69,10 @@ void OperatorLines::serveLine() {
 }
 
 bool OperatorLines::runOrRefuse(const char* line) {
+  if (stale_ != 0) {
+    --stale_;
+    return base_.answers.refuse(FLASH("a hold came after this line; send it again"));
+  }
   if (!isOperatorsTurn())
     return base_.answers.refuse(FLASH("the program went on before this line; send it again"));
   if (typed_.wasTooLong()) return base_.answers.refuse(tooLongALine());

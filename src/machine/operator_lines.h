@@ -38,13 +38,19 @@ class OperatorLines {
         dispatch_(dispatch) {}
 
   /// 0x84: everything brakes and the program waits.
-  void hold() { wait(Event::kHold); }
+  void hold() {
+    stale_ = typed_.lines();
+    wait(Event::kHold);
+  }
   /// The program waits at the line in execution.
   void pause() { wait(Event::kPause); }
   /// `~`.
   void resume();
   /// A stop: forgets the operator's lines.
-  void clear() { typed_.clear(); }
+  void clear() {
+    typed_.clear();
+    stale_ = 0;
+  }
   /// The room for the line that a character belongs to.
   gcode::Input& inputFor(char character);
   /// To be called often: does a line of the operator, or a step of z's way back.
@@ -75,6 +81,7 @@ class OperatorLines {
   gcode::Input typed_;                          ///< lines of the operator
   gcode::Input* coming_ = &base_.input;         ///< the room of the line that came last
   gcode::Modal program_;                        ///< modes of the program, restored at the end
+  uint8_t stale_ = 0;                           ///< lines that waited when a hold came
   uint32_t since_ms_ = 0;                       ///< when the wait began
   uint32_t resumed_ms_ = uint32_t(0) - kTwice;  ///< when the last `~` came
 };

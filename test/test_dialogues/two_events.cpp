@@ -22,6 +22,8 @@ const Step kEvents[] = {
     {Step::kSend, "G0 Z2", ""},      {Step::kSend, "G1 X-20 Y10 F900", ""},
     {Step::kAsk, "power cut", ""},   {Step::kAsk, "unplug left", ""},
     {Step::kSendRaw, "?^J", ""},     {Step::kSend, "$J=G91 X-40 F900", ""},
+    {Step::kSend, "B15", ""},        {Step::kSend, "$C", ""},
+    {Step::kSend, "$$", ""},
 };
 
 /// What the machine does before both events.
@@ -71,7 +73,11 @@ std::vector<Step> stepsOf(int scene, int first, int second, std::mt19937& random
   steps.push_back(kEvents[first]);
   wait(random() % 3 == 0 ? 0.01 : 1.2, std::string("after ") + kEvents[first].text);
   steps.push_back(kEvents[second]);
-  steps.push_back({Step::kAsk, "wait 2", std::string("after ") + kEvents[second].text});
+  // A third event is drawn.
+  wait(random() % 3 == 0 ? 0.01 : 1.2, std::string("after ") + kEvents[second].text);
+  const Step& third = kEvents[random() % unsigned(kEventCount)];
+  steps.push_back(third);
+  steps.push_back({Step::kAsk, "wait 2", std::string("after ") + third.text});
   for (const char* text : {"plug left", "wait 1"}) steps.push_back({Step::kAsk, text, "last"});
   steps.push_back({Step::kSendRaw, "!", "last"});
   steps.push_back({Step::kAsk, "wait 3", "last"});
