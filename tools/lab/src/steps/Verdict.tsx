@@ -76,6 +76,7 @@ export function Verdict() {
             states={verdict.states}
             sigma={verdict.sigma}
             covariates={bench?.covariates}
+            doubted={verdict.doubted}
             drawn={drawn}
             sheet={sheet}
           />

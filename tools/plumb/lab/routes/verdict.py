@@ -18,7 +18,7 @@ from plumb.fit.compare import ComparedMark, Comparison
 from plumb.fit.expected import plausible_range
 from plumb.lab.background import Background, Progress, key_of
 from plumb.lab.project import Project
-from plumb.lab.residuals import State, as_set, fitted_state
+from plumb.lab.residuals import State, as_set, doubted_marks, fitted_state
 from plumb.lab.rounds import board_words, command, inputs_of, known_words, unit_words
 from plumb.lab.routes.project import TheProject
 from plumb.model.catalogue import every_effect
@@ -74,6 +74,7 @@ class Verdict(BaseModel):
     sentence: str
     marks: tuple[ComparedMark, ...]
     states: list[State]  # as set, with the frame fitted, with what is added
+    doubted: list[int]  # marks whose readings are to be looked at again
     apart: str  # a sentence, where rivals would cut elsewhere by more than the noise
     sigma: float  # [mm] of a reading
     noise: str  # a sentence
@@ -139,11 +140,13 @@ def verdict_of(inputs: api.Inputs, diagnosis: Diagnosis, auto: AutoAddition) -> 
     """Return a diagnosis as the page shows it."""
     raw = api.compare(inputs)
     shown = list(diagnosis.explanations)[:MOST_CARDS]
+    doubted = doubted_marks(raw, {(slip.name, slip.read) for slip in diagnosis.outliers})
     return Verdict(
         verdict=diagnosis.verdict,
         sentence=diagnosis.sentence,
         marks=raw.marks,
-        states=_states(raw, auto),
+        states=_states(raw, auto, doubted),
+        doubted=doubted,
         apart=auto.apart.sentence if auto.apart else "",
         sigma=diagnosis.noise.sigma,
         noise=diagnosis.noise.sentence,
@@ -155,10 +158,10 @@ def verdict_of(inputs: api.Inputs, diagnosis: Diagnosis, auto: AutoAddition) -> 
     )
 
 
-def _states(raw: Comparison, auto: AutoAddition) -> list[State]:
+def _states(raw: Comparison, auto: AutoAddition, doubted: list[int]) -> list[State]:
     """Return what is left of the marks: as set, with the frame, with what is added."""
     addition, noise = auto.addition, auto.diagnosis.noise
-    states = [as_set(raw, noise.sigma)]
+    states = [as_set(raw, noise.sigma, doubted=doubted)]
     if addition is None:
         return states
     fits = [("frame fitted", addition.before_fit)]
