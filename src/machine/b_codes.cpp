@@ -50,37 +50,37 @@ bool Machine::runB(const char* line) {
   Words words;
   if (code != 255 && !isBare(code)) {
     const gcode::Mistake mistake = gcode::findMistake(line + 3, bareLetters(code));
-    if (mistake.fault != gcode::Fault::kNone) return answers_.refuseMistake(mistake);
+    if (mistake.fault != gcode::Fault::kNone) return base_.answers.refuseMistake(mistake);
     gcode::Word word;
     for (const char* at = line + 3; gcode::readWord(at, word);) words.add(word.letter, word.value);
   }
   // All codes but questions act on the machine, so moves that were queued before come first. A line
   // of the operator during a wait acts at once.
   if (!isQuestion(code)) {
-    if (!answers_.isServing()) {
+    if (!base_.answers.isServing()) {
       if (!drain()) return false;
       new_values_.refreshBeforeLine();
     }
     if ((code == 2 || code == 11) && !words.has('L') && !words.has('R'))
-      return answers_.refuse(FLASH("B02 and B11 need a chain: L or R"));
+      return base_.answers.refuse(FLASH("B02 and B11 need a chain: L or R"));
     if (!SingleAxis::isLength(words.value('L')) || !SingleAxis::isLength(words.value('R')))
-      return answers_.refuseMotion(tooLongForChains());
+      return base_.answers.refuseMotion(tooLongForChains());
   }
   for (uint8_t i = 0; i < sizeof kCodes / sizeof kCodes[0]; ++i) {
     BCode found;
     memcpy_P(&found, kCodes + i, sizeof found);
     if (found.code == code) return (this->*found.run)(code, words);
   }
-  return answers_.refuseStatement();
+  return base_.answers.refuseStatement();
 }
 
 bool Machine::sayVersion(uint8_t, const Words&) {
-  out_.line(FLASH("Firmware Version 1.28"));
+  base_.out.line(FLASH("Firmware Version 1.28"));
   return true;
 }
 
 bool Machine::sayNoCalibration(uint8_t, const Words&) {
-  out_.line(FLASH("Motor Calibration Not Needed"));
+  base_.out.line(FLASH("Motor Calibration Not Needed"));
   return true;
 }
 
@@ -90,8 +90,9 @@ bool Machine::measureOut(uint8_t, const Words& words) {
 
 bool Machine::setChains(uint8_t, const Words& words) {
   if (!words.has('L') || !words.has('R'))
-    return answers_.refuseWords(FLASH("B06 needs the lengths of both chains, L and R"));
-  out_.line(FLASH("Setting Chain Lengths To: "));
+    return base_.answers.refuseWords(FLASH("B06 needs the lengths of both chains, L and R"));
+  if (!single_axis_.mayHang(words.value('L'), words.value('R'))) return false;
+  base_.out.line(FLASH("Setting Chain Lengths To: "));
   return single_axis_.setChains(words.value('L'), words.value('R'));
 }
 
@@ -109,7 +110,7 @@ bool Machine::pullChain(uint8_t, const Words& words) {
   const float duty = words.has('S') ? words.value('S') : 100;
   const float seconds = words.has('T') ? words.value('T') : 1;
   if (!(fabs(duty) <= 255 && seconds >= 0 && seconds <= 60))
-    return answers_.refuse(FLASH("S is -255 to 255, T at most 60 s"));
+    return base_.answers.refuse(FLASH("S is -255 to 255, T at most 60 s"));
   if (!wakeForTest()) return false;
   return axis_tests_.pullChain(words.has('L') ? kLeftAxis : kRightAxis, int16_t(duty), seconds);
 }
@@ -121,7 +122,7 @@ bool Machine::testLoop(uint8_t code, const Words& words) {
   test.step_ms = step_ms >= 20 && step_ms <= 60000 ? uint16_t(step_ms) : 0;
   if (words.value('V') == 2) test.version = 2;
   if (!isMild(code, test.first) || !isMild(code, test.last))
-    return answers_.refuse(FLASH("S and F are at most 255, of B14 at most 1000"));
+    return base_.answers.refuse(FLASH("S and F are at most 255, of B14 at most 1000"));
   return axis_tests_.testLoop(code, test);
 }
 
@@ -133,27 +134,27 @@ bool Machine::tellTelemetry(uint8_t, const Words&) {
 bool Machine::switchMotors(const char* word) {
   if (strncmp_P(word, PSTR("ON"), 3) == 0) return simulateMotors(true);
   if (*word == '\0' || strncmp_P(word, PSTR("OFF"), 4) == 0) return simulateMotors(false);
-  return answers_.refuse(FLASH("B99 is ON or OFF"));
+  return base_.answers.refuse(FLASH("B99 is ON or OFF"));
 }
 
 bool Machine::simulateMotors(bool on) {
   if (!drain()) return false;
-  axes_.releaseAll();
-  const bool was_on = axes_.isSimulated();
+  base_.axes.releaseAll();
+  const bool was_on = base_.axes.isSimulated();
   if (on && !was_on && !motors_.awaitRecord()) return false;
-  memory_.setRow(kSimulatedMotors, on);
-  axes_.simulate(on);
+  base_.memory.setRow(kSimulatedMotors, on);
+  base_.axes.simulate(on);
   greeting_.sayMotors(on);
-  if (was_on && !on && axes_.isImagined()) place_.lose(settings::Doubt::kSimulated);
+  if (was_on && !on && base_.axes.isImagined()) place_.lose(settings::Doubt::kSimulated);
   return awaitStored();
 }
 
 bool Machine::awaitStored() {
   const uint32_t kMostMs = 4000;  // to write all settings takes 3 s
-  const uint32_t start = clock_.milliseconds();
+  const uint32_t start = base_.clock.milliseconds();
   return waitWhile([&] {
-    return !memory_.settingsStored() && !memory_.isWorn() &&
-           clock_.milliseconds() - start < kMostMs;
+    return !base_.memory.settingsStored() && !base_.memory.isWorn() &&
+           base_.clock.milliseconds() - start < kMostMs;
   });
 }
 

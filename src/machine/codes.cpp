@@ -24,7 +24,10 @@ bool Machine::find(const gcode::Piece& piece, Code& found) {
       {'G', 281, &Machine::keepGoal},
       {'G', 300, &Machine::goToKept},
       {'G', 301, &Machine::keepGoal},
-      {'G', 382, &Machine::probeDown},
+      {'G', 382, &Machine::probe},
+      {'G', 383, &Machine::probe},
+      {'G', 384, &Machine::probe},
+      {'G', 385, &Machine::probe},
       {'G', 430, &Machine::forgetToolLength},
       {'G', 431, &Machine::takeToolLength},
       {'G', 490, &Machine::forgetToolLength},
@@ -66,49 +69,54 @@ bool Machine::run(const gcode::Piece& piece) {
   if (find(piece, code)) return (this->*code.run)(piece);
   // Clients freely send M codes of other machines, so an unknown M code is ignored. An unknown G
   // code may have been a motion, so it is refused.
-  return piece.letter == 'M' ? ignoreM(piece) : answers_.refuseCode(piece);
+  return piece.letter == 'M' ? ignoreM(piece) : base_.answers.refuseCode(piece);
 }
 
 bool Machine::ignoreM(const gcode::Piece& piece) {
-  out_ << FLASH("Command M") << int32_t(piece.tenths / 10);
-  if (piece.tenths % 10 != 0) out_ << '.' << int32_t(piece.tenths % 10);
-  out_.line(FLASH(" unsupported and ignored."));
+  base_.out << FLASH("Command M") << int32_t(piece.tenths / 10);
+  if (piece.tenths % 10 != 0) base_.out << '.' << int32_t(piece.tenths % 10);
+  base_.out.line(FLASH(" unsupported and ignored."));
   return true;
 }
 
 bool Machine::beginMotion(const gcode::Piece& piece) {
-  modal_.motion = uint8_t(piece.tenths / 10);
-  return moves_.move(modal_.motion, piece.words);
+  base_.modal.motion = uint8_t(piece.tenths / 10);
+  return moves_.move(base_.modal.motion, piece.words);
 }
 
 bool Machine::dwell(const gcode::Piece& piece) {
   const Words& words = piece.words;
-  if (words.hasPlace()) return answers_.refuseWords(FLASH("G4 takes P or S and goes nowhere"));
+  if (words.hasPlace()) return base_.answers.refuseWords(FLASH("G4 takes P or S and goes nowhere"));
+  // P is in seconds for a sender of Grbl, else in milliseconds.
+  const float part = base_.out.speaksGrbl() ? 1 : 0.001f;
   const float seconds =
-      float(fabs(words.value('P') != 0 ? words.value('P') / 1000 : words.value('S')));
-  if (!(seconds < 86400)) return answers_.refuseWords(FLASH("a dwell is shorter than a day"));
+      float(fabs(words.value('P') != 0 ? words.value('P') * part : words.value('S')));
+  if (!(seconds < 86400)) return base_.answers.refuseWords(FLASH("a dwell is shorter than a day"));
   if (!drain()) return false;
-  out_ << FLASH("dwell time ");
-  out_.fixed(seconds, 3).line(FLASH(" s"));
+  base_.out << FLASH("dwell time ");
+  base_.out.fixed(seconds, 3).line(FLASH(" s"));
   return Waiting::dwell(uint32_t(seconds * 1000));
 }
 
 bool Machine::declare(const gcode::Piece& piece) {
   const Words& words = piece.words;
   if (words.has('L')) return coordinates_.declare(words);
-  if (goesAcross(words)) return answers_.refuseWords(FLASH("G10 with X or Y needs L2 or L20"));
+  if (goesAcross(words)) return base_.answers.refuseWords(FLASH("G10 with X or Y needs L2 or L20"));
   if (!drain()) return false;
   if (!words.has('Z')) return true;
-  const float z = modal_.toMm(words.value('Z'));
-  if (!ZAxis::reaches(z)) return answers_.refuseMotion(tooLongForZ());
+  const float z = base_.modal.toMm(words.value('Z'));
+  if (!ZAxis::reaches(z)) return base_.answers.refuseMotion(tooLongForZ());
   z_.declare(z);
   return true;
 }
 
-bool Machine::probeDown(const gcode::Piece& piece) {
+bool Machine::probe(const gcode::Piece& piece) {
   if (goesAcross(piece.words))
-    return answers_.refuseWords(FLASH("a probe goes along z, and takes no X or Y"));
-  return single_axis_.probe(moves_.targetOf(piece.words).z);
+    return base_.answers.refuseWords(FLASH("a probe goes along z, and takes no X or Y"));
+  const uint8_t kind = uint8_t(piece.tenths - 382);
+  if (!single_axis_.probe(moves_.targetOf(piece.words).z, kind < 2, kind % 2 == 0)) return false;
+  if (base_.out.speaksGrbl()) sayProbed();
+  return true;
 }
 
 bool Machine::takeToolLength(const gcode::Piece& piece) {
@@ -132,9 +140,9 @@ bool Machine::endShift(const gcode::Piece& piece) {
 }
 
 bool Machine::endProgram(const gcode::Piece&) {
-  modal_.endProgram();
+  base_.modal.endProgram();
   if (!drain() || !spindle_.turn(false)) return false;
-  cutter_.arm(false);
+  base_.cutter.arm(false);
   resetOverrides();
   return true;
 }
@@ -144,20 +152,20 @@ bool Machine::startSpindle(const gcode::Piece& piece) {
 }
 
 bool Machine::changeTool(const gcode::Piece& piece) {
-  return (!piece.words.has('T') || setTool(piece.words)) && pauses_.changeTool(modal_.tool);
+  return (!piece.words.has('T') || setTool(piece.words)) && pauses_.changeTool(base_.modal.tool);
 }
 
 bool Machine::armLaser(const gcode::Piece& piece) {
   // This counts for moves that are queued from now on; queued moves keep their beam.
   const bool on = piece.tenths == 1060;
-  if (on) cutter_.setFull();
+  if (on) base_.cutter.setFull();
   if (!spindle_.takeS(piece.words)) return false;
   spindle_.switchLaser(on);
   return true;
 }
 
 bool Machine::refuseSubprogram(const gcode::Piece&) {
-  return answers_.refuseWords(FLASH("subprograms are left to the program that sends"));
+  return base_.answers.refuseWords(FLASH("subprograms are left to the program that sends"));
 }
 
 }  // namespace machine

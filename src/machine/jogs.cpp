@@ -6,37 +6,35 @@ namespace machine {
 using gcode::Words;
 
 bool Machine::jog(const char* text) {
-  if (isHalted()) return answers_.refuseBare(grbl::kLocked);
-  if (isMoving() && !is_jogging_) return answers_.refuseBare(grbl::kNotIdle);
-  const gcode::Modal program = modal_;
+  base_.course.take(Event::kJog);
+  const gcode::Modal program = base_.modal;
   // Nothing of a program depends on a jog, so no refusal halts the machine.
-  answers_.serve(true);
+  base_.answers.serve(true);
   const bool done = queueJog(text);
-  answers_.serve(false);
-  modal_ = program;
-  if (answers_.isAnswered()) return done;
+  base_.answers.serve(false);
+  base_.modal = program;
+  if (base_.answers.isAnswered()) return done;
   // At once, for a sender waits with its next jog; and also where 0x85 ended the wait for room.
-  out_.plain(FLASH("ok"));
-  answers_.setAnswered(true);
+  base_.out.plain(FLASH("ok"));
+  base_.answers.setAnswered(true);
   return done;
 }
 
 bool Machine::queueJog(const char* text) {
   const gcode::Mistake mistake = gcode::findMistake(text);
-  if (mistake.fault != gcode::Fault::kNone) return answers_.refuseMistake(mistake);
+  if (mistake.fault != gcode::Fault::kNone) return base_.answers.refuseMistake(mistake);
   new_values_.refreshBeforeLine();
   Words words;
-  modal_.beginLine();
-  modal_.motion = 0;
+  base_.modal.beginLine();
+  base_.modal.motion = 0;
   if (!readJog(text, words)) return false;
-  if (!words.has('F')) return answers_.refuse(FLASH("a jog needs F"), grbl::kNoFeed);
+  if (!words.has('F')) return base_.answers.refuse(FLASH("a jog needs F"), grbl::kNoFeed);
   if (words.has('Z') && !z_.hasMotor())
-    return answers_.refuse(FLASH("z has no motor ($16)"), grbl::kBadJog);
+    return base_.answers.refuse(FLASH("z has no motor ($16)"), grbl::kBadJog);
   // A jog begins where the sled is, even at the sheet's edge.
-  program_.countFromAim();
-  is_jogging_ = true;
+  base_.program.countFromAim();
   const float kLeastFeed = 1;  // [mm/min]
-  const float most = moves_.feedOf(0), asked = modal_.toMm(words.value('F'));
+  const float most = moves_.feedOf(0), asked = base_.modal.toMm(words.value('F'));
   const float feed = !(asked > kLeastFeed) ? kLeastFeed : asked < most ? asked : most;
   return moves_.moveStraight(moves_.targetOf(words), goesAcross(words), feed);
 }
@@ -48,27 +46,18 @@ bool Machine::readJog(const char* text, Words& words) {
     const bool is_mode = piece.tenths == 200 || piece.tenths == 210 || piece.tenths == 530 ||
                          piece.tenths == 900 || piece.tenths == 910;
     if (piece.letter != gcode::kNoLetter && !(piece.letter == 'G' && is_mode))
-      return answers_.refuse(FLASH("a jog takes G20, G21, G53, G90 and G91 only"), grbl::kBadJog);
-    if (piece.letter == 'G') modal_.take(piece.tenths);
+      return base_.answers.refuse(FLASH("a jog takes G20, G21, G53, G90 and G91 only"),
+                                  grbl::kBadJog);
+    if (piece.letter == 'G') base_.modal.take(piece.tenths);
     for (const char* letter = "XYZF"; *letter != '\0'; ++letter)
       if (piece.words.has(*letter)) words.add(*letter, piece.words.value(*letter));
   }
-  return words.hasPlace() || answers_.refuse(FLASH("a jog needs X, Y or Z"), grbl::kBadJog);
+  return words.hasPlace() || base_.answers.refuse(FLASH("a jog needs X, Y or Z"), grbl::kBadJog);
 }
 
-void Machine::cancelJog() {
-  if (!isJogging() || !course_.isRunning()) return;
+void Machine::endJog() {
   // A sender may have sent more of them than there is room for.
-  dropped_jogs_ = input_.lines();
-  is_jog_cancelled_ = true;
-  course_.take(Event::kStop);
-}
-
-bool Machine::endsJog() {
-  const bool ends = is_jog_cancelled_;
-  is_jog_cancelled_ = is_jogging_ = false;
-  if (ends) place_.search(Search::kStopped);
-  return ends;
+  if (base_.course.take(Event::kEndJog)) dropped_jogs_ = base_.input.lines();
 }
 
 bool Machine::isDroppedJog(const char* line) {

@@ -4,50 +4,36 @@
 namespace machine {
 
 Machine::Machine(const Ports& ports, const BoardName& board)
-    : Waiting(ports.clock, axes_, planner_, course_),
-      wire_(ports.wire),
-      out_(ports.wire),
-      values_(ports.table, value_room_),
-      memory_(ports.bytes, values_),
-      axes_(ports.drives, ports.clock),
-      course_(axes_),
-      keeper_(memory_, axes_),
-      cutter_(ports.aux, values_),
-      greeting_(board, out_),
-      answers_(out_, values_),
-      place_(out_, axes_, geometry_, planner_, keeper_, memory_, modal_, program_),
-      reports_(ports.clock, modal_, axes_, input_, out_),
-      telemetry_(ports.drives, ports.aux, ports.clock, axes_, planner_, place_, memory_, values_,
-                 out_, board.start),
-      motors_(axes_, keeper_, values_, place_, geometry_, out_, *this),
-      spindle_(cutter_, ports.aux, out_, *this),
-      z_(memory_, values_, axes_, place_, modal_, out_, answers_),
-      door_(values_, axes_, place_, answers_),
-      new_values_(values_, geometry_, axes_, planner_, ports.drives, cutter_, place_, ports.clock,
-                  out_),
-      settings_lines_(memory_, values_, new_values_, out_, answers_, *this),
-      coordinates_(memory_, values_, modal_, place_, program_, out_, answers_),
-      operator_lines_(course_, input_, modal_, axes_, motors_, z_, door_, coordinates_, ports.clock,
-                      out_, answers_, *this),
-      pauses_(operator_lines_, input_, modal_, spindle_, place_, out_, *this),
-      moves_(values_, geometry_, planner_, motors_, coordinates_, program_, z_, door_, cutter_,
-             pauses_, modal_, out_, answers_, *this),
-      drilling_(modal_, coordinates_, program_, z_, moves_, answers_, *this),
-      single_axis_(values_, geometry_, axes_, planner_, motors_, place_, z_, door_, ports.aux,
-                   modal_, out_, answers_, *this),
-      axis_tests_(axes_, values_, out_, motors_, place_, *this),
-      aux_(ports.aux) {}
+    : Waiting(ports.clock, base_.axes, base_.planner, base_.course),
+      base_(ports, *this),
+      greeting_(board, base_.out),
+      place_(base_),
+      reports_(ports.clock, base_.modal, base_.axes, base_.input, base_.out),
+      telemetry_(base_, place_, board.start),
+      motors_(base_, place_),
+      spindle_(base_),
+      z_(base_, place_),
+      door_(base_, place_),
+      new_values_(base_, place_),
+      settings_lines_(base_, new_values_),
+      coordinates_(base_, place_),
+      operator_lines_(base_, motors_, z_, door_, coordinates_, *this),
+      pauses_(base_, operator_lines_, spindle_, place_),
+      moves_(base_, motors_, coordinates_, z_, door_, pauses_),
+      drilling_(base_, coordinates_, z_, moves_),
+      single_axis_(base_, motors_, place_, z_, door_),
+      axis_tests_(base_, motors_, place_) {}
 
 void Machine::begin() {
-  const settings::Started started = memory_.start();
-  axes_.simulate(values_.at(kSimulatedMotors) != 0);
+  const settings::Started started = base_.memory.start();
+  base_.axes.simulate(base_.values.at(kSimulatedMotors) != 0);
   // The control tick's rate is read once: a new rate counts after a reset.
-  ticks_per_second_ = values_.at(kLoopRate) > 150 ? 200 : 100;
-  axes_.setTicksPerSecond(ticks_per_second_);
+  ticks_per_second_ = base_.values.at(kLoopRate) > 150 ? 200 : 100;
+  base_.axes.setTicksPerSecond(ticks_per_second_);
   new_values_.takeAll();
-  modal_.feed = values_.at(kGreatestFeed) / 2;
+  base_.modal.feed = base_.values.at(kGreatestFeed) / 2;
   greeting_.sayBoard();
-  greeting_.sayMotors(axes_.isSimulated());
+  greeting_.sayMotors(base_.axes.isSimulated());
   greeting_.sayStart();
   greeting_.saySource(started);
   new_values_.sayCarriedTwice();

@@ -15,16 +15,6 @@
 
 namespace machine {
 
-/// What the machine needs of a board.
-struct Ports {
-  Wire& wire;
-  Drives& drives;
-  Aux& aux;
-  Clock& clock;
-  settings::Bytes& bytes;
-  const settings::Table& table;
-};
-
 /// A Maslow: its parts, the main program, and which part does which line.
 ///
 /// Commands run to their end in the main program. While a command waits, service() keeps everything
@@ -41,8 +31,8 @@ class Machine : private Waiting, private Dispatch {
 
   /// The control tick. An interrupt calls it 100 or 200 times a second.
   void tick() {
-    axes_.tick();
-    cutter_.show(axes_.beam());
+    base_.axes.tick();
+    base_.cutter.show(base_.axes.beam());
   }
 
   /// Called in place of tick() while the main program hangs. The board has taken the power off the
@@ -53,12 +43,12 @@ class Machine : private Waiting, private Dispatch {
   uint8_t ticksPerSecond() const { return ticks_per_second_; }
 
   // What a dry run looks at.
-  const Course& course() const { return course_; }
-  const Axes& axes() const { return axes_; }
-  const Planner& planner() const { return planner_; }
-  const gcode::Modal& modal() const { return modal_; }
+  const Course& course() const { return base_.course; }
+  const Axes& axes() const { return base_.axes; }
+  const Planner& planner() const { return base_.planner; }
+  const gcode::Modal& modal() const { return base_.modal; }
   const SledPlace& place() const { return place_; }
-  const ProgramPlace& program() const { return program_; }
+  const ProgramPlace& program() const { return base_.program; }
   const Coordinates& coordinates() const { return coordinates_; }
 
  private:
@@ -90,13 +80,14 @@ class Machine : private Waiting, private Dispatch {
   void override(gcode::Quick quick);
   void resetOverrides();
   void applyOverrides();
-  bool isHalted() const { return course_.isHalted(); }
+  bool isHalted() const { return base_.course.isHalted(); }
   Place placeNow();
   bool isFarAhead() const;
 
   // commands.cpp: turns a line into pieces.
   __attribute__((noinline)) bool execute(char* line);
-  bool refuseHalted();
+  bool mayRun(Kind kind) const;
+  bool refuseNow(Kind kind);
   void answer(bool done) override;
   void halt();
   void echo(const char* line);
@@ -115,24 +106,23 @@ class Machine : private Waiting, private Dispatch {
   void answerStatus();
   FlashText stateForGrbl();
   void sayPlace(const Place& place);
-  gcode::Quick meantByGrbl(gcode::Quick quick) const;
+  bool isOfMaslow(const char* line) const;
+  void speakMaslow();
   void resetAsGrbl();
   void resetModes();
   __attribute__((noinline)) bool runGrbl(const char* line);
   void showCoordinates();
+  void sayProbed();
   void showModes();
   bool unlock();
   bool toggleCheck();
   bool checkCode(const char* text);
 
   // jogs.cpp: `$J=`, and the end of a jog.
-  bool isJogging() const { return is_jogging_ && isMoving(); }
   bool jog(const char* text);
   bool queueJog(const char* text);
   bool readJog(const char* text, gcode::Words& words);
-  void cancelJog();
-  /// Whether a stop ended a jog, and nothing else.
-  bool endsJog();
+  void endJog();
   bool isDroppedJog(const char* line);
 
   // codes.cpp: what each G and M code does, by a table.
@@ -145,7 +135,7 @@ class Machine : private Waiting, private Dispatch {
   bool declare(const gcode::Piece& piece);
   bool keepGoal(const gcode::Piece& piece) { return coordinates_.keepGoal(piece); }
   bool goToKept(const gcode::Piece& piece) { return moves_.goToKept(piece); }
-  bool probeDown(const gcode::Piece& piece);
+  bool probe(const gcode::Piece& piece);
   bool takeToolLength(const gcode::Piece& piece);
   bool forgetToolLength(const gcode::Piece& piece);
   bool beginCycle(const gcode::Piece& piece);
@@ -185,23 +175,9 @@ class Machine : private Waiting, private Dispatch {
   bool awaitStored();
 
   // Each part knows the parts above it, never the parts below.
-  Wire& wire_;
-  Printer out_;
-  float value_room_[kSettingCount];
-  settings::Values values_;
-  settings::Memory memory_;
-  Geometry geometry_;
-  gcode::Input input_;
-  gcode::Modal modal_;
-  Axes axes_;
-  Course course_;
-  Planner planner_;
-  PositionKeeper keeper_;
-  Cutter cutter_;
+  Basis base_;
   Overrides overrides_;
   Greeting greeting_;
-  Answers answers_;
-  ProgramPlace program_;
   SledPlace place_;
   Reports reports_;
   Telemetry telemetry_;
@@ -219,15 +195,12 @@ class Machine : private Waiting, private Dispatch {
   SingleAxis single_axis_;
   AxisTests axis_tests_;
   YieldNotice yield_notice_;
-  Aux& aux_;
   uint8_t ticks_per_second_ = 100;
-  bool is_status_due_ = false;     ///< a `?` came
-  bool is_new_to_grbl_ = false;    ///< a sender of Grbl has asked for the first time
-  bool is_executing_ = false;      ///< a line of a program is in execution
-  bool is_checking_ = false;       ///< `$C`: lines are read and not done
-  bool is_jogging_ = false;        ///< the moves in the queue are jogs
-  bool is_jog_cancelled_ = false;  ///< a stop is on its way that ends jogs only
-  uint8_t dropped_jogs_ = 0;       ///< lines that waited then
+  bool is_status_due_ = false;   ///< a `?` came
+  bool is_new_to_grbl_ = false;  ///< a sender of Grbl has asked for the first time
+  bool is_sure_ = false;         ///< it has asked again, or in words
+  bool is_executing_ = false;    ///< a line of a program is in execution
+  uint8_t dropped_jogs_ = 0;     ///< lines that waited then
   volatile bool hung_ = false;
 };
 

@@ -50,14 +50,17 @@ void SettingsLines::dump() { dumpFrom(0); }
 
 /// Says all listed settings, with numbers from `first` on.
 void SettingsLines::dumpFrom(uint16_t first) {
-  PutLetter put = {out_};
-  for (uint8_t i = 0; i < values_.count(); ++i) {
-    if (values_.table().at(i).access != settings::Access::kListed) continue;
-    settings::putSetting(values_, i, first, put);
-    out_.end();
+  PutLetter put = {base_.out};
+  const bool speaks_grbl = base_.out.speaksGrbl();
+  for (uint8_t i = 0; i < base_.values.count(); ++i) {
+    if (base_.values.table().at(i).access != settings::Access::kListed) continue;
+    settings::putSetting(base_.values, i, first, put);
+    base_.out.end();
     // Whatever else goes on, goes on; a stop ends the dump.
-    waiting_.service();
-    if (waiting_.isStopping()) return;
+    base_.waiting.service();
+    if (base_.waiting.isStopping()) return;
+    // A sender that takes the lines of both for one table keeps wrong numbers.
+    if (base_.out.speaksGrbl() != speaks_grbl) return dumpForGrbl();
   }
 }
 
@@ -67,12 +70,12 @@ void SettingsLines::dumpForGrbl() {
 }
 
 void SettingsLines::sayGrblNumbers() {
-  PutLetter put = {out_};
+  PutLetter put = {base_.out};
   for (uint8_t i = 0; i < kGrblCount; ++i) {
     const GrblSetting row = grblAt(i);
-    out_ << '$' << int32_t(row.number) << '=';
-    settings::putNumber(row.isFixed() ? row.fixed : values_.at(row.setting), put);
-    out_.end();
+    base_.out << '$' << int32_t(row.number) << '=';
+    settings::putNumber(row.isFixed() ? row.fixed : base_.values.at(row.setting), put);
+    base_.out.end();
   }
 }
 
@@ -85,17 +88,18 @@ bool SettingsLines::setForGrbl(const char* text) {
     const GrblSetting row = grblAt(i);
     if (float(row.number) != number) continue;
     if (!row.isFixed())
-      return setValue(values_.table().at(row.setting).number, value, kFirstForGrbl);
+      return setValue(base_.values.table().at(row.setting).number, value, kFirstForGrbl);
     return value == row.fixed ||
-           answers_.refuse(FLASH("this machine cannot change that number of Grbl's"));
+           base_.answers.refuse(FLASH("this machine cannot change that number of Grbl's"));
   }
-  return answers_.refuse(FLASH("this machine has no such number; its settings begin at $1000"));
+  return base_.answers.refuse(
+      FLASH("this machine has no such number; its settings begin at $1000"));
 }
 
 bool SettingsLines::set(const char* text) {
   float number, value;
   if (!read(text, number, value)) return false;
-  if (!(number >= 0 && number <= 255)) return answers_.refuseStatement();
+  if (!(number >= 0 && number <= 255)) return base_.answers.refuseStatement();
   return setValue(uint8_t(number), value, 0);
 }
 
@@ -107,36 +111,36 @@ bool SettingsLines::read(const char* text, float& number, float& value) {
   if (has_number) ++text;
   const gcode::Number right = gcode::readNumber(text);
   if (!has_number || right.fault != gcode::Fault::kNone || *text != '\0')
-    return answers_.refuse(FLASH("Bad number format"), grbl::kBadNumber);
+    return base_.answers.refuse(FLASH("Bad number format"), grbl::kBadNumber);
   if (!(left.value >= 0 && left.value < 2000) || left.value != float(uint16_t(left.value)))
-    return answers_.refuseStatement();
+    return base_.answers.refuseStatement();
   number = left.value;
   value = right.value;
   return true;
 }
 
 bool SettingsLines::setValue(uint8_t number, float value, uint16_t first) {
-  const settings::Table& table = values_.table();
+  const settings::Table& table = base_.values.table();
   const uint8_t meant = meantBy(number);
-  if (meant == table.at(kChainSpeed).number && value > Planner::mostChainSpeed(values_))
+  if (meant == table.at(kChainSpeed).number && value > Planner::mostChainSpeed(base_.values))
     return refuseChainSpeed();
-  const settings::Refusal refusal = memory_.set(meant, value);
+  const settings::Refusal refusal = base_.memory.set(meant, value);
   if (refusal == settings::Refusal::kNone) {
     new_values_.take(table.at(settings::indexOf(table, meant)).touches);
     return true;
   }
-  answers_.beginError();
-  PutLetter put = {out_};
+  base_.answers.beginError();
+  PutLetter put = {base_.out};
   settings::putRefusal(table, number, refusal, first, put);
-  out_.end();
+  base_.out.end();
   return false;
 }
 
 bool SettingsLines::refuseChainSpeed() {
-  answers_.beginError();
-  out_ << FLASH("$68 must be at most ");
-  out_.fixed(Planner::mostChainSpeed(values_), 0);
-  out_.line(FLASH(": the gearbox turns a sprocket 20 times a minute at most"));
+  base_.answers.beginError();
+  base_.out << FLASH("$68 must be at most ");
+  base_.out.fixed(Planner::mostChainSpeed(base_.values), 0);
+  base_.out.line(FLASH(": the gearbox turns a sprocket 20 times a minute at most"));
   return false;
 }
 

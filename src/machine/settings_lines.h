@@ -1,23 +1,14 @@
 // Lines with a `$` that show or set a value.
 #pragma once
 
-#include "answers.h"
 #include "new_values.h"
-#include "waiting.h"
 
 namespace machine {
 
 /// `$$` and `$n=value`.
 class SettingsLines {
  public:
-  SettingsLines(settings::Memory& memory, const settings::Values& values, NewValues& new_values,
-                Printer& out, Answers& answers, Waiting& waiting)
-      : memory_(memory),
-        values_(values),
-        new_values_(new_values),
-        out_(out),
-        answers_(answers),
-        waiting_(waiting) {}
+  SettingsLines(Basis& basis, NewValues& new_values) : base_(basis), new_values_(new_values) {}
 
   /// Says all listed settings, a line each.
   void dump();
@@ -38,12 +29,8 @@ class SettingsLines {
   bool setValue(uint8_t number, float value, uint16_t first);
   bool refuseChainSpeed();
 
-  settings::Memory& memory_;
-  const settings::Values& values_;
+  Basis& base_;
   NewValues& new_values_;
-  Printer& out_;
-  Answers& answers_;
-  Waiting& waiting_;
 };
 
 }  // namespace machine

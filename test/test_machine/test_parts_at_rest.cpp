@@ -353,12 +353,11 @@ struct TelemetryAlone : Parts {};
 
 TEST_F(TelemetryAlone, KeepsWhyTheFirmwareStarted) {
   for (const Start start : {Start::kUsual, Start::kWatchdog, Start::kBrownOut, Start::kWatchdog}) {
-    Telemetry telemetry(board, board, board, axes, planner, place, memory, values, out, start);
+    Telemetry telemetry(*this, place, start);
     telemetry.noteStart();
     settings_host::settle(memory);
   }
-  Telemetry telemetry(board, board, board, axes, planner, place, memory, values, out,
-                      Start::kUsual);
+  Telemetry telemetry(*this, place, Start::kUsual);
   telemetry.tell();
   expectSaid("|start:usual|events:1,2,0,0|last:watchdog,3|slips:0,0|slipped:none,0,0,0]\r\n");
 }

@@ -176,16 +176,16 @@ TEST_F(SingleAxisAlone, MovesChainsToOrByLengths) {
 
 TEST_F(SingleAxisAlone, MakesZeroWhereTheProbeTouches) {
   waiting.in_each_round = [&] { board.touches = axes.length(kZAxis) < -1; };
-  EXPECT_TRUE(single_axis.probe(-5));
+  EXPECT_TRUE(single_axis.probe(-5, true, true));
   EXPECT_NEAR(0, axes.length(kZAxis), 0.05);
   EXPECT_FALSE(waiting.isMoving());
   expectSaid("z axis zeroed");
   board.touches = true;
-  EXPECT_FALSE(single_axis.probe(-5));
+  EXPECT_FALSE(single_axis.probe(-5, true, true));
   expectSaid("the probe touches already");
   board.touches = false;
   waiting.in_each_round = [] {};
-  EXPECT_FALSE(single_axis.probe(-0.5f));
+  EXPECT_FALSE(single_axis.probe(-0.5f, true, true));
   expectSaid("probe did not connect");
   EXPECT_NEAR(axes.length(kZAxis), program.aim().z, 0.01) << "the next move begins there";
 }

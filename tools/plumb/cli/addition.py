@@ -26,21 +26,28 @@ def verdict_of(result: Addition) -> str:
     many = " and ".join(added) if len(added) <= MOST_NAMED else f"{len(added)} effects"
     if result.pays:
         return headline(f"It pays to add {many}. {_fall(result)}", GOOD)
+    if result.stops:
+        return headline(f"Do not set the machine by {many}. {_fall(result)}", BAD)
     return headline(f"NOT better with {many}. {_fall(result)}", BAD)
 
 
 def auto_verdict(result: AutoAddition) -> str:
     """Return what was added and how likely it is right, in at most forty words."""
     addition, diagnosis = result.addition, result.diagnosis
+    if result.is_good:
+        return headline(f"{result.said[0]}", GOOD)
     if addition is None:
         return headline(diagnosis.sentence, BAD if diagnosis.outliers else OPEN)
     fall = _fall(addition)
+    if diagnosis.is_finding and result.chosen:
+        return headline(f"{diagnosis.sentence} {_fall(addition)}", GOOD)
     if diagnosis.verdict == "not_in_library":
         return headline(f"No cause explains all that the marks show. {fall}", BAD)
     named = result.named if len(result.named) <= MOST_NAMED else ()
     what = plainly(named) if named or not result.named else f"{len(result.named)} causes at once"
     if result.rivals:
-        share = odds_words(diagnosis.explanations[0].share)
+        shares = {each.effects: each.share for each in diagnosis.explanations}
+        share = odds_words(shares.get(diagnosis.likely, 0.0))
         return headline(f"Added untested: {what}, right with odds of {share}. {fall}", OPEN)
     return headline(f"Fitted: {what}. {fall}", GOOD)
 
@@ -64,13 +71,14 @@ def short_auto_text(result: AutoAddition) -> str:
 
 
 def numbers_text(result: Addition, before: Sequence[str] = ()) -> str:
-    """Return the new numbers in a few rows, and the first thing to know about them behind what
-    is said before.
+    """Return the new numbers in a few rows; behind what is said before, what speaks against them,
+    what a hand must do before they hold, and the first thing else to know.
     """
     parts = [parameter_table(result, most=NUMBERS)]
-    said = [*result.cures, *turn_sentences(result), *result.warnings]
-    more = [f"{len(said) - 1} more to know: see --details"] if len(said) > 1 else []
-    notes = [*before, *said[:1], *more]
+    heavy = [*result.stops, *turn_sentences(result), *result.cures]
+    light = [each for each in result.warnings if each not in result.stops]
+    more = [f"{len(light) - 1} more to know: see --details"] if len(light) > 1 else []
+    notes = [*before, *heavy, *light[:1], *more]
     return "\n\n".join([*parts, sentences(notes)] if notes else parts)
 
 
@@ -113,7 +121,8 @@ def as_text(result: Addition, *, asked_patch: bool = False) -> str:
     if result.benchmark_after:
         parts.insert(0, _benchmark_sentence(result))
     parts.append(sentences([f"{COLUMNS} {result.intervals_said}"], mark=""))
-    said = [*turn_sentences(result), *result.cures, *result.warnings]
+    said = [*result.stops, *turn_sentences(result), *result.cures]
+    said += [each for each in result.warnings if each not in result.stops]
     if PATCH in result.effects_added:
         said.append(PATCH_WARNING)
     elif asked_patch:

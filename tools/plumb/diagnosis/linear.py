@@ -85,17 +85,19 @@ class Other:
 
     axes: Array  # (n, r) orthonormal
     variances: Array  # (r,) [mm^2]
+    width: float = 0.0  # of a smooth field, in halves of what the marks span
+    spread: float = 1.0  # of a smooth field [mm]
 
     @staticmethod
-    def of(columns: Array) -> Other:
+    def of(columns: Array, width: float = 0.0) -> Other:
         """Return what columns (n, c) [mm] of independent normals move."""
         left, sizes, _ = np.linalg.svd(columns, full_matrices=False)
         seen = sizes > 1e-6 * max(sizes.max(initial=0.0), 1e-9)
-        return Other(left[:, seen], sizes[seen] ** 2)
+        return Other(left[:, seen], sizes[seen] ** 2, width)
 
     def times(self, length: float) -> Other:
         """Return the same, larger by a factor."""
-        return replace(self, variances=self.variances * length**2)
+        return replace(self, variances=self.variances * length**2, spread=self.spread * length)
 
 
 def fields(frame: Explanation, sigma: float) -> list[Other]:
@@ -103,8 +105,8 @@ def fields(frame: Explanation, sigma: float) -> list[Other]:
     least = LEFT_OUT * sigma**2 / max(FIELD_SPREADS) ** 2
     return [
         unit.times(spread)
-        for columns in gaussian_process_columns(frame, FIELD_WIDTHS, least)
-        for unit in [Other.of(columns)]
+        for width in FIELD_WIDTHS
+        for unit in [Other.of(gaussian_process_columns(frame, width, least), width)]
         for spread in FIELD_SPREADS
     ]
 
