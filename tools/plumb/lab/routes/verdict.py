@@ -12,6 +12,7 @@ from plumb.cure.auto import AutoAddition, add_auto
 from plumb.cure.live_board import BoardView, LiveBoard
 from plumb.diagnosis.answer import SHOWN, Diagnosis, Together, odds_words
 from plumb.diagnosis.diagnosis import diagnose
+from plumb.diagnosis.priors import LIKELIER
 from plumb.diagnosis.sizes import Size
 from plumb.diagnosis.unseen import Unseen, share_words, unseen_by
 from plumb.fit.compare import ComparedMark, Comparison
@@ -70,7 +71,7 @@ class Card(BaseModel):
 class Verdict(BaseModel):
     """What the marks say."""
 
-    verdict: str
+    title: str
     sentence: str
     marks: tuple[ComparedMark, ...]
     states: list[State]  # as set, with the frame fitted, with what is added
@@ -142,7 +143,7 @@ def verdict_of(inputs: api.Inputs, diagnosis: Diagnosis, auto: AutoAddition) -> 
     shown = list(diagnosis.explanations)[:MOST_CARDS]
     doubted = doubted_marks(raw, {(slip.name, slip.read) for slip in diagnosis.outliers})
     return Verdict(
-        verdict=diagnosis.verdict,
+        title=_title(diagnosis, is_corrected=inputs.settings.fitted is not None),
         sentence=diagnosis.sentence,
         marks=raw.marks,
         states=_states(raw, auto, doubted),
@@ -156,6 +157,24 @@ def verdict_of(inputs: api.Inputs, diagnosis: Diagnosis, auto: AutoAddition) -> 
         slips=[slip.sentence for slip in diagnosis.outliers],
         notes=[*diagnosis.disagreements, *diagnosis.warnings],
     )
+
+
+def _title(diagnosis: Diagnosis, *, is_corrected: bool) -> str:
+    """Return what the answer comes to, in a few words."""
+    if diagnosis.outliers:
+        return "A reading disagrees: look at it first"
+    if diagnosis.disagreements:
+        return "The rounds do not go together"
+    if diagnosis.is_finding:
+        return "Found, and something is left"
+    if diagnosis.verdict == "nothing_provable":
+        if diagnosis.nothing_chance <= LIKELIER:
+            return "Something may act"
+        return "Corrected: nothing more shows" if is_corrected else "The frame may be all of it"
+    if diagnosis.verdict == "not_in_library":
+        known = diagnosis.field_chance <= LIKELIER
+        return "Something is left over" if known else "No known effect draws this"
+    return "One suspect" if diagnosis.verdict == "one_suspect" else "Several things could be it"
 
 
 def _states(raw: Comparison, auto: AutoAddition, doubted: list[int]) -> list[State]:
