@@ -9,7 +9,7 @@ from pydantic import BaseModel
 
 from plumb import api
 from plumb.cure.auto import AutoAddition, add_auto
-from plumb.cure.live_board import BoardView, LiveBoard
+from plumb.cure.live_board import BoardView, Chosen, LiveBoard
 from plumb.diagnosis.answer import SHOWN, Diagnosis, Together, odds_words
 from plumb.diagnosis.diagnosis import diagnose
 from plumb.diagnosis.priors import LIKELIER
@@ -143,7 +143,7 @@ def verdict_of(inputs: api.Inputs, diagnosis: Diagnosis, auto: AutoAddition) -> 
     shown = list(diagnosis.explanations)[:MOST_CARDS]
     doubted = doubted_marks(raw, {(slip.name, slip.read) for slip in diagnosis.outliers})
     return Verdict(
-        title=_title(diagnosis, is_corrected=inputs.settings.fitted is not None),
+        title=_title(auto),
         sentence=diagnosis.sentence,
         marks=raw.marks,
         states=_states(raw, auto, doubted),
@@ -159,18 +159,20 @@ def verdict_of(inputs: api.Inputs, diagnosis: Diagnosis, auto: AutoAddition) -> 
     )
 
 
-def _title(diagnosis: Diagnosis, *, is_corrected: bool) -> str:
+def _title(auto: AutoAddition) -> str:
     """Return what the answer comes to, in a few words."""
+    diagnosis = auto.diagnosis
     if diagnosis.outliers:
         return "A reading disagrees: look at it first"
     if diagnosis.disagreements:
         return "The rounds do not go together"
+    if auto.is_good:
+        return "As good as these marks can show"
     if diagnosis.is_finding:
         return "Found, and something is left"
     if diagnosis.verdict == "nothing_provable":
-        if diagnosis.nothing_chance <= LIKELIER:
-            return "Something may act"
-        return "Corrected: nothing more shows" if is_corrected else "The frame may be all of it"
+        may_act = diagnosis.nothing_chance <= LIKELIER
+        return "Something may act" if may_act else "The frame may be all of it"
     if diagnosis.verdict == "not_in_library":
         known = diagnosis.field_chance <= LIKELIER
         return "Something is left over" if known else "No known effect draws this"
@@ -181,12 +183,13 @@ def _states(raw: Comparison, auto: AutoAddition, doubted: list[int]) -> list[Sta
     """Return what is left of the marks: as set, with the frame, with what is added."""
     addition, noise = auto.addition, auto.diagnosis.noise
     states = [as_set(raw, noise.sigma, doubted=doubted)]
-    if addition is None:
+    if auto.diagnosis.outliers:
         return states
-    fits = [("frame fitted", addition.before_fit)]
-    if addition.effects_added:
+    live = LiveBoard(auto.inputs, noise=noise)
+    fits = [("frame fitted", addition.before_fit if addition else live.fit(Chosen((), {})))]
+    if addition and addition.effects_added:
         fits.append((f"+ {plainly(addition.effects_added)}", addition.after_fit))
-    view = BoardView(LiveBoard(auto.inputs, noise=noise))
+    view = BoardView(live)
     return [*states, *(fitted_state(title, fitted, view) for title, fitted in fits)]
 
 
