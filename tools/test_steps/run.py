@@ -143,7 +143,7 @@ def pytest(rooms: Sequence[str], *choice: str) -> Part:
     """
     junit = RESULTS / "python.xml"
     workers = ["-n", str(2 * CORES), "--dist", "worksteal"]
-    words = [sys.executable, "-m", "pytest", "-v", "--junitxml", junit, *workers, *choice]
+    words = [sys.executable, "-u", "-m", "pytest", "-v", "--junitxml", junit, *workers, *choice]
     return Part("Python tests", [[*words, *rooms]], junit)
 
 

@@ -75,11 +75,17 @@ def numbers_text(result: Addition, before: Sequence[str] = ()) -> str:
     what a hand must do before they hold, and the first thing else to know.
     """
     parts = [parameter_table(result, most=NUMBERS)]
-    heavy = [*result.stops, *turn_sentences(result), *result.cures]
+    notes = [*before, *first_notes(result)]
+    return "\n\n".join([*parts, sentences(notes)] if notes else parts)
+
+
+def first_notes(result: Addition) -> list[str]:
+    """Return what speaks against the numbers, what a hand must do before they hold, and the first
+    thing else to know.
+    """
     light = [each for each in result.warnings if each not in result.stops]
     more = [f"{len(light) - 1} more to know: see --details"] if len(light) > 1 else []
-    notes = [*before, *heavy, *light[:1], *more]
-    return "\n\n".join([*parts, sentences(notes)] if notes else parts)
+    return [*result.stops, *turn_sentences(result), *result.cures, *light[:1], *more]
 
 
 def auto_text(result: AutoAddition) -> str:

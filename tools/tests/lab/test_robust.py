@@ -144,6 +144,17 @@ def test_a_folder_that_cannot_be_written_is_refused_at_the_start(tmp_path):
     assert done.stderr.startswith("plumb: /proc: cannot be written")
 
 
+def test_a_folder_that_is_not_there_is_made_and_said(tmp_path):
+    """As in the example of its help."""
+    folder = tmp_path / "shop/my-maslow"
+    words = [*PLUMB, "lab", folder, "--no-browser", "--port", "0"]
+    process = subprocess.Popen(words, stdout=subprocess.PIPE, text=True)
+    assert process.stdout.readline() == f"{folder}: a new folder, made for this machine\n"
+    assert process.stdout.readline().startswith("http://") and folder.is_dir()
+    process.terminate()
+    process.wait()
+
+
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
 def test_the_lab_ends_quietly(tmp_path, number):
     lab = serve(measured_machine(tmp_path / "garage"))
