@@ -13,6 +13,7 @@ from threading import Lock
 from typing import Generic, TypeVar, cast
 
 from plumb.cure.live_board import BoardView, LiveBoard
+from plumb.diagnosis.readings import doubted_readings
 from plumb.fit.compare import Comparison, compare
 from plumb.fit.inputs import Inputs
 from plumb.lab.project import Project
@@ -102,6 +103,7 @@ class WarmBoard:
     live: LiveBoard
     view: BoardView
     raw: Comparison
+    doubted: frozenset[tuple[str, tuple[float, ...] | None]]  # readings, by name and place
 
 
 class LiveBoards:
@@ -124,7 +126,8 @@ class LiveBoards:
                 inputs = inputs_of(project)
                 live = LiveBoard(inputs)
                 words = tuple(board_words(project))
-                self._kept = WarmBoard(key, words, live, BoardView(live), compare(inputs))
+                view, raw = BoardView(live), compare(inputs)
+                self._kept = WarmBoard(key, words, live, view, raw, _doubted(inputs))
             return self._kept
 
 
@@ -135,3 +138,9 @@ def key_of(project: Project) -> str:
     names = [name for name in (choices.settings, *choices.marks) if name]
     digests = [f"{name} {project.digest(name)}" for name in names]
     return "\n".join([said, *digests])
+
+
+def _doubted(inputs: Inputs) -> frozenset[tuple[str, tuple[float, ...] | None]]:
+    marks = inputs.measurements.marks
+    doubts = (doubt for doubt in doubted_readings(inputs) if doubt.is_mark)
+    return frozenset((marks[each.index].name, marks[each.index].measured) for each in doubts)

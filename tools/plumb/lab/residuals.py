@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Collection, Sequence
 
 import numpy as np
 from pydantic import BaseModel
@@ -39,16 +40,28 @@ class State(BaseModel):
     ranked: Ranked
 
 
-def as_set(raw: Comparison, sigma: float, *, title: str = "as set") -> State:
-    """Return the marks against the settings as they stand; sigma [mm] is that of a reading."""
+def as_set(
+    raw: Comparison, sigma: float, *, title: str = "as set", doubted: Sequence[int] = ()
+) -> State:
+    """Return the marks against the settings as they stand; sigma [mm] is that of a reading. What is
+    doubted does not count.
+    """
+    sure = [math.hypot(*mark.error) for i, mark in enumerate(raw.marks) if i not in doubted]
     return State(
         title=title,
-        fit_rms=raw.rms,
+        fit_rms=math.sqrt(np.mean(np.square(sure))) if doubted and sure else raw.rms,
         noise_rms=None,
         errors=[mark.error for mark in raw.marks],
         chains=[(mark.left_chain_residual, mark.right_chain_residual) for mark in raw.marks],
         ranked=_ranked(np.array([mark.error for mark in raw.marks]), math.sqrt(2) * sigma),
     )
+
+
+def doubted_marks(
+    raw: Comparison, doubted: Collection[tuple[str, tuple[float, ...] | None]]
+) -> list[int]:
+    """Return which of the marks have these readings, by name and place."""
+    return [i for i, mark in enumerate(raw.marks) if (mark.name, mark.measured) in doubted]
 
 
 def fitted_state(title: str, fitted: Fit, view: BoardView) -> State:

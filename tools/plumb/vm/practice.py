@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import json
 import math
+from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
@@ -18,6 +19,7 @@ from plumb.text.files import read_text
 from plumb.vm.garage import RANDOM, Garage, described, hide, random_garage, sled_error
 
 SECRET = "practice.json"
+LISTED = 1e-5  # to which a machine lists its numbers
 MACHINES = 1_000_000  # that can be drawn
 
 
@@ -93,12 +95,20 @@ def score(secret: Secret, answer: MachineSettings) -> Score:
     )
 
 
+def _agree(one: Mapping[str, float], other: Mapping[str, float]) -> bool:
+    """Return whether numbers are the same, as far as a machine lists them."""
+    return one.keys() == other.keys() and all(
+        math.isclose(one[name], other[name], rel_tol=LISTED) for name in one
+    )
+
+
 def claims_of(believed: MachineSettings, answer: MachineSettings) -> tuple[str, ...]:
     """Return the effects whose numbers are not what they were, patches aside."""
     patches = {effect["name"] for effect in empirical_effects()}
     named = [
         name
         for name in (*believed.effects, *answer.effects)
-        if answer.effects.get(name) != believed.effects.get(name) and name not in patches
+        if name not in patches
+        and not _agree(answer.effects.get(name, {}), believed.effects.get(name, {}))
     ]
     return tuple(dict.fromkeys(named))

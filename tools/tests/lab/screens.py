@@ -119,9 +119,9 @@ def at_rest(page):
     page.locator("html[data-rest]").wait_for(state="attached")
 
 
-def await_question(page, held):
-    """Wait until the page asks what a test holds back."""
-    while not held:
+def await_question(page, held, count=1):
+    """Wait until the page asks what a test holds back, so many times."""
+    while len(held) < count:
         page.evaluate("() => new Promise(requestAnimationFrame)")
 
 

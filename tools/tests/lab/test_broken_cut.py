@@ -239,12 +239,12 @@ def test_a_cut_whose_line_was_lost_goes_on_once_the_machine_knows_its_chains(lab
     button = page.get_by_role("button", name="Set both lengths; nothing moves")
     expect(button).to_be_disabled(timeout=PATIENCE)
     fields = page.locator(".set-chains input")
-    assert [box.input_value() for box in fields.all()] == ["", "", ""]
+    assert [each.input_value() for each in fields.all()] == ["", "", ""]
     page.get_by_role("button", name="Type these in").click()
-    last = [float(box.input_value()) for box in fields.all()]
+    last = [float(each.input_value()) for each in fields.all()]
     assert last != pytest.approx(lengths, abs=1)  # it was moving
-    for box, length in zip(fields.all(), lengths, strict=True):
-        box.fill(f"{length:.1f}")
+    for each, length in zip(fields.all(), lengths, strict=True):
+        each.fill(f"{length:.1f}")
     button.click()
     expect(bar(page)).to_contain_text("stands", timeout=PATIENCE)
     go_on_from(page, marks, there)

@@ -45,7 +45,8 @@ function OpenBench({ bench }: { bench: Board }) {
         states={states}
         ghosts={hasEffects ? previous?.fit : undefined}
         sigma={bench.sigma}
-        covariates={bench.covariates}
+        covariates={frame && bench.covariates}
+        doubted={bench.doubted}
         drawn={drawn}
         sheet={bench.sheet}
       />

@@ -1,6 +1,7 @@
 // The machine from the front, to scale: motors, chains, sheet and sled; a distance may be marked on it.
 import type { ComponentChildren } from "preact";
 import type { Schemas } from "../api/client";
+import { useMachine } from "../shell/machine";
 import "./picture.css";
 
 type Machine = Schemas["Machine"];
@@ -28,7 +29,9 @@ export function MachinePicture({ machine, marked, words = "", children }: Pictur
   const ring = machine.frame.rotation_radius ?? 140;
   const left = Math.max(gap, width) / 2 + 220;
   const box = [-left, -up - 380, 2 * left, up + height / 2 + 610];
-  const sled: [number, number] = [-width / 8, -height / 16];
+  const { place, knows_place, kind } = useMachine();
+  const sled: [number, number] =
+    place && knows_place && kind !== "none" ? [place[0], -place[1]] : [-width / 8, -height / 16];
   return (
     <svg
       class="machine-picture"

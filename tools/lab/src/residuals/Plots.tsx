@@ -30,15 +30,17 @@ interface PlotsParts {
   state: Left;
   scale: State; // the dots of this state fit
   drawn: Drawn | undefined;
+  doubted: readonly number[];
   units: Unit;
   selected: number | undefined;
   select: (mark: number | undefined) => void;
 }
 
 export function Plots(parts: PlotsParts) {
-  const { covariates, state, scale, drawn, units } = parts;
+  const { covariates, state, scale, drawn, doubted, units } = parts;
   const unit = units === "inch" ? INCH : 1;
-  const most = (1.1 * Math.max(largest(scale.chains), largest(state.chains), 0.1)) / unit;
+  const most =
+    (1.1 * Math.max(...[scale, state].map(({ chains }) => largest(chains, doubted)), 0.1)) / unit;
   const sorted = [...covariates].sort((a, b) => ORDER.indexOf(a.name) - ORDER.indexOf(b.name));
   const same = sorted.filter(isSame);
   return (
@@ -150,12 +152,13 @@ function CurvePath({ curve, kind, x, y, ends }: CurveParts) {
 }
 
 /** Both coordinates of all errors, the smallest first, against what noise alone would make of each. */
-function AgainstNoise({ state, units, selected, select }: PlotsParts) {
+function AgainstNoise({ state, doubted, units, selected, select }: PlotsParts) {
   const unit = units === "inch" ? INCH : 1;
   const { order, at, low, high, beyond } = state.ranked;
   const both = order.map((place) => state.errors[Math.floor(place / 2)]?.[place % 2] ?? 0);
   const [first = 0, last = 0] = [at[0], at.at(-1)];
-  const most = 1.1 * Math.max(...[...both, ...low, ...high].map(Math.abs), 1e-6);
+  const sure = both.filter((_, i) => !doubted.includes(Math.floor((order[i] ?? 0) / 2)));
+  const most = 1.1 * Math.max(...[...sure, ...low, ...high].map(Math.abs), 1e-6);
   const dots = (kind: string, keep: (i: number) => boolean) => ({
     kind,
     places: both.map((value, i) =>
@@ -189,8 +192,9 @@ function AgainstNoise({ state, units, selected, select }: PlotsParts) {
 }
 
 /** The largest error of a chain [mm]. */
-function largest(chains: readonly Ends[] = []): number {
-  return Math.max(0, ...chains.flat().map((end) => Math.abs(end ?? 0)));
+function largest(chains: readonly Ends[] | undefined, doubted: readonly number[]): number {
+  const sure = (chains ?? []).filter((_, i) => !doubted.includes(i));
+  return Math.max(0, ...sure.flat().map((end) => Math.abs(end ?? 0)));
 }
 
 function extremes({ values }: Covariate): readonly [number, number] {

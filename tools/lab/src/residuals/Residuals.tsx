@@ -19,12 +19,14 @@ interface ResidualsParts {
   /** What effects draw, over what the frame leaves. */
   drawn: Drawn | undefined;
   sheet: readonly [number, number];
+  /** Marks whose readings disagree: they scale nothing. */
+  doubted: readonly number[];
 }
 
 const FRAME = 1; // the state of the fitted frame
 
 export function Residuals(parts: ResidualsParts) {
-  const { marks, states, ghosts, sigma, covariates, drawn, sheet } = parts;
+  const { marks, states, ghosts, sigma, covariates, drawn, sheet, doubted } = parts;
   const units = useProject().project.choices.units ?? "mm";
   const [chosen, show] = useState<number>();
   const [selected, select] = useState<number>();
@@ -33,13 +35,19 @@ export function Residuals(parts: ResidualsParts) {
   const shown = Math.min(chosen ?? usual, states.length - 1);
   const state = states[shown];
   const drawnMarks = useMemo(
-    () => marks.map(({ name, target, measured }) => ({ name, target, measured })),
-    [marks],
+    () =>
+      marks.map(({ name, target, measured }, i) => ({
+        name,
+        target,
+        measured,
+        isDoubted: doubted.includes(i),
+      })),
+    [marks, doubted],
   );
   const laid = shown === FRAME ? drawn : undefined;
   // A slider moves the arrows; the plots follow a few times a second.
   const plotted = useRested(state);
-  const frame = states[FRAME];
+  const frame = states[Math.min(FRAME, states.length - 1)];
   const plots = useMemo(
     () =>
       covariates &&
@@ -50,12 +58,13 @@ export function Residuals(parts: ResidualsParts) {
           state={plotted}
           scale={frame}
           drawn={laid}
+          doubted={doubted}
           units={units}
           selected={selected}
           select={select}
         />
       ),
-    [covariates, plotted, frame, laid, units, selected],
+    [covariates, plotted, frame, laid, units, selected, doubted],
   );
   if (!state) return null;
   return (

@@ -1,5 +1,6 @@
 // Step 6: what the tape says, typed into a grid laid out like the sheet.
 
+import type { Schemas } from "../api/client";
 import { namedLength } from "../controls/lengths";
 import { TakeAlong } from "../controls/TakeAlong";
 import { Distances } from "../readings/Distances";
@@ -31,8 +32,8 @@ export function Readings() {
   if (!form) return <Screen title="What does the tape say?" say="One moment …" busy />;
   const read = form.marks.filter((mark) => mark.read).length;
   const units = project.choices.units ?? "mm";
-  const off = form.files.find((file) => file.name === form.file)?.off_target ?? null;
   const doubted = new Set(doubts.filter((doubt) => doubt.is_mark).map((doubt) => doubt.index));
+  const off = offTarget(form.marks.filter(({ index }) => !doubted.has(index)));
   const asked = form.spans.filter((span) => lengthBetween(form.distances, span)).length;
   const isTaped = form.spans.length > 0;
   const grid = <Grid form={form} readings={readings} doubted={doubted} />;
@@ -53,7 +54,8 @@ export function Readings() {
           <p class="count" role="status" aria-busy={looking}>
             {isTaped && `${asked} of ${form.spans.length} distances are read. `}
             {(!isTaped || read > 0) && `${read} of ${form.marks.length} marks are read.`}
-            {off !== null && ` They are off by ${namedLength(off, units, 2)} (RMS).`}
+            {off > 0 && ` They are off by ${namedLength(off, units, 2)} (RMS)`}
+            {off > 0 && (doubted.size > 0 ? " without what disagrees." : ".")}
             {looking && " Looking for readings that disagree …"}
           </p>
           <Changed kept={kept} />
@@ -84,6 +86,14 @@ export function Readings() {
       <FileOfReadings form={form} choose={readings.chooseFile} />
     </Screen>
   );
+}
+
+/** How far the marks are from where they were sent, RMS [mm]; 0 if none is read. */
+function offTarget(marks: readonly Schemas["AskedMark"][]): number {
+  const errors = marks.flatMap(({ target, place }) =>
+    place ? [(place[0] - target[0]) ** 2 + (place[1] - target[1]) ** 2] : [],
+  );
+  return Math.sqrt(errors.reduce((sum, each) => sum + each, 0) / Math.max(1, errors.length));
 }
 
 function Why() {

@@ -19,14 +19,6 @@ import { UnseenCauses } from "./verdict/UnseenCauses";
 import type { NextAnswer, VerdictAnswer } from "./verdict/words";
 import "./verdict/verdict.css";
 
-const TITLES: Record<string, string> = {
-  nothing_provable: "The marks show no cause",
-  one_suspect: "One suspect",
-  cannot_tell: "Several things could be it",
-  not_in_library: "None of the known effects fits",
-  slip: "A reading disagrees: look at it first",
-};
-
 export function Verdict() {
   const { project, trouble } = useProject();
   const units = project.choices.units ?? "mm";
@@ -64,7 +56,7 @@ export function Verdict() {
   const sheet = project.machine?.sheet ?? [2440, 1220];
   return (
     <Screen
-      title={TITLES[verdict.verdict] ?? "The verdict"}
+      title={verdict.title}
       say={verdict.sentence}
       busy={answer.share < 1 || (!bench && !trouble)}
       why={<Why noise={verdict.noise} notes={verdict.notes} />}
@@ -76,6 +68,7 @@ export function Verdict() {
             states={verdict.states}
             sigma={verdict.sigma}
             covariates={bench?.covariates}
+            doubted={verdict.doubted}
             drawn={drawn}
             sheet={sheet}
           />

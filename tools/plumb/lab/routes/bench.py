@@ -19,7 +19,7 @@ from plumb.fit.expected import plausible_range
 from plumb.fit.fit import Fit
 from plumb.lab.background import LiveBoards, WarmBoard
 from plumb.lab.project import Choices
-from plumb.lab.residuals import Ends, Pair, State, as_set, ends, fitted_state, pairs
+from plumb.lab.residuals import Ends, Pair, State, as_set, doubted_marks, ends, fitted_state, pairs
 from plumb.lab.rounds import board_words, command, inputs_of, known_words, unit_words
 from plumb.lab.routes.project import ProjectAnswer, TheProject, show
 from plumb.model.catalogue import every_effect, is_sketch, parameter_words
@@ -72,6 +72,7 @@ class BenchAnswer(BaseModel):
     sigma: float  # [mm] of a reading
     marks: tuple[ComparedMark, ...]
     as_set: State
+    doubted: list[int]  # marks whose readings are to be looked at again
     effects: list[BenchEffect]
     covariates: list[BenchCovariate]
     new_machine: str  # name of the file that the bench writes
@@ -163,12 +164,14 @@ Warm = Annotated[WarmBoard, Depends(_warm)]
 @router.get("/bench")
 def open_bench(project: TheProject, warm: Warm) -> BenchAnswer:
     """Return the marks, the effects, and what errors may depend on."""
+    doubted = doubted_marks(warm.raw, warm.doubted)
     return BenchAnswer(
         board=warm.key,
         sheet=warm.live.model.sheet,
         sigma=warm.live.noise.sigma,
         marks=warm.raw.marks,
-        as_set=as_set(warm.raw, warm.live.noise.sigma),
+        as_set=as_set(warm.raw, warm.live.noise.sigma, doubted=doubted),
+        doubted=doubted,
         effects=_effects(warm),
         covariates=[_covariate(each) for each in warm.view.covariates],
         new_machine=NEW_MACHINE,
@@ -205,8 +208,9 @@ def climb(choice: BenchChoice, project: TheProject, warm: Warm) -> BenchStairs:
         result = add_to(warm.live, warm.raw, chosen)
     qualities = [("frame fitted", result.before, False)]
     qualities += [(f"+ {noun_of(step.effect)}", step, step.only_fit) for step in result.by_effect]
+    shown = as_set(warm.raw, warm.live.noise.sigma, doubted=doubted_marks(warm.raw, warm.doubted))
     first = BenchStair(
-        noun="as set", fit_rms=warm.raw.rms, noise_rms=None, left_out_rms=None, only_fit=False
+        noun="as set", fit_rms=shown.fit_rms, noise_rms=None, left_out_rms=None, only_fit=False
     )
     stairs = [
         BenchStair(

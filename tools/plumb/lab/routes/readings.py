@@ -58,7 +58,6 @@ class FormFile(BaseModel):
     read: int  # readings that it has
     asked: int  # readings and marks that wait
     is_used: bool  # whether the verdict goes by it
-    off_target: float | None  # [mm] RMS of its marks; None: none is read
 
 
 class ReadingsAnswer(BaseModel):
@@ -304,7 +303,6 @@ def _form_file(name: str, form: Form, choices: Choices) -> FormFile:
         read=read,
         asked=read + _waiting(form) if _lengths_asked(form) else asked,
         is_used=name in choices.marks,
-        off_target=measurements.off_target,
     )
 
 

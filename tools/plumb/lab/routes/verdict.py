@@ -9,16 +9,17 @@ from pydantic import BaseModel
 
 from plumb import api
 from plumb.cure.auto import AutoAddition, add_auto
-from plumb.cure.live_board import BoardView, LiveBoard
+from plumb.cure.live_board import BoardView, Chosen, LiveBoard
 from plumb.diagnosis.answer import SHOWN, Diagnosis, Together, odds_words
 from plumb.diagnosis.diagnosis import diagnose
+from plumb.diagnosis.priors import LIKELIER
 from plumb.diagnosis.sizes import Size
 from plumb.diagnosis.unseen import Unseen, share_words, unseen_by
 from plumb.fit.compare import ComparedMark, Comparison
 from plumb.fit.expected import plausible_range
 from plumb.lab.background import Background, Progress, key_of
 from plumb.lab.project import Project
-from plumb.lab.residuals import State, as_set, fitted_state
+from plumb.lab.residuals import State, as_set, doubted_marks, fitted_state
 from plumb.lab.rounds import board_words, command, inputs_of, known_words, unit_words
 from plumb.lab.routes.project import TheProject
 from plumb.model.catalogue import every_effect
@@ -70,10 +71,11 @@ class Card(BaseModel):
 class Verdict(BaseModel):
     """What the marks say."""
 
-    verdict: str
+    title: str
     sentence: str
     marks: tuple[ComparedMark, ...]
     states: list[State]  # as set, with the frame fitted, with what is added
+    doubted: list[int]  # marks whose readings are to be looked at again
     apart: str  # a sentence, where rivals would cut elsewhere by more than the noise
     sigma: float  # [mm] of a reading
     noise: str  # a sentence
@@ -139,11 +141,13 @@ def verdict_of(inputs: api.Inputs, diagnosis: Diagnosis, auto: AutoAddition) -> 
     """Return a diagnosis as the page shows it."""
     raw = api.compare(inputs)
     shown = list(diagnosis.explanations)[:MOST_CARDS]
+    doubted = doubted_marks(raw, {(slip.name, slip.read) for slip in diagnosis.outliers})
     return Verdict(
-        verdict=diagnosis.verdict,
+        title=_title(auto),
         sentence=diagnosis.sentence,
         marks=raw.marks,
-        states=_states(raw, auto),
+        states=_states(raw, auto, doubted),
+        doubted=doubted,
         apart=auto.apart.sentence if auto.apart else "",
         sigma=diagnosis.noise.sigma,
         noise=diagnosis.noise.sentence,
@@ -155,16 +159,37 @@ def verdict_of(inputs: api.Inputs, diagnosis: Diagnosis, auto: AutoAddition) -> 
     )
 
 
-def _states(raw: Comparison, auto: AutoAddition) -> list[State]:
+def _title(auto: AutoAddition) -> str:
+    """Return what the answer comes to, in a few words."""
+    diagnosis = auto.diagnosis
+    if diagnosis.outliers:
+        return "A reading disagrees: look at it first"
+    if diagnosis.disagreements:
+        return "The rounds do not go together"
+    if auto.is_good:
+        return "As good as these marks can show"
+    if diagnosis.is_finding:
+        return "Found, and something is left"
+    if diagnosis.verdict == "nothing_provable":
+        may_act = diagnosis.nothing_chance <= LIKELIER
+        return "Something may act" if may_act else "The frame may be all of it"
+    if diagnosis.verdict == "not_in_library":
+        known = diagnosis.field_chance <= LIKELIER
+        return "Something is left over" if known else "No known effect draws this"
+    return "One suspect" if diagnosis.verdict == "one_suspect" else "Several things could be it"
+
+
+def _states(raw: Comparison, auto: AutoAddition, doubted: list[int]) -> list[State]:
     """Return what is left of the marks: as set, with the frame, with what is added."""
     addition, noise = auto.addition, auto.diagnosis.noise
-    states = [as_set(raw, noise.sigma)]
-    if addition is None:
+    states = [as_set(raw, noise.sigma, doubted=doubted)]
+    if auto.diagnosis.outliers:
         return states
-    fits = [("frame fitted", addition.before_fit)]
-    if addition.effects_added:
+    live = LiveBoard(auto.inputs, noise=noise)
+    fits = [("frame fitted", addition.before_fit if addition else live.fit(Chosen((), {})))]
+    if addition and addition.effects_added:
         fits.append((f"+ {plainly(addition.effects_added)}", addition.after_fit))
-    view = BoardView(LiveBoard(auto.inputs, noise=noise))
+    view = BoardView(live)
     return [*states, *(fitted_state(title, fitted, view) for title, fitted in fits)]
 
 

@@ -14,7 +14,7 @@ export function Promised({ marks, units }: PromisedParts) {
         <tr>
           <th scope="col">mark</th>
           <th scope="col">promised within</th>
-          <th scope="col">off</th>
+          <th scope="col">off where it was promised</th>
         </tr>
       </thead>
       <tbody>
