@@ -28,7 +28,7 @@ const float kSafeStep = 10.0f;  // [mm]
 /// Whether a strand is so steep that hardly anything pulls on the other: its sag has no bound.
 template <class Real>
 bool isSteep(Real cosine) {
-  return !(cosine >= Real(1) / Real(32));
+  return cosine < Real(1) / Real(32);
 }
 
 /// The same by the bits of a number: the board compares integers in a fifth of the time.

@@ -293,7 +293,7 @@ def _accounts(
 ) -> tuple[Account, ...]:
     """Put sets together that ask for the same effects, with nothing else and with a field."""
     asked: list[Effects] = []
-    several: list[tuple[float, float, int]] = []
+    several: list[tuple[int, float, int]] = []
     for place, each in enumerate(weighed):
         order = [i for i in ascending(-each.total).tolist() if np.isfinite(each.total[i])]
         asked += asked_for(board, accounts, each, order)
@@ -306,7 +306,7 @@ def _accounts(
         likeliest.setdefault(asked[k], several[k][2])
     merged = [
         Account(effects, accounts.effects[likeliest[effects]], *both)
-        for effects, both in zip(*map(list, together(asked, weights)), strict=True)
+        for effects, both in zip(*together(asked, weights), strict=True)
     ]
     return tuple(ranked(merged, lambda account: -account.weight))
 
