@@ -110,7 +110,7 @@
       "the same chains; the ring, which is no chain, is not stretched by $180") \
   ROW(kRightTolerance, 41, "right_tolerance, %", kReal, kAnyValue, 0, -5, 5, kGeometry, \
       "Advanced: rightChainTolerance", "The same for the right chain; added to $181.", "") \
-  ROW(kPositionErrorLimit, 42, "position_error_limit, mm", kReal, kAnyValue, 2, 0.01f, 100000, kLoops, \
+  ROW(kPositionErrorLimit, 42, "position_limit, mm", kReal, kAnyValue, 2, 0.01f, 100000, kLoops, \
       "Advanced: positionErrorLimit", "A chain this far from where it should be stops the machine.", "")
 
 #define PLUMB_HIDDEN_SETTINGS(ROW) \

@@ -1,4 +1,4 @@
-// UART 0 by interrupts. A byte indexes each ring of 256 characters, so the index wraps by itself.
+// UART 0 by interrupts.
 #include "serial_line.h"
 
 #include <avr/interrupt.h>
@@ -13,8 +13,13 @@ namespace {
 // Double speed would be nearer to 57,600 baud, but 2.9 % away from the USB chip's rate.
 const uint16_t kDivider = 16;
 
-uint8_t in_ring[256], out_ring[256];
+// A byte is the index of a ring of 256 characters, and wraps by itself. The longest report of a
+// status, 110 characters, goes out without a wait.
+enum : uint8_t { kMostOut = 128 };
+uint8_t in_ring[256], out_ring[kMostOut];
 volatile uint8_t in_head, in_tail, out_head, out_tail, lost_count;
+
+uint8_t afterOut(uint8_t at) { return uint8_t(at + 1) % kMostOut; }
 
 }  // namespace
 
@@ -34,7 +39,7 @@ ISR(USART0_UDRE_vect) {
     return;
   }
   UDR0 = out_ring[out_tail];
-  ++out_tail;
+  out_tail = afterOut(out_tail);
 }
 
 void SerialLine::begin() {
@@ -52,7 +57,7 @@ int16_t SerialLine::read() {
 }
 
 void SerialLine::write(char character) {
-  const uint8_t next = uint8_t(out_head + 1);
+  const uint8_t next = afterOut(out_head);
   while (next == out_tail) sleepUntilInterrupt();
   out_ring[out_head] = uint8_t(character);
   out_head = next;

@@ -105,6 +105,22 @@ bool Axes::isAtRest() const {
   return playback_.isAtRest() && lift_.isAtRest();
 }
 
+bool Axes::isZNear() {
+  const float kNear = 0.04f, kNearer = 0.01f;  // [mm]
+  const uint32_t kPatience = 500;              // [ms] a motor without power never comes nearer
+  if (!isEmpty()) {
+    nearest_z_ = 0;
+    return false;
+  }
+  const float off = float(fabs(error(kZAxis)));
+  const uint32_t now = clock_.milliseconds();
+  if (off > nearest_z_ || off < nearest_z_ - kNearer) {
+    nearest_z_ = off;
+    nearest_ms_ = now;
+  }
+  return off < kNear || now - nearest_ms_ > kPatience;
+}
+
 void Axes::goAt(uint16_t share) {
   const WithoutTicks hold(clock_);
   playback_.goAt(share);

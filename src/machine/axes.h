@@ -42,6 +42,9 @@ class Axes {
   void stand();
   /// The path goes on.
   void goOn();
+  /// To be asked again and again at the end of a way: whether it was played, and z has come near
+  /// it, or for a while no nearer.
+  bool isZNear();
   /// Whether the path rests, for now; z may be on its way.
   bool isPathAtRest() const;
   /// Whether nothing is on its way, for now.
@@ -142,6 +145,8 @@ class Axes {
   motion::Pace paces_[kAxisCount];
   motion::SlipWatch slip_watches_[kZAxis];  ///< of the chains
   volatile uint8_t slips_[kZAxis] = {0, 0};
+  float nearest_z_ = 0;      ///< [mm] off the end of a way
+  uint32_t nearest_ms_ = 0;  ///< when z was asked for at that distance
   float seconds_per_tick_ = 0.01f;
   uint8_t ticks_ahead_ = AxisLoop::ticksAhead(0.01f);
 };

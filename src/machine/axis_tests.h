@@ -3,10 +3,6 @@
 
 #include "chain_pull.h"
 #include "motor_power.h"
-#include "printer.h"
-#include "settings_table.h"
-#include "sled_place.h"
-#include "waiting.h"
 
 namespace machine {
 
@@ -23,14 +19,8 @@ struct LoopTest {
 /// it works out the sled's place again. It returns whether it was completed.
 class AxisTests {
  public:
-  AxisTests(Axes& axes, const settings::Values& values, Printer& out, MotorPower& motors,
-            SledPlace& place, Waiting& waiting)
-      : axes_(axes),
-        values_(values),
-        out_(out),
-        motors_(motors),
-        place_(place),
-        waiting_(waiting) {}
+  AxisTests(Basis& basis, MotorPower& motors, SledPlace& place)
+      : base_(basis), motors_(motors), place_(place) {}
 
   /// B04: each motor to and fro, and whether its encoder counts the right way.
   bool testMotors();
@@ -57,12 +47,9 @@ class AxisTests {
   bool testLengths(const LoopTest& test);
   bool testDuties(const LoopTest& test);
 
-  Axes& axes_;
-  const settings::Values& values_;
-  Printer& out_;
+  Basis& base_;
   MotorPower& motors_;
   SledPlace& place_;
-  Waiting& waiting_;
   bool is_testing_ = false;
 };
 

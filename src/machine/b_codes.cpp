@@ -1,6 +1,5 @@
-// What each B code does: calibration, tests and questions of the published programs.
-#include "b_lines.h"
-#include "machine.h"
+// What each B code does.
+#include "b_codes.h"
 
 namespace machine {
 namespace {
@@ -28,132 +27,131 @@ Axis testedAxis(const Words& words) {
 }  // namespace
 
 /// A code and the function that does it.
-struct Machine::BCode {
+struct BCodes::Code {
   uint8_t code;
-  RunB run;
+  Run run;
 };
 
-bool Machine::runB(const char* line) {
-  static const BCode kCodes[] PROGMEM = {
-      {1, &Machine::sayNoCalibration}, {2, &Machine::measureOut},
-      {4, &Machine::testMotors},       {5, &Machine::sayVersion},
-      {6, &Machine::setChains},        {8, &Machine::setChainsToMarks},
-      {9, &Machine::moveChains},       {10, &Machine::measureChain},
-      {11, &Machine::pullChain},       {13, &Machine::testLoop},
-      {14, &Machine::testLoop},        {15, &Machine::goHome},
-      {16, &Machine::testLoop},        {17, &Machine::setZLimit},
-      {18, &Machine::setZLimit},       {19, &Machine::clearZLimits},
-      {20, &Machine::showZLimits},     {30, &Machine::tellTelemetry},
+bool BCodes::run(const char* line) {
+  static const Code kCodes[] PROGMEM = {
+      {1, &BCodes::sayNoCalibration}, {2, &BCodes::measureOut},    {4, &BCodes::testMotors},
+      {5, &BCodes::sayVersion},       {6, &BCodes::setChains},     {8, &BCodes::setChainsToMarks},
+      {9, &BCodes::moveChains},       {10, &BCodes::measureChain}, {11, &BCodes::pullChain},
+      {13, &BCodes::testLoop},        {14, &BCodes::testLoop},     {15, &BCodes::goHome},
+      {16, &BCodes::testLoop},        {17, &BCodes::setZLimit},    {18, &BCodes::setZLimit},
+      {19, &BCodes::clearZLimits},    {20, &BCodes::showZLimits},  {30, &BCodes::tellTelemetry},
   };
   const uint8_t code = bCodeOf(line);
   if (code == 99) return switchMotors(line + 3);
   Words words;
   if (code != 255 && !isBare(code)) {
     const gcode::Mistake mistake = gcode::findMistake(line + 3, bareLetters(code));
-    if (mistake.fault != gcode::Fault::kNone) return answers_.refuseMistake(mistake);
+    if (mistake.fault != gcode::Fault::kNone) return parts_.answers.refuseMistake(mistake);
     gcode::Word word;
     for (const char* at = line + 3; gcode::readWord(at, word);) words.add(word.letter, word.value);
   }
   // All codes but questions act on the machine, so moves that were queued before come first. A line
   // of the operator during a wait acts at once.
   if (!isQuestion(code)) {
-    if (!answers_.isServing()) {
-      if (!drain()) return false;
-      new_values_.refreshBeforeLine();
+    if (!parts_.answers.isServing()) {
+      if (!parts_.waiting.drain()) return false;
+      parts_.new_values.refreshBeforeLine();
     }
     if ((code == 2 || code == 11) && !words.has('L') && !words.has('R'))
-      return answers_.refuse(FLASH("B02 and B11 need a chain: L or R"));
+      return parts_.answers.refuse(FLASH("B02 and B11 need a chain: L or R"));
     if (!SingleAxis::isLength(words.value('L')) || !SingleAxis::isLength(words.value('R')))
-      return answers_.refuseMotion(tooLongForChains());
+      return parts_.answers.refuseMotion(tooLongForChains());
   }
   for (uint8_t i = 0; i < sizeof kCodes / sizeof kCodes[0]; ++i) {
-    BCode found;
+    Code found;
     memcpy_P(&found, kCodes + i, sizeof found);
     if (found.code == code) return (this->*found.run)(code, words);
   }
-  return answers_.refuseStatement();
+  return parts_.answers.refuseStatement();
 }
 
-bool Machine::sayVersion(uint8_t, const Words&) {
-  out_.line(FLASH("Firmware Version 1.28"));
+bool BCodes::sayVersion(uint8_t, const Words&) {
+  parts_.out.line(FLASH("Firmware Version 1.28"));
   return true;
 }
 
-bool Machine::sayNoCalibration(uint8_t, const Words&) {
-  out_.line(FLASH("Motor Calibration Not Needed"));
+bool BCodes::sayNoCalibration(uint8_t, const Words&) {
+  parts_.out.line(FLASH("Motor Calibration Not Needed"));
   return true;
 }
 
-bool Machine::measureOut(uint8_t, const Words& words) {
-  return single_axis_.measureOut(words.value('L') != 0 ? kLeftAxis : kRightAxis);
+bool BCodes::measureOut(uint8_t, const Words& words) {
+  return parts_.single_axis.measureOut(words.value('L') != 0 ? kLeftAxis : kRightAxis);
 }
 
-bool Machine::setChains(uint8_t, const Words& words) {
+bool BCodes::setChains(uint8_t, const Words& words) {
   if (!words.has('L') || !words.has('R'))
-    return answers_.refuseWords(FLASH("B06 needs the lengths of both chains, L and R"));
-  out_.line(FLASH("Setting Chain Lengths To: "));
-  return single_axis_.setChains(words.value('L'), words.value('R'));
+    return parts_.answers.refuseWords(FLASH("B06 needs the lengths of both chains, L and R"));
+  if (!parts_.single_axis.mayHang(words.value('L'), words.value('R'))) return false;
+  parts_.out.line(FLASH("Setting Chain Lengths To: "));
+  return parts_.single_axis.setChains(words.value('L'), words.value('R'));
 }
 
-bool Machine::measureChain(uint8_t, const Words& words) {
-  return single_axis_.measureChain(words.has('L'));
+bool BCodes::measureChain(uint8_t, const Words& words) {
+  return parts_.single_axis.measureChain(words.has('L'));
 }
 
-bool Machine::wakeForTest() { return motors_.wake() && untilRunning(); }
+bool BCodes::wakeForTest() { return parts_.motors.wake() && parts_.waiting.untilRunning(); }
 
-bool Machine::testMotors(uint8_t, const Words&) {
-  return wakeForTest() && axis_tests_.testMotors();
+bool BCodes::testMotors(uint8_t, const Words&) {
+  return wakeForTest() && parts_.axis_tests.testMotors();
 }
 
-bool Machine::pullChain(uint8_t, const Words& words) {
+bool BCodes::pullChain(uint8_t, const Words& words) {
   const float duty = words.has('S') ? words.value('S') : 100;
   const float seconds = words.has('T') ? words.value('T') : 1;
   if (!(fabs(duty) <= 255 && seconds >= 0 && seconds <= 60))
-    return answers_.refuse(FLASH("S is -255 to 255, T at most 60 s"));
+    return parts_.answers.refuse(FLASH("S is -255 to 255, T at most 60 s"));
   if (!wakeForTest()) return false;
-  return axis_tests_.pullChain(words.has('L') ? kLeftAxis : kRightAxis, int16_t(duty), seconds);
+  return parts_.axis_tests.pullChain(words.has('L') ? kLeftAxis : kRightAxis, int16_t(duty),
+                                     seconds);
 }
 
-bool Machine::testLoop(uint8_t code, const Words& words) {
+bool BCodes::testLoop(uint8_t code, const Words& words) {
   LoopTest test = {testedAxis(words), words.value('S'), words.value('F'), 1, 0, 1};
   const float steps = words.value('I'), step_ms = words.value('T');
   test.steps = steps >= 1 && steps <= 200 ? uint8_t(steps) : 1;
   test.step_ms = step_ms >= 20 && step_ms <= 60000 ? uint16_t(step_ms) : 0;
   if (words.value('V') == 2) test.version = 2;
   if (!isMild(code, test.first) || !isMild(code, test.last))
-    return answers_.refuse(FLASH("S and F are at most 255, of B14 at most 1000"));
-  return axis_tests_.testLoop(code, test);
+    return parts_.answers.refuse(FLASH("S and F are at most 255, of B14 at most 1000"));
+  return parts_.axis_tests.testLoop(code, test);
 }
 
-bool Machine::tellTelemetry(uint8_t, const Words&) {
-  telemetry_.tell();
+bool BCodes::tellTelemetry(uint8_t, const Words&) {
+  parts_.telemetry.tell();
   return true;
 }
 
-bool Machine::switchMotors(const char* word) {
+bool BCodes::switchMotors(const char* word) {
   if (strncmp_P(word, PSTR("ON"), 3) == 0) return simulateMotors(true);
   if (*word == '\0' || strncmp_P(word, PSTR("OFF"), 4) == 0) return simulateMotors(false);
-  return answers_.refuse(FLASH("B99 is ON or OFF"));
+  return parts_.answers.refuse(FLASH("B99 is ON or OFF"));
 }
 
-bool Machine::simulateMotors(bool on) {
-  if (!drain()) return false;
-  axes_.releaseAll();
-  const bool was_on = axes_.isSimulated();
-  if (on && !was_on && !motors_.awaitRecord()) return false;
-  memory_.setRow(kSimulatedMotors, on);
-  axes_.simulate(on);
-  greeting_.sayMotors(on);
-  if (was_on && !on && axes_.isImagined()) place_.lose(settings::Doubt::kSimulated);
+bool BCodes::simulateMotors(bool on) {
+  if (!parts_.waiting.drain()) return false;
+  parts_.axes.releaseAll();
+  const bool was_on = parts_.axes.isSimulated();
+  if (on && !was_on && !parts_.motors.awaitRecord()) return false;
+  parts_.memory.setRow(kSimulatedMotors, on);
+  parts_.axes.simulate(on);
+  parts_.greeting.sayMotors(on);
+  if (was_on && !on && parts_.axes.isImagined()) parts_.place.lose(settings::Doubt::kSimulated);
   return awaitStored();
 }
 
-bool Machine::awaitStored() {
+bool BCodes::awaitStored() {
   const uint32_t kMostMs = 4000;  // to write all settings takes 3 s
-  const uint32_t start = clock_.milliseconds();
-  return waitWhile([&] {
-    return !memory_.settingsStored() && !memory_.isWorn() &&
-           clock_.milliseconds() - start < kMostMs;
+  const uint32_t start = parts_.clock.milliseconds();
+  return parts_.waiting.waitWhile([&] {
+    return !parts_.memory.settingsStored() && !parts_.memory.isWorn() &&
+           parts_.clock.milliseconds() - start < kMostMs;
   });
 }
 

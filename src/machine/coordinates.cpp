@@ -14,28 +14,29 @@ uint8_t goalRow(const gcode::Piece& piece) {
 }  // namespace
 
 bool Coordinates::mayCrossSheet() const {
-  return (place_.isTrusted() && place_.isKnown()) || answers_.refuseMotion(place_.whatIsLost());
+  return (place_.isTrusted() && place_.isKnown()) ||
+         base_.answers.refuseMotion(place_.whatIsLost());
 }
 
 bool Coordinates::keep(uint8_t row, float value) {
-  if (memory_.setRow(row, value) == settings::Refusal::kNone) return true;
-  return answers_.refuseMotion(tooFar());
+  if (base_.memory.setRow(row, value) == settings::Refusal::kNone) return true;
+  return base_.answers.refuseMotion(tooFar());
 }
 
 bool Coordinates::declare(const gcode::Words& words) {
   const bool here = words.value('L') == 20;
   if (!here && words.value('L') != 2)
-    return answers_.refuseWords(FLASH("G10 knows L2 and L20 only"));
+    return base_.answers.refuseWords(FLASH("G10 knows L2 and L20 only"));
   const float system = words.value('P');
   if (!(system >= 0 && system <= kKeptSystems && system == float(uint8_t(system))))
-    return answers_.refuseWords(
+    return base_.answers.refuseWords(
         FLASH("P is 1 to 6, for G54 to G59, or 0 for the coordinates in force"));
   if (here && goesAcross(words) && !mayCrossSheet()) return false;
-  const uint8_t index = system == 0 ? modal_.system : uint8_t(system - 1);
-  Place aim = program_.aim();
+  const uint8_t index = system == 0 ? base_.modal.system : uint8_t(system - 1);
+  Place aim = base_.program.aim();
   for (uint8_t axis = 0; axis < kPlaceAxes; ++axis) {
     if (!words.has(kAxisLetters[axis])) continue;
-    const float word = modal_.toMm(words.value(kAxisLetters[axis]));
+    const float word = base_.modal.toMm(words.value(kAxisLetters[axis]));
     const float value = here ? offsets_.storedFor(axis, part(aim, axis), word) : word;
     const uint8_t row = uint8_t(kFirstPlaceSetting + index * kPlaceAxes + axis);
     if (!keep(row, value)) return false;
@@ -44,15 +45,21 @@ bool Coordinates::declare(const gcode::Words& words) {
 }
 
 bool Coordinates::shift(const gcode::Words& words) {
-  if (!words.hasPlace()) return answers_.refuseWords(FLASH("G92 needs X, Y or Z"));
+  if (!words.hasPlace()) return base_.answers.refuseWords(FLASH("G92 needs X, Y or Z"));
   if (goesAcross(words) && !mayCrossSheet()) return false;
-  Place aim = program_.aim();
+  Place aim = base_.program.aim();
   for (uint8_t axis = 0; axis < kPlaceAxes; ++axis) {
     if (!words.has(kAxisLetters[axis])) continue;
-    const float word = modal_.toMm(words.value(kAxisLetters[axis]));
-    offsets_.shiftTo(modal_.system, axis, part(aim, axis), word);
+    const float word = base_.modal.toMm(words.value(kAxisLetters[axis]));
+    offsets_.shiftTo(base_.modal.system, axis, part(aim, axis), word);
   }
   return true;
+}
+
+void Coordinates::forget() {
+  for (uint8_t row = kFirstPlaceSetting; row < kSettingCount; ++row)
+    base_.memory.setRow(row, base_.values.table().at(row).usual);
+  offsets_.clearShift();
 }
 
 void Coordinates::endShift(uint16_t tenths) {
@@ -63,46 +70,47 @@ void Coordinates::endShift(uint16_t tenths) {
 
 bool Coordinates::takeToolLength(const gcode::Words& words) {
   if (!words.has('Z') || goesAcross(words))
-    return answers_.refuseWords(FLASH("G43.1 needs Z, the tool's length, and nothing else"));
-  offsets_.setToolLength(modal_.toMm(words.value('Z')));
+    return base_.answers.refuseWords(FLASH("G43.1 needs Z, the tool's length, and nothing else"));
+  offsets_.setToolLength(base_.modal.toMm(words.value('Z')));
   return true;
 }
 
 bool Coordinates::keepGoal(const gcode::Piece& piece) {
   if (piece.words.hasPlace())
-    return answers_.refuseWords(FLASH("it keeps the place where the tool is"));
+    return base_.answers.refuseWords(FLASH("it keeps the place where the tool is"));
   if (!mayCrossSheet()) return false;
   const uint8_t row = goalRow(piece);
-  const Place& aim = program_.aim();
+  const Place& aim = base_.program.aim();
   return keep(row, aim.x) && keep(uint8_t(row + 1), aim.y) && keep(uint8_t(row + 2), aim.z);
 }
 
 const float* Coordinates::goal(const gcode::Piece& piece) {
-  const float* const kept = values_.from(goalRow(piece));
+  const float* const kept = base_.values.from(goalRow(piece));
   if (*kept != kNoPlace) return kept;
-  answers_.refuseWords(FLASH("no place is kept for it; go there first and send G28.1 or G30.1"));
+  base_.answers.refuseWords(
+      FLASH("no place is kept for it; go there first and send G28.1 or G30.1"));
   return nullptr;
 }
 
 void Coordinates::say(FlashText name, int32_t number, float x, float y, float z) {
-  const uint8_t decimals = modal_.inches ? 4 : 2;
-  out_ << name;
-  if (number != 0) out_ << number;
-  out_ << FLASH(" X");
-  out_.fixed(modal_.fromMm(x), decimals) << FLASH(" Y");
-  out_.fixed(modal_.fromMm(y), decimals) << FLASH(" Z");
-  out_.fixed(modal_.fromMm(z), decimals).end();
+  const uint8_t decimals = base_.modal.inches ? 4 : 2;
+  base_.out << name;
+  if (number != 0) base_.out << number;
+  base_.out << FLASH(" X");
+  base_.out.fixed(base_.modal.fromMm(x), decimals) << FLASH(" Y");
+  base_.out.fixed(base_.modal.fromMm(y), decimals) << FLASH(" Z");
+  base_.out.fixed(base_.modal.fromMm(z), decimals).end();
 }
 
 Place Coordinates::kept(uint8_t place) const {
-  const float* const at = values_.from(uint8_t(kFirstPlaceSetting + place * kPlaceAxes));
+  const float* const at = base_.values.from(uint8_t(kFirstPlaceSetting + place * kPlaceAxes));
   if (at[0] == kNoPlace) return {0, 0, 0};
   return {at[0], at[1], at[2]};
 }
 
 void Coordinates::show() {
   for (uint8_t place = 0; place < kKeptSystems + 2; ++place) {
-    const float* const at = values_.from(uint8_t(kFirstPlaceSetting + place * kPlaceAxes));
+    const float* const at = base_.values.from(uint8_t(kFirstPlaceSetting + place * kPlaceAxes));
     if (at[0] == kNoPlace) continue;
     const int32_t code = place < kKeptSystems ? 54 + place : 28 + 2 * (place - kKeptSystems);
     say(FLASH("G"), code, at[0], at[1], at[2]);

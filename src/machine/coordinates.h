@@ -1,7 +1,6 @@
 // Where a program's coordinates begin, and the places to which G28 and G30 go.
 #pragma once
 
-#include "answers.h"
 #include "sled_place.h"
 
 namespace machine {
@@ -9,19 +8,11 @@ namespace machine {
 /// G10 L2 and L20, G28.1, G30.1, G43.1, G49, G92, and `$#`. Moves nothing.
 class Coordinates {
  public:
-  Coordinates(settings::Memory& memory, const settings::Values& values, const gcode::Modal& modal,
-              const SledPlace& place, const ProgramPlace& program, Printer& out, Answers& answers)
-      : memory_(memory),
-        values_(values),
-        modal_(modal),
-        place_(place),
-        program_(program),
-        out_(out),
-        answers_(answers),
-        offsets_(values.from(kFirstPlaceSetting)) {}
+  Coordinates(Basis& basis, const SledPlace& place)
+      : base_(basis), place_(place), offsets_(basis.values.from(kFirstPlaceSetting)) {}
 
   /// [mm] Where the coordinate of an axis begins, in the system in force.
-  float begin(uint8_t axis) const { return offsets_.at(modal_.system, axis); }
+  float begin(uint8_t axis) const { return offsets_.at(base_.modal.system, axis); }
 
   /// Whether the sled may cross the sheet; refuses the line if not.
   bool mayCrossSheet() const;
@@ -42,6 +33,8 @@ class Coordinates {
   const float* goal(const gcode::Piece& piece);
   /// `$#`.
   void show();
+  /// Forgets G54 to G59, G28, G30 and G92.
+  void forget();
   /// What is kept: places 0 to 5 are the beginnings of G54 to G59, 6 and 7 those to which G28 and
   /// G30 go; 0,0,0 where none is kept [mm].
   Place kept(uint8_t place) const;
@@ -51,13 +44,8 @@ class Coordinates {
   bool keep(uint8_t row, float value);
   void say(FlashText name, int32_t number, float x, float y, float z);
 
-  settings::Memory& memory_;
-  const settings::Values& values_;
-  const gcode::Modal& modal_;
+  Basis& base_;
   const SledPlace& place_;
-  const ProgramPlace& program_;
-  Printer& out_;
-  Answers& answers_;
   gcode::WorkOffsets offsets_;
 };
 

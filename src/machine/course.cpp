@@ -14,26 +14,30 @@ struct Row {
 };
 
 // Short names, so that a state is a row.
-const State kRun = State::kRunning, kHeld = State::kHeld, kPau = State::kPaused;
+const State kRun = State::kRunning, kChk = State::kChecking, kJogs = State::kJogging;
+const State kEnd = State::kJogEnds, kHeld = State::kHeld, kPau = State::kPaused;
 const State kRes = State::kResuming, kLow = State::kLowering, kStop = State::kStopping;
 const State kHalt = State::kHalted, kGive = State::kGivingUp, kFall = State::kFalling;
-const State kAlarm = State::kAlarm, kNone = State::kCount;
-const Lines kProgram = Lines::kProgram, kOperator = Lines::kOperator;
-const Lines kNobody = Lines::kNobody, kQuestions = Lines::kQuestions;
+const State kAlm = State::kAlarm, kNo = State::kCount;
+const Lines kAll = Lines::kProgram, kRead = Lines::kChecked, kJogLines = Lines::kJogs;
+const Lines kOper = Lines::kOperator, kNone = Lines::kNobody, kAsk = Lines::kQuestions;
 
 // clang-format off
 const Row kTable[uint8_t(State::kCount)] PROGMEM = {
-    //            hold   pause  resume lower  back   stop   halt   alarm  stood    path   lines of
-    /* running */ {{kHeld, kPau,  kNone, kNone, kNone, kStop, kHalt, kFall, kNone}, true,  kProgram},
-    /* held */    {{kHeld, kNone, kRes,  kNone, kNone, kStop, kNone, kFall, kNone}, false, kOperator},
-    /* paused */  {{kHeld, kNone, kRes,  kNone, kNone, kStop, kNone, kFall, kNone}, false, kOperator},
-    /* resuming */{{kHeld, kNone, kNone, kLow,  kRun,  kStop, kNone, kFall, kNone}, false, kNobody},
-    /* lowering */{{kHeld, kNone, kNone, kNone, kRun,  kStop, kNone, kFall, kNone}, false, kNobody},
-    /* stopping */{{kNone, kNone, kNone, kNone, kNone, kStop, kNone, kFall, kRun},  false, kNobody},
-    /* halted */  {{kGive, kNone, kNone, kNone, kNone, kStop, kNone, kFall, kNone}, true,  kQuestions},
-    /* giving up*/{{kNone, kNone, kNone, kNone, kNone, kStop, kNone, kFall, kHalt}, false, kNobody},
-    /* falling */ {{kNone, kNone, kNone, kNone, kNone, kStop, kNone, kNone, kAlarm},false, kNobody},
-    /* alarm */   {{kNone, kNone, kNone, kNone, kNone, kStop, kNone, kNone, kNone}, false, kQuestions},
+    //             hold   pause resume lower back  stop   halt   alarm  stood  jog    endjog check  path   lines
+    /* running  */{{kHeld, kPau, kNo,  kNo,  kNo,  kStop, kHalt, kFall, kNo,   kJogs, kNo,   kChk}, true,  kAll},
+    /* checking */{{kNo,   kNo,  kNo,  kNo,  kNo,  kStop, kHalt, kFall, kNo,   kNo,   kNo,   kRun}, false, kRead},
+    /* jogging  */{{kEnd,  kNo,  kNo,  kNo,  kNo,  kStop, kNo,   kFall, kRun,  kJogs, kEnd,  kNo},  true,  kJogLines},
+    /* jog ends */{{kNo,   kNo,  kNo,  kNo,  kNo,  kStop, kNo,   kFall, kRun,  kNo,   kNo,   kNo},  false, kNone},
+    /* held     */{{kHeld, kNo,  kRes, kNo,  kNo,  kStop, kNo,   kFall, kNo,   kNo,   kNo,   kNo},  false, kOper},
+    /* paused   */{{kHeld, kNo,  kRes, kNo,  kNo,  kStop, kNo,   kFall, kNo,   kNo,   kNo,   kNo},  false, kOper},
+    /* resuming */{{kHeld, kNo,  kNo,  kLow, kRun, kStop, kNo,   kFall, kNo,   kNo,   kNo,   kNo},  false, kNone},
+    /* lowering */{{kHeld, kNo,  kNo,  kNo,  kRun, kStop, kNo,   kFall, kNo,   kNo,   kNo,   kNo},  false, kNone},
+    /* stopping */{{kNo,   kNo,  kNo,  kNo,  kNo,  kStop, kNo,   kFall, kRun,  kNo,   kNo,   kNo},  false, kNone},
+    /* halted   */{{kGive, kNo,  kNo,  kNo,  kNo,  kStop, kNo,   kFall, kNo,   kNo,   kNo,   kNo},  true,  kAsk},
+    /* giving up*/{{kNo,   kNo,  kNo,  kNo,  kNo,  kStop, kNo,   kFall, kHalt, kNo,   kNo,   kNo},  false, kNone},
+    /* falling  */{{kNo,   kNo,  kNo,  kNo,  kNo,  kStop, kNo,   kNo,   kAlm,  kNo,   kNo,   kNo},  false, kNone},
+    /* alarm    */{{kNo,   kNo,  kNo,  kNo,  kNo,  kStop, kNo,   kNo,   kNo,   kNo,   kNo,   kNo},  false, kAsk},
 };
 // clang-format on
 
@@ -50,7 +54,7 @@ bool Course::pathGoesIn(State state) { return rowOf(state).path_goes; }
 Lines Course::linesIn(State state) { return rowOf(state).lines; }
 
 bool Course::isStopping() const {
-  return is(State::kStopping) || is(State::kGivingUp) || is(State::kFalling);
+  return is(State::kStopping) || is(State::kGivingUp) || is(State::kFalling) || is(State::kJogEnds);
 }
 
 bool Course::take(Event event) {

@@ -8,6 +8,9 @@ namespace machine {
 /// What the machine is doing. docs/states.md draws it.
 enum class State : uint8_t {
   kRunning,   ///< lines are done, the path goes on
+  kChecking,  ///< `$C`: lines are read for mistakes, and nothing is done
+  kJogging,   ///< `$J`: what is queued are jogs; the operator goes on with them, or ends them
+  kJogEnds,   ///< a jog was broken off: everything brakes, the lines stay
   kHeld,      ///< 0x84: everything stands until `~`; the operator may move z
   kPaused,    ///< M0, M1, M6 or z by hand: as above, once the path is at its end
   kResuming,  ///< `~` came; z's way back begins once its motor has power
@@ -30,12 +33,32 @@ enum class Event : uint8_t {
   kStop,    ///< `!` or ctrl-X
   kHalt,    ///< a motion was refused
   kAlarm,   ///< a fault
-  kStood,   ///< after a stop or a fault: nothing turns any longer
+  kStood,   ///< after a stop, a fault or a jog: nothing turns any longer
+  kJog,     ///< a jog is next
+  kEndJog,  ///< 0x85
+  kCheck,   ///< `$C`
   kCount,
 };
 
-/// Whose lines are done.
-enum class Lines : uint8_t { kProgram, kOperator, kNobody, kQuestions };
+/// What a line would do, as far as a state lets it or not.
+enum Kind : uint8_t {
+  kQuestion = 1,  ///< says something, and changes nothing
+  kSetting = 2,   ///< sets numbers
+  kCode = 4,      ///< G and M codes: a line of a program
+  kAct = 8,       ///< B codes that drive or declare something
+  kJog = 16,      ///< `$J`
+  kCheck = 32,    ///< `$C`
+};
+
+/// Whose lines are done: bits of Kind. In the operator's turn OperatorLines looks more closely.
+enum class Lines : uint8_t {
+  kNobody = 0,
+  kQuestions = kQuestion | kSetting,
+  kOperator = kQuestion | kAct | kCode,
+  kJogs = kQuestion | kJog,
+  kChecked = kQuestion | kCode | kCheck,
+  kProgram = kQuestion | kSetting | kCode | kAct | kJog | kCheck,
+};
 
 /// The machine's state, and the only door by which path and z stop and go on.
 ///
@@ -57,6 +80,8 @@ class Course {
   /// Whether only a stop or ctrl-X opens the machine again.
   bool isHalted() const { return state_ >= State::kHalted; }
   Lines lines() const { return linesIn(state_); }
+  /// The gate of every line, be it G, B or `$`: whether one of that kind may run now.
+  bool allows(Kind kind) const { return (uint8_t(lines()) & kind) != 0; }
 
   /// Takes an event: what may not move any longer brakes, what may goes on. False where the event
   /// changes nothing.

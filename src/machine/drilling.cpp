@@ -25,22 +25,22 @@ FlashText textOf(gcode::DrillFault fault) {
 }  // namespace
 
 void Drilling::begin(uint8_t cycle) {
-  if (modal_.motion <= gcode::kNoMotion) cycle_.begin(program_.aim().z);
-  modal_.motion = cycle;
+  if (base_.modal.motion <= gcode::kNoMotion) cycle_.begin(base_.program.aim().z);
+  base_.modal.motion = cycle;
 }
 
-bool Drilling::refuse(gcode::DrillFault fault) { return answers_.refuseWords(textOf(fault)); }
+bool Drilling::refuse(gcode::DrillFault fault) { return base_.answers.refuseWords(textOf(fault)); }
 
 bool Drilling::drill(const gcode::Words& words) {
-  if (modal_.plane != 17)
-    return answers_.refuseWords(FLASH("holes are drilled in the plane of G17 only"));
-  if (modal_.inverse_time || modal_.machine_coordinates)
-    return answers_.refuseWords(FLASH("no hole is drilled with G53 or G93"));
+  if (base_.modal.plane != 17)
+    return base_.answers.refuseWords(FLASH("holes are drilled in the plane of G17 only"));
+  if (base_.modal.inverse_time || base_.modal.machine_coordinates)
+    return base_.answers.refuseWords(FLASH("no hole is drilled with G53 or G93"));
   if (!coordinates_.mayCrossSheet()) return false;
-  const Place at = program_.counted();
+  const Place at = base_.program.counted();
   const float from[] = {at.x, at.y, at.z};
   const float offset[] = {coordinates_.begin(0), coordinates_.begin(1), coordinates_.begin(2)};
-  const gcode::DrillFault fault = cycle_.read(modal_, words, from, offset);
+  const gcode::DrillFault fault = cycle_.read(base_.modal, words, from, offset);
   if (fault != gcode::DrillFault::kNone) return refuse(fault);
   gcode::DrillStep step;
   while (cycle_.next(step))
@@ -50,17 +50,17 @@ bool Drilling::drill(const gcode::Words& words) {
 
 bool Drilling::runStep(const gcode::DrillStep& step) {
   if (step.kind == gcode::DrillStep::kDwell)
-    return waiting_.drain() && waiting_.dwell(cycle_.dwell());
+    return base_.waiting.drain() && base_.waiting.dwell(cycle_.dwell());
   const bool across = step.kind == gcode::DrillStep::kAcross;
   const float feed = moves_.feedOf(step.kind == gcode::DrillStep::kFeed ? 1 : 0);
   const float z = z_.within(step.z);
   if (across) {
-    if (!moves_.moveStraight({step.x, step.y, program_.aim().z}, true, feed)) return false;
+    if (!moves_.moveStraight({step.x, step.y, base_.program.aim().z}, true, feed)) return false;
     // Beyond the sheet the sled stays at the edge, so the hole would be in a wrong place.
-    return !program_.isCountedBeyond() ||
-           answers_.refuseMotion(FLASH("the hole is beyond the sheet"));
+    return !base_.program.isCountedBeyond() ||
+           base_.answers.refuseMotion(FLASH("the hole is beyond the sheet"));
   }
-  Place next = program_.counted();
+  Place next = base_.program.counted();
   next.z = z;
   return moves_.moveStraight(next, false, feed);
 }

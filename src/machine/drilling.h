@@ -8,15 +8,8 @@ namespace machine {
 /// The cycle in force. lib/GCode works out its steps.
 class Drilling {
  public:
-  Drilling(gcode::Modal& modal, const Coordinates& coordinates, const ProgramPlace& program,
-           const ZAxis& z, Moves& moves, Answers& answers, Waiting& waiting)
-      : modal_(modal),
-        coordinates_(coordinates),
-        program_(program),
-        z_(z),
-        moves_(moves),
-        answers_(answers),
-        waiting_(waiting) {}
+  Drilling(Basis& basis, const Coordinates& coordinates, const ZAxis& z, Moves& moves)
+      : base_(basis), coordinates_(coordinates), z_(z), moves_(moves) {}
 
   /// Begins G81 to G83 by their number: the words of this line and of the next lines drill.
   void begin(uint8_t cycle);
@@ -27,13 +20,10 @@ class Drilling {
   bool refuse(gcode::DrillFault fault);
   bool runStep(const gcode::DrillStep& step);
 
-  gcode::Modal& modal_;
+  Basis& base_;
   const Coordinates& coordinates_;
-  const ProgramPlace& program_;
   const ZAxis& z_;
   Moves& moves_;
-  Answers& answers_;
-  Waiting& waiting_;
   gcode::Drilling cycle_;
 };
 

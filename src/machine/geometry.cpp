@@ -95,8 +95,7 @@ motion::Lengths<float> Geometry::inverse(motion::Point<float> place) const {
     chains = paid.chains;
     found = paid.found;
   }
-  const bool reachable =
-      found == Found::kYes && chains.left <= chain_length_ && chains.right <= chain_length_;
+  const bool reachable = found == Found::kYes && isChain(chains.left) && isChain(chains.right);
   return {chains.left, chains.right, reachable};
 }
 

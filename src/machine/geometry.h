@@ -66,6 +66,9 @@ class Geometry {
   void prepareRing(const settings::Values& values, const kinematics::Frame<float>& frame);
   void prepareBrackets(const settings::Values& values, const kinematics::Frame<float>& frame);
 
+  /// Whether a chain of that length [mm] is there.
+  bool isChain(float length) const { return !signbit(length) && length <= chain_length_; }
+
   kinematics::Machine<float> ring_;
   kinematics::Quadrilateral<float> brackets_;
   motion::Sprockets<float> sprockets_;

@@ -16,9 +16,9 @@ void Greeting::sayBoard() {
 }
 
 void Greeting::sayReady() {
-  // Nobody is known yet: bCNC fails at a Grbl with another version, and CNCjs at a name with a
-  // number, which it takes for Grbl's.
   out_.line(FLASH("Plumb v" PLUMB_VERSION ", firmware for the Maslow CNC"));
+  // Nobody is known yet, and some senders of Grbl wait for this line before they say anything.
+  sayWelcome();
   out_.line(FLASH("ready"));
   out_.plain(FLASH("ok"));
 }

@@ -21,11 +21,11 @@ void AxisTests::sayGains(Axis axis, bool position) {
       uint8_t((axis == kZAxis ? kZPositionP : kMainPositionP) + (position ? 0 : 4));
   const char names[] = "pid";
   for (uint8_t i = 0; i < 3; ++i) {
-    if (i != 0) out_ << ',';
-    out_ << 'K' << names[i] << '=';
-    out_.fixed(values_.at(uint8_t(first + i)), 4);
+    if (i != 0) base_.out << ',';
+    base_.out << 'K' << names[i] << '=';
+    base_.out.fixed(base_.values.at(uint8_t(first + i)), 4);
   }
-  out_.end();
+  base_.out.end();
 }
 
 bool AxisTests::testLoop(uint8_t code, const LoopTest& test) {
@@ -38,95 +38,95 @@ bool AxisTests::testLoop(uint8_t code, const LoopTest& test) {
 }
 
 bool AxisTests::sampleSpeed(Axis axis, float rpm, uint8_t version) {
-  axes_.turn(axis, rpm);
+  base_.axes.turn(axis, rpm);
   for (uint16_t ms = 0; ms < kStepMs; ms += kSampleMs) {
-    if (!waiting_.waitFor(kSampleMs)) return false;
-    const AxisState state = axes_.state(axis);
+    if (!base_.waiting.waitFor(kSampleMs)) return false;
+    const AxisState state = base_.axes.state(axis);
     if (version == 2) {
-      out_.fixed(rpm, 4) << ',';
-      out_.fixed(state.rpm, 4) << ',';
-      out_ << int32_t(state.duty);
+      base_.out.fixed(rpm, 4) << ',';
+      base_.out.fixed(state.rpm, 4) << ',';
+      base_.out << int32_t(state.duty);
     } else {
-      out_.fixed(rpm - state.rpm, 4);
+      base_.out.fixed(rpm - state.rpm, 4);
     }
-    out_.end();
+    base_.out.end();
   }
   return true;
 }
 
 bool AxisTests::testSpeeds(const LoopTest& test) {
-  if (!waiting_.drain() || !motors_.wake()) return false;
-  out_.line(FLASH("--PID Velocity Test Start--"));
+  if (!base_.waiting.drain() || !motors_.wake()) return false;
+  base_.out.line(FLASH("--PID Velocity Test Start--"));
   sayGains(test.axis, false);
-  if (test.version == 2) out_.line(FLASH("setpoint,input,output"));
+  if (test.version == 2) base_.out.line(FLASH("setpoint,input,output"));
   bool completed = true;
   for (uint8_t i = 0; i < test.steps && completed; ++i)
     completed = sampleSpeed(test.axis, stepOf(test, i), test.version);
-  axes_.release(test.axis);
-  out_.line(FLASH("--PID Velocity Test Stop--"));
-  out_.end();
-  waiting_.awaitStandstill();
+  base_.axes.release(test.axis);
+  base_.out.line(FLASH("--PID Velocity Test Stop--"));
+  base_.out.end();
+  base_.waiting.awaitStandstill();
   place_.search(Search::kChainsDriven);
   return completed;
 }
 
 bool AxisTests::sampleLength(Axis axis, float goal, uint16_t ms, uint8_t version) {
-  axes_.jumpTo(axis, goal);
+  base_.axes.jumpTo(axis, goal);
   for (uint16_t at = 0; at < ms; at = uint16_t(at + kSampleMs)) {
-    if (!waiting_.waitFor(kSampleMs)) return false;
-    const AxisState state = axes_.state(axis);
-    const float is = axes_.length(axis);
+    if (!base_.waiting.waitFor(kSampleMs)) return false;
+    const AxisState state = base_.axes.state(axis);
+    const float is = base_.axes.length(axis);
     if (version == 2) {
-      out_.fixed(goal, 4) << ',';
-      out_.fixed(is, 4) << ',';
-      out_.fixed(state.wanted_rpm, 4) << ',';
-      out_.fixed(state.rpm, 4) << ',';
-      out_.fixed(state.duty, 4);
+      base_.out.fixed(goal, 4) << ',';
+      base_.out.fixed(is, 4) << ',';
+      base_.out.fixed(state.wanted_rpm, 4) << ',';
+      base_.out.fixed(state.rpm, 4) << ',';
+      base_.out.fixed(state.duty, 4);
     } else {
-      out_.fixed(goal - is, 4);
+      base_.out.fixed(goal - is, 4);
     }
-    out_.end();
+    base_.out.end();
   }
   return true;
 }
 
 bool AxisTests::testLengths(const LoopTest& test) {
-  if (!waiting_.drain() || !motors_.wake()) return false;
-  out_.line(FLASH("--PID Position Test Start--"));
+  if (!base_.waiting.drain() || !motors_.wake()) return false;
+  base_.out.line(FLASH("--PID Position Test Start--"));
   sayGains(test.axis, true);
-  if (test.version == 2) out_.line(FLASH("setpoint,input,output,rpminput,voltage"));
-  const float from = axes_.length(test.axis);
+  if (test.version == 2) base_.out.line(FLASH("setpoint,input,output,rpminput,voltage"));
+  const float from = base_.axes.length(test.axis);
   bool completed = true;
   for (uint8_t i = 0; i < test.steps && completed; ++i)
     completed = sampleLength(test.axis, from + stepOf(test, i),
                              test.step_ms ? test.step_ms : kStepMs, test.version);
-  axes_.release(test.axis);
-  out_.line(FLASH("--PID Position Test Stop--"));
-  out_.end();
-  waiting_.awaitStandstill();
+  base_.axes.release(test.axis);
+  base_.out.line(FLASH("--PID Position Test Stop--"));
+  base_.out.end();
+  base_.waiting.awaitStandstill();
   place_.search(Search::kChainsDriven);
   return completed;
 }
 
 bool AxisTests::testDuties(const LoopTest& test) {
-  if (!waiting_.drain() || !motors_.wake()) return false;
-  out_.line(FLASH("--Voltage Test Start--"));
+  if (!base_.waiting.drain() || !motors_.wake()) return false;
+  base_.out.line(FLASH("--Voltage Test Start--"));
   const int16_t last = int16_t(test.last), step = test.last < test.first ? -1 : 1;
   bool completed = true;
   for (int16_t duty = int16_t(test.first); completed; duty = int16_t(duty + step)) {
-    axes_.driveOpen(test.axis, duty);
+    base_.axes.driveOpen(test.axis, duty);
     for (uint16_t ms = 0; ms < kDutyMs && completed; ms += kDutySampleMs) {
-      completed = waiting_.waitFor(kDutySampleMs);
+      completed = base_.waiting.waitFor(kDutySampleMs);
       if (!completed) break;
-      out_ << int32_t(duty) << ',';
-      out_.fixed(axes_.state(test.axis).rpm, 4).end();
+      base_.out << int32_t(duty) << ',';
+      base_.out.fixed(base_.axes.state(test.axis).rpm, 4).end();
     }
     if (duty == last) break;
   }
-  axes_.release(test.axis);
-  out_.line(FLASH("--Voltage Test Stop--"));
-  out_.end();
-  waiting_.awaitStandstill();
+  base_.axes.release(test.axis);
+  base_.out.line(FLASH("--Voltage Test Stop--"));
+  base_.out.end();
+  base_.waiting.awaitStandstill();
   place_.search(Search::kChainsDriven);
   return completed;
 }

@@ -2,28 +2,11 @@
 // Without Arduino: ports.h holds what it needs of a board. README.md says which part does what.
 #pragma once
 
-#include "axis_tests.h"
-#include "drilling.h"
-#include "greeting.h"
-#include "operator_lines.h"
-#include "overrides.h"
-#include "reports.h"
-#include "settings_lines.h"
-#include "single_axis.h"
-#include "telemetry.h"
-#include "yield_notice.h"
+#include "b_codes.h"
+#include "codes.h"
+#include "grbl_front.h"
 
 namespace machine {
-
-/// What the machine needs of a board.
-struct Ports {
-  Wire& wire;
-  Drives& drives;
-  Aux& aux;
-  Clock& clock;
-  settings::Bytes& bytes;
-  const settings::Table& table;
-};
 
 /// A Maslow: its parts, the main program, and which part does which line.
 ///
@@ -41,194 +24,51 @@ class Machine : private Waiting, private Dispatch {
 
   /// The control tick. An interrupt calls it 100 or 200 times a second.
   void tick() {
-    axes_.tick();
-    cutter_.show(axes_.beam());
+    parts_.axes.tick();
+    parts_.cutter.show(parts_.axes.beam());
   }
 
   /// Called in place of tick() while the main program hangs. The board has taken the power off the
   /// motors.
-  void noteHang();
+  void noteHang() { stops_.noteHang(); }
 
   /// How often the machine needs its control tick; known after begin().
   uint8_t ticksPerSecond() const { return ticks_per_second_; }
 
   // What a dry run looks at.
-  const Course& course() const { return course_; }
-  const Axes& axes() const { return axes_; }
-  const Planner& planner() const { return planner_; }
-  const gcode::Modal& modal() const { return modal_; }
-  const SledPlace& place() const { return place_; }
-  const ProgramPlace& program() const { return program_; }
-  const Coordinates& coordinates() const { return coordinates_; }
+  const Course& course() const { return parts_.course; }
+  const Axes& axes() const { return parts_.axes; }
+  const Planner& planner() const { return parts_.planner; }
+  const gcode::Modal& modal() const { return parts_.modal; }
+  const SledPlace& place() const { return parts_.place; }
+  const ProgramPlace& program() const { return parts_.program; }
+  const Coordinates& coordinates() const { return parts_.coordinates; }
 
  private:
-  typedef bool (Machine::*RunPiece)(const gcode::Piece& piece);
-  typedef bool (Machine::*RunB)(uint8_t code, const gcode::Words& words);
-  struct Code;
-  struct BCode;
-
-  // realtime.cpp: what goes on while anything waits; stops and alarms.
+  // What goes on while anything waits.
   void service() override;
   __attribute__((noinline)) void keepReporting();
   void readWire();
   void takeQuick(gcode::Quick quick);
-  void stopNow();
-  void forgetLines();
-  void forgetUnanswered();
-  void finishStop();
   void resetSoftly();
-  /// What a person does after an alarm.
-  enum class Remedy : uint8_t { kOpen, kLookForHold, kMendAndSet, kSwitchOff };
-  /// Says the texts and the remedy as one line.
-  void raiseAlarm(Remedy remedy, FlashText text, FlashText more = FLASH(""),
-                  FlashText last = FLASH(""));
-  void sayRemedy(Remedy remedy);
-  void watchStack();
-  void watchAxes();
-  void watchEncoders();
-  void raiseAlarmOf(Axes::AxisFault worst);
-  void override(gcode::Quick quick);
-  void resetOverrides();
-  void applyOverrides();
-  bool isHalted() const { return course_.isHalted(); }
   Place placeNow();
   bool isFarAhead() const;
 
-  // commands.cpp: turns a line into pieces.
+  // What is done with a line.
   __attribute__((noinline)) bool execute(char* line);
-  bool refuseHalted();
+  bool mayRun(Kind kind) const;
+  bool refuseNow(Kind kind);
   void answer(bool done) override;
-  void halt();
   void echo(const char* line);
-  bool runCode(const char* text);
-  bool runPiece(const gcode::Piece& piece);
-  bool moveInMode(const gcode::Words& words);
-  bool riseAfterCycle(const gcode::Words& words);
-  bool setTool(const gcode::Words& words);
   bool runQuestion(const char* line) override;
-  bool runSetting(const char* line);
-  bool runReset(const char* what);
-  void restoreDefaults(settings::Reset what);
 
-  // grbl.cpp: what a sender of Grbl asks for.
-  void askStatus(bool is_in_line);
-  void answerStatus();
-  FlashText stateForGrbl();
-  void sayPlace(const Place& place);
-  gcode::Quick meantByGrbl(gcode::Quick quick) const;
-  void resetAsGrbl();
-  void resetModes();
-  __attribute__((noinline)) bool runGrbl(const char* line);
-  void showCoordinates();
-  void showModes();
-  bool unlock();
-  bool toggleCheck();
-  bool checkCode(const char* text);
-
-  // jogs.cpp: `$J=`, and the end of a jog.
-  bool isJogging() const { return is_jogging_ && isMoving(); }
-  bool jog(const char* text);
-  bool queueJog(const char* text);
-  bool readJog(const char* text, gcode::Words& words);
-  void cancelJog();
-  /// Whether a stop ended a jog, and nothing else.
-  bool endsJog();
-  bool isDroppedJog(const char* line);
-
-  // codes.cpp: what each G and M code does, by a table.
-  static bool find(const gcode::Piece& piece, Code& found);
-  static bool knows(const gcode::Piece& piece);
-  bool run(const gcode::Piece& piece);
-  bool ignoreM(const gcode::Piece& piece);
-  bool beginMotion(const gcode::Piece& piece);
-  bool dwell(const gcode::Piece& piece);
-  bool declare(const gcode::Piece& piece);
-  bool keepGoal(const gcode::Piece& piece) { return coordinates_.keepGoal(piece); }
-  bool goToKept(const gcode::Piece& piece) { return moves_.goToKept(piece); }
-  bool probeDown(const gcode::Piece& piece);
-  bool takeToolLength(const gcode::Piece& piece);
-  bool forgetToolLength(const gcode::Piece& piece);
-  bool beginCycle(const gcode::Piece& piece);
-  bool shift(const gcode::Piece& piece) { return coordinates_.shift(piece.words); }
-  bool endShift(const gcode::Piece& piece);
-  bool pause(const gcode::Piece&) { return pauses_.pauseAfterMoves(); }
-  bool endProgram(const gcode::Piece&);
-  bool startSpindle(const gcode::Piece& piece);
-  bool stopSpindle(const gcode::Piece&) { return drain() && spindle_.turn(false); }
-  bool changeTool(const gcode::Piece& piece);
-  bool armLaser(const gcode::Piece& piece);
-  bool refuseSubprogram(const gcode::Piece&);
-
-  // b_codes.cpp: what each B code does, by a table.
-  bool runB(const char* line);
-  bool sayVersion(uint8_t, const gcode::Words&);
-  bool sayNoCalibration(uint8_t, const gcode::Words&);
-  bool measureOut(uint8_t, const gcode::Words& words);
-  /// Gives the motors power for a test that drives them in a hold too: it begins after the hold.
-  bool wakeForTest();
-  bool testMotors(uint8_t, const gcode::Words&);
-  bool setChains(uint8_t, const gcode::Words& words);
-  bool setChainsToMarks(uint8_t, const gcode::Words&) { return single_axis_.setChainsToMarks(); }
-  bool moveChains(uint8_t, const gcode::Words& words) { return single_axis_.moveChains(words); }
-  bool measureChain(uint8_t, const gcode::Words& words);
-  bool pullChain(uint8_t, const gcode::Words& words);
-  bool testLoop(uint8_t code, const gcode::Words& words);
-  bool goHome(uint8_t, const gcode::Words&) { return single_axis_.goHome(); }
-  bool setZLimit(uint8_t code, const gcode::Words&) { return z_.setLimit(code == 17); }
-  bool clearZLimits(uint8_t, const gcode::Words&) { return z_.clearLimits(); }
-  bool showZLimits(uint8_t, const gcode::Words&) { return z_.showLimits(); }
-  bool tellTelemetry(uint8_t, const gcode::Words&);
-  /// B99: only the word ON simulates the motors.
-  bool switchMotors(const char* word);
-  bool simulateMotors(bool on);
-  /// Waits until the settings in force outlive a power cut; false after a stop.
-  bool awaitStored();
-
-  // Each part knows the parts above it, never the parts below.
-  Wire& wire_;
-  Printer out_;
-  float value_room_[kSettingCount];
-  settings::Values values_;
-  settings::Memory memory_;
-  Geometry geometry_;
-  gcode::Input input_;
-  gcode::Modal modal_;
-  Axes axes_;
-  Course course_;
-  Planner planner_;
-  PositionKeeper keeper_;
-  Cutter cutter_;
-  Overrides overrides_;
-  Greeting greeting_;
-  Answers answers_;
-  ProgramPlace program_;
-  SledPlace place_;
-  Reports reports_;
-  Telemetry telemetry_;
-  MotorPower motors_;
-  Spindle spindle_;
-  ZAxis z_;
-  MotionDoor door_;
-  NewValues new_values_;
-  SettingsLines settings_lines_;
-  Coordinates coordinates_;
-  OperatorLines operator_lines_;
-  Pauses pauses_;
-  Moves moves_;
-  Drilling drilling_;
-  SingleAxis single_axis_;
-  AxisTests axis_tests_;
-  YieldNotice yield_notice_;
-  Aux& aux_;
+  Parts parts_;
+  Stops stops_;
+  Codes codes_;
+  BCodes b_codes_;
+  GrblFront grbl_;
   uint8_t ticks_per_second_ = 100;
-  bool is_status_due_ = false;     ///< a `?` came
-  bool is_new_to_grbl_ = false;    ///< a sender of Grbl has asked for the first time
-  bool is_executing_ = false;      ///< a line of a program is in execution
-  bool is_checking_ = false;       ///< `$C`: lines are read and not done
-  bool is_jogging_ = false;        ///< the moves in the queue are jogs
-  bool is_jog_cancelled_ = false;  ///< a stop is on its way that ends jogs only
-  uint8_t dropped_jogs_ = 0;       ///< lines that waited then
-  volatile bool hung_ = false;
+  bool is_executing_ = false;  ///< a line of a program is in execution
 };
 
 }  // namespace machine

@@ -1,7 +1,6 @@
 // What every motion is refused for, whichever line asks for it.
 #pragma once
 
-#include "answers.h"
 #include "sled_place.h"
 
 namespace machine {
@@ -10,9 +9,7 @@ namespace machine {
 /// answered the line.
 class MotionDoor {
  public:
-  MotionDoor(const settings::Values& values, const Axes& axes, const SledPlace& place,
-             Answers& answers)
-      : values_(values), axes_(axes), place_(place), answers_(answers) {}
+  MotionDoor(Basis& basis, const SledPlace& place) : base_(basis), place_(place) {}
 
   /// Refuses to go on from where nobody sent the sled: it moved while its motors were off.
   bool goesOnFromHere();
@@ -22,10 +19,8 @@ class MotionDoor {
   bool doesZFollow();
 
  private:
-  const settings::Values& values_;
-  const Axes& axes_;
+  Basis& base_;
   const SledPlace& place_;
-  Answers& answers_;
 };
 
 }  // namespace machine

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "sled_place.h"
-#include "waiting.h"
 
 namespace machine {
 
@@ -12,17 +11,9 @@ namespace machine {
 /// heavier than $62. A sled that slides is held again where it was.
 class MotorPower {
  public:
-  MotorPower(Axes& axes, PositionKeeper& keeper, const settings::Values& values, SledPlace& place,
-             const Geometry& geometry, Printer& out, Waiting& waiting)
-      : axes_(axes),
-        keeper_(keeper),
-        values_(values),
-        place_(place),
-        geometry_(geometry),
-        out_(out),
-        waiting_(waiting) {}
+  MotorPower(Basis& basis, SledPlace& place) : base_(basis), place_(place) {}
 
-  bool areOn() const { return axes_.isPowered(); }
+  bool areOn() const { return base_.axes.isPowered(); }
   /// Returns once all motors hold their set-points; false after a stop.
   bool wake();
   /// To be called often. `is_busy`: something moves or holds on purpose.
@@ -44,13 +35,8 @@ class MotorPower {
   bool doesFrictionHold() const;
   void sayThatTheyStayOn();
 
-  Axes& axes_;
-  PositionKeeper& keeper_;
-  const settings::Values& values_;
+  Basis& base_;
   SledPlace& place_;
-  const Geometry& geometry_;
-  Printer& out_;
-  Waiting& waiting_;
   Rest rest_ = Rest::kUnwatched;
   bool has_said_so_ = false;  ///< that they stay on where the sled is high
   uint32_t last_busy_ms_ = 0;

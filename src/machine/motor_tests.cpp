@@ -10,8 +10,8 @@ const uint16_t kRampMs = 500, kHoldMs = 2000;
 }  // namespace
 
 bool AxisTests::driveFor(Axis axis, int16_t duty, uint32_t ms) {
-  axes_.driveOpen(axis, duty);
-  const bool completed = waiting_.waitFor(ms);
+  base_.axes.driveOpen(axis, duty);
+  const bool completed = base_.waiting.waitFor(ms);
   return completed;
 }
 
@@ -26,28 +26,28 @@ bool AxisTests::rampMotor(Axis axis, int8_t sign) {
 }
 
 bool AxisTests::testDirection(Axis axis, int8_t direction) {
-  const int32_t before = axes_.counts(axis);
+  const int32_t before = base_.axes.counts(axis);
   const int8_t sign = direction == 1 ? 1 : -1;
   if (!rampMotor(axis, sign)) return false;
   // A positive drive winds chain in and must lower the count.
-  const int32_t wound = (before - axes_.counts(axis)) * sign;
+  const int32_t wound = (before - base_.axes.counts(axis)) * sign;
   if (wound <= kPassCounts) place_.doubt(axis, settings::Doubt::kCounts);
-  out_ << FLASH("Direction ") << int32_t(direction);
-  out_.line(wound > kPassCounts ? FLASH(" - Pass") : FLASH(" - Fail"));
+  base_.out << FLASH("Direction ") << int32_t(direction);
+  base_.out.line(wound > kPassCounts ? FLASH(" - Pass") : FLASH(" - Fail"));
   return true;
 }
 
 bool AxisTests::testMotors() {
-  if (!waiting_.drain() || !motors_.wake()) return false;
+  if (!base_.waiting.drain() || !motors_.wake()) return false;
   bool completed = true;
   for (uint8_t i = 0; i < kAxisCount && completed; ++i) {
-    out_ << FLASH("Testing ") << (i == kLeftAxis ? 'L' : i == kRightAxis ? 'R' : 'Z');
-    out_.line(FLASH(" motor:"));
+    base_.out << FLASH("Testing ") << (i == kLeftAxis ? 'L' : i == kRightAxis ? 'R' : 'Z');
+    base_.out.line(FLASH(" motor:"));
     completed = testDirection(Axis(i), 1) && testDirection(Axis(i), 2);
-    axes_.release(Axis(i));
+    base_.axes.release(Axis(i));
   }
-  if (completed) out_.line(FLASH("Tests complete."));
-  waiting_.awaitStandstill();
+  if (completed) base_.out.line(FLASH("Tests complete."));
+  base_.waiting.awaitStandstill();
   place_.search(Search::kChainsDriven);
   return completed;
 }
@@ -55,23 +55,23 @@ bool AxisTests::testMotors() {
 bool AxisTests::pullChain(Axis axis, int16_t duty, float seconds) {
   const float kMeasured = 2;       // [s] a shorter pull has no time to measure
   const int16_t kGentleDuty = 95;  // a motor at rest pulls with about 100 N
-  if (!waiting_.drain() || !motors_.wake()) return false;
+  if (!base_.waiting.drain() || !motors_.wake()) return false;
   const uint32_t ms = uint32_t(seconds * 1000);
   bool completed = true;
   if (duty > 0 && seconds >= kMeasured)
     completed = measureTaut(axis, duty, ms);
   else
     completed = driveFor(axis, duty < kGentleDuty ? duty : kGentleDuty, ms);
-  axes_.release(axis);
-  waiting_.awaitStandstill();
+  base_.axes.release(axis);
+  base_.waiting.awaitStandstill();
   place_.search(Search::kChainsDriven);
   return completed;
 }
 
 bool AxisTests::measureTaut(Axis axis, int16_t most_duty, uint32_t ms) {
-  ChainPull pull(axes_, waiting_, axis, most_duty);
+  ChainPull pull(base_.axes, base_.waiting, axis, most_duty);
   const ChainPull::Result result = pull.run(ms);
-  axes_.release(axis);
+  base_.axes.release(axis);
   switch (result) {
     case ChainPull::Result::kStopped:
       return false;
@@ -79,13 +79,13 @@ bool AxisTests::measureTaut(Axis axis, int16_t most_duty, uint32_t ms) {
       sayGap(pull);
       break;
     case ChainPull::Result::kSlack:
-      out_.line(
+      base_.out.line(
           FLASH("The chain is not tight yet: hook it on the other sprocket, send B11 again."));
       break;
     case ChainPull::Result::kDead:
       place_.doubt(axis, settings::Doubt::kCounts);
-      out_ << (axis == kLeftAxis ? FLASH("The left") : FLASH("The right"));
-      out_.line(FLASH(" motor hardly turns: check its supply, its cables and its encoder."));
+      base_.out << (axis == kLeftAxis ? FLASH("The left") : FLASH("The right"));
+      base_.out.line(FLASH(" motor hardly turns: check its supply, its cables and its encoder."));
       break;
   }
   return true;
@@ -94,14 +94,14 @@ bool AxisTests::measureTaut(Axis axis, int16_t most_duty, uint32_t ms) {
 void AxisTests::sayGap(const ChainPull& pull) {
   const float kMostSpread = 0.5f;     // [mm]
   const float kPastSprocket = 12.7f;  // [mm] of links, as the clients count them
-  out_ << FLASH("Motor gap ");
-  out_.fixed(pull.length() - kPastSprocket, 2) << FLASH(" mm before sag and flex, spread ");
-  out_.fixed(pull.spread(), 2) << FLASH(" mm, ") << int32_t(pull.pulls());
-  out_ << (pull.pulls() == 1 ? FLASH(" pull") : FLASH(" pulls"));
-  out_ << FLASH(" with about ") << int32_t(pull.force() + 0.5f);
-  out_.line(FLASH(" N."));
+  base_.out << FLASH("Motor gap ");
+  base_.out.fixed(pull.length() - kPastSprocket, 2) << FLASH(" mm before sag and flex, spread ");
+  base_.out.fixed(pull.spread(), 2) << FLASH(" mm, ") << int32_t(pull.pulls());
+  base_.out << (pull.pulls() == 1 ? FLASH(" pull") : FLASH(" pulls"));
+  base_.out << FLASH(" with about ") << int32_t(pull.force() + 0.5f);
+  base_.out.line(FLASH(" N."));
   if (pull.spread() > kMostSpread)
-    out_.line(FLASH("The pulls differ: look after chain, hook and supply, send B11 again."));
+    base_.out.line(FLASH("The pulls differ: look after chain, hook and supply, send B11 again."));
 }
 
 }  // namespace machine

@@ -1,37 +1,22 @@
 // G0 to G3: from words to paths in the queue.
 #pragma once
 
-#include "coordinates.h"
-#include "cutter.h"
 #include "edge_cut.h"
-#include "motion_door.h"
-#include "motor_power.h"
 #include "pauses.h"
-#include "z_axis.h"
 
 namespace machine {
 
 /// Lines and arcs over the sheet. Functions return false if the move was refused or stopped.
 class Moves {
  public:
-  Moves(const settings::Values& values, const Geometry& geometry, Planner& mover,
-        MotorPower& motors, Coordinates& coordinates, ProgramPlace& program, ZAxis& z,
-        MotionDoor& door, Cutter& cutter, Pauses& pauses, gcode::Modal& modal, Printer& out,
-        Answers& answers, Waiting& waiting)
-      : values_(values),
-        geometry_(geometry),
-        planner_(mover),
+  Moves(Basis& basis, MotorPower& motors, Coordinates& coordinates, ZAxis& z, MotionDoor& door,
+        Pauses& pauses)
+      : base_(basis),
         motors_(motors),
         coordinates_(coordinates),
-        program_(program),
         z_(z),
         door_(door),
-        cutter_(cutter),
-        pauses_(pauses),
-        modal_(modal),
-        out_(out),
-        answers_(answers),
-        waiting_(waiting) {}
+        pauses_(pauses) {}
 
   /// Takes an F word.
   void takeFeed(const gcode::Words& words);
@@ -64,28 +49,21 @@ class Moves {
   float fittingFeed(float length, float rise, float times) const;
   bool queue(const motion::Path<float>& path, const Place& target, float feed);
   __attribute__((noinline)) bool mayGo(const motion::Path<float>& path, const Area& area);
-  // Not inline: else every line would wait for room with the stack of the cuts.
+  // Not inline: else the wait for room would have the stack of the cuts.
   __attribute__((noinline)) bool queueCut(const motion::Path<float>& path, float z_to, float feed,
                                           uint8_t beam);
+  bool awaitRoom(uint8_t pieces);
   bool queuePieces(EdgeCut& cut, float z_to, float feed, uint8_t beam);
   bool queuePiece(const motion::Path<float>& piece, motion::Space space, float z, float feed,
                   uint8_t beam);
   void sayBeyondSheet(motion::Point<float> end);
 
-  const settings::Values& values_;
-  const Geometry& geometry_;
-  Planner& planner_;
+  Basis& base_;
   MotorPower& motors_;
   Coordinates& coordinates_;
-  ProgramPlace& program_;
   ZAxis& z_;
   MotionDoor& door_;
-  Cutter& cutter_;
   Pauses& pauses_;
-  gcode::Modal& modal_;
-  Printer& out_;
-  Answers& answers_;
-  Waiting& waiting_;
 };
 
 }  // namespace machine

@@ -26,45 +26,45 @@ void NewValues::takeAll() {
 void NewValues::take(uint8_t touches) {
   using namespace settings;
   if (touches & kDrives) arrangeDrives();
-  if ((touches & (kScale | kLoops)) && axes_.prepare(values_)) place_.reconsider();
-  if (touches & kLimits) planner_.prepare(values_, axes_.secondsPerTick());
-  if (touches & kCutter) cutter_.off();
+  if ((touches & (kScale | kLoops)) && base_.axes.prepare(base_.values)) place_.reconsider();
+  if (touches & kLimits) base_.planner.prepare(base_.values, base_.axes.secondsPerTick());
+  if (touches & kCutter) base_.cutter.off();
   if (!(touches & kGeometry)) return;
   is_geometry_stale_ = true;
-  geometry_changed_ms_ = clock_.milliseconds();
+  geometry_changed_ms_ = base_.clock.milliseconds();
 }
 
 void NewValues::arrangeDrives() {
-  axes_.releaseAll();
+  base_.axes.releaseAll();
   // A tick in between would take the change of the encoders' wiring for motion.
-  const WithoutTicks hold(clock_);
-  drives_.arrange(values_.at(kFeedSide) == 1, uint8_t(values_.at(kPwmFrequency)));
-  axes_.forgetRawCounts();
+  const WithoutTicks hold(base_.clock);
+  base_.drives.arrange(base_.values.at(kFeedSide) == 1, uint8_t(base_.values.at(kPwmFrequency)));
+  base_.axes.forgetRawCounts();
 }
 
 void NewValues::prepareGeometry() {
   is_geometry_stale_ = false;
-  geometry_.prepare(values_);
-  planner_.setGeometry(geometry_);
+  base_.geometry.prepare(base_.values);
+  base_.planner.setGeometry(base_.geometry);
   // A correction that was cured is news again when it comes back.
-  said_twice_ &= twiceBits(values_);
+  said_twice_ &= twiceBits(base_.values);
 }
 
 void NewValues::sayCarriedTwice() {
-  const uint8_t twice = twiceBits(values_);
+  const uint8_t twice = twiceBits(base_.values);
   if (twice == said_twice_) return;
   said_twice_ = twice;
   // Clients show this line. They would drop a line with "[" and stop for "Message:".
-  out_ << FLASH("Corrected twice: the machine adds");
+  base_.out << FLASH("Corrected twice: the machine adds");
   bool is_first = true;
   for (uint8_t i = 0; twice >> i != 0; ++i) {
     if (!(twice >> i & 1)) continue;
     const Carriers carriers = carriersOf(i);
-    out_ << (is_first ? FLASH(" $") : FLASH(", $")) << int32_t(carriers.published);
-    out_ << FLASH(" to $") << int32_t(carriers.ours);
+    base_.out << (is_first ? FLASH(" $") : FLASH(", $")) << int32_t(carriers.published);
+    base_.out << FLASH(" to $") << int32_t(carriers.ours);
     is_first = false;
   }
-  out_.line(FLASH(". Set one of each pair to 0, in your client too."));
+  base_.out.line(FLASH(". Set one of each pair to 0, in your client too."));
 }
 
 void NewValues::refreshGeometry(Search why) {
@@ -79,7 +79,8 @@ void NewValues::refreshBeforeLine() {
 }
 
 void NewValues::refreshWhenQuiet(bool is_moving) {
-  if (!is_geometry_stale_ || is_moving || clock_.milliseconds() - geometry_changed_ms_ < kQuietMs)
+  if (!is_geometry_stale_ || is_moving ||
+      base_.clock.milliseconds() - geometry_changed_ms_ < kQuietMs)
     return;
   refreshGeometry(Search::kNewSettings);
 }

@@ -1,8 +1,6 @@
 // After a new value of a setting: works out again whatever it touches.
 #pragma once
 
-#include "cutter.h"
-#include "printer.h"
 #include "sled_place.h"
 
 namespace machine {
@@ -12,17 +10,7 @@ class NewValues {
  public:
   enum : uint8_t { kAll = 255 };  ///< everything is touched
 
-  NewValues(const settings::Values& values, Geometry& geometry, Axes& axes, Planner& mover,
-            Drives& drives, Cutter& cutter, SledPlace& place, Clock& clock, Printer& out)
-      : values_(values),
-        geometry_(geometry),
-        axes_(axes),
-        planner_(mover),
-        drives_(drives),
-        cutter_(cutter),
-        place_(place),
-        clock_(clock),
-        out_(out) {}
+  NewValues(Basis& basis, SledPlace& place) : base_(basis), place_(place) {}
 
   /// At the start: takes over all settings, without working out the place.
   void takeAll();
@@ -44,15 +32,8 @@ class NewValues {
   void refreshGeometry(Search why);
   void arrangeDrives();
 
-  const settings::Values& values_;
-  Geometry& geometry_;
-  Axes& axes_;
-  Planner& planner_;
-  Drives& drives_;
-  Cutter& cutter_;
+  Basis& base_;
   SledPlace& place_;
-  Clock& clock_;
-  Printer& out_;
   uint32_t geometry_changed_ms_ = 0;
   uint8_t said_twice_ = 0;  ///< a bit for each correction that was said and is still carried twice
   bool is_geometry_stale_ = false;

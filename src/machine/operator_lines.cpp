@@ -8,49 +8,50 @@ namespace machine {
 using gcode::Words;
 
 void OperatorLines::wait(Event event) {
-  if (course_.isRunning()) program_ = modal_;
+  if (base_.course.isRunning()) program_ = base_.modal;
   const bool was_turn = isOperatorsTurn();
-  if (course_.take(event) && !was_turn) since_ms_ = clock_.milliseconds();
+  if (base_.course.take(event) && !was_turn) since_ms_ = base_.clock.milliseconds();
 }
 
 void OperatorLines::resume() {
-  const uint32_t now = clock_.milliseconds();
+  const uint32_t now = base_.clock.milliseconds();
   // A `~` that ends a wait is no answer to a pause to come.
   // Senders of Grbl press it at any time.
-  if (!course_.isRunning() || now - resumed_ms_ < kTwice || out_.speaksGrbl()) input_.takeResume();
+  if (!base_.course.isRunning() || now - resumed_ms_ < kTwice || base_.out.speaksGrbl())
+    base_.input.takeResume();
   resumed_ms_ = now;
-  course_.take(Event::kResume);
+  base_.course.take(Event::kResume);
 }
 
 gcode::Input& OperatorLines::inputFor(char character) {
   const uint32_t kFirstMs = 300;  // a sender that has not noticed may go on for a moment
   if (character != '\n' && !coming_->isInLine()) {
     // To a sender of Grbl a line in a hold is one of the program, to be done after it.
-    const bool is_own =
-        !out_.speaksGrbl() && isOperatorsTurn() && clock_.milliseconds() - since_ms_ >= kFirstMs;
-    coming_ = is_own ? &typed_ : &input_;
+    const bool is_own = !base_.out.speaksGrbl() && isOperatorsTurn() &&
+                        base_.clock.milliseconds() - since_ms_ >= kFirstMs;
+    coming_ = is_own ? &typed_ : &base_.input;
   }
   return *coming_;
 }
 
 void OperatorLines::serve() {
-  if (answers_.isServing()) return;
-  if (course_.isComingBack()) comeBack();
-  if (!isOperatorsTurn() || axes_.isPathAtRest()) serveLine();
+  if (base_.answers.isServing()) return;
+  if (base_.course.isComingBack()) comeBack();
+  if (!isOperatorsTurn() || base_.axes.isPathAtRest()) serveLine();
 }
 
 void OperatorLines::comeBack() {
-  if (!axes_.isLifted()) {
-    modal_ = program_;
-    course_.take(Event::kBack);
+  if (!base_.axes.isLifted()) {
+    base_.modal = program_;
+    base_.course.take(Event::kBack);
     return;
   }
-  if (!course_.take(Event::kLower)) return;
-  out_ << FLASH("Z goes back to ");
-  out_.fixed(modal_.fromMm(axes_.plannedZ()), 2).end();
+  if (!base_.course.take(Event::kLower)) return;
+  base_.out << FLASH("Z goes back to ");
+  base_.out.fixed(base_.modal.fromMm(base_.axes.plannedZ()), 2).end();
   // While the motors rested G10 may have said where z is. A hold may come while they wake.
-  if ((motors_.areOn() || motors_.wake()) && course_.is(State::kLowering))
-    axes_.lower(z_.mostFeed() / 60, z_.acceleration());
+  if ((motors_.areOn() || motors_.wake()) && base_.course.is(State::kLowering))
+    base_.axes.lower(z_.mostFeed() / 60, z_.acceleration());
 }
 
 void OperatorLines::serveLine() {
@@ -58,21 +59,21 @@ void OperatorLines::serveLine() {
   if (!typed_.takeLine(line)) return;
   gcode::clean(line);
   // A line of the program that waits keeps its answer, or lack of it, whatever this line gets.
-  const bool is_other_answered = answers_.isAnswered();
-  answers_.setAnswered(false);
-  answers_.serve(true);
+  const bool is_other_answered = base_.answers.isAnswered();
+  base_.answers.setAnswered(false);
+  base_.answers.serve(true);
   const bool done = runOrRefuse(line);
-  answers_.serve(false);
+  base_.answers.serve(false);
   dispatch_.answer(done);
-  answers_.setAnswered(is_other_answered);
+  base_.answers.setAnswered(is_other_answered);
 }
 
 bool OperatorLines::runOrRefuse(const char* line) {
   if (!isOperatorsTurn())
-    return answers_.refuse(FLASH("the program went on before this line; send it again"));
-  if (typed_.wasTooLong()) return answers_.refuse(tooLongALine());
+    return base_.answers.refuse(FLASH("the program went on before this line; send it again"));
+  if (typed_.wasTooLong()) return base_.answers.refuse(tooLongALine());
   if (isForOperator(line)) return run(line);
-  return answers_.refuse(
+  return base_.answers.refuse(
       FLASH("the program waits: answer it with ~ or !; until then only z, its zero and questions"));
 }
 
@@ -95,7 +96,8 @@ bool OperatorLines::isForOperator(const gcode::Piece& piece) const {
     case 10:
       return words.has('Z') && z_.hasMotor();
     case 100:
-      return words.has('Z') && !words.has('L') && ZAxis::reaches(modal_.toMm(words.value('Z')));
+      return words.has('Z') && !words.has('L') &&
+             ZAxis::reaches(base_.modal.toMm(words.value('Z')));
     case 200:
     case 210:
     case 900:
@@ -108,28 +110,28 @@ bool OperatorLines::isForOperator(const gcode::Piece& piece) const {
 
 bool OperatorLines::run(const char* line) {
   if (line[0] == 'B') {
-    out_ << line;
-    out_.end();
+    base_.out << line;
+    base_.out.end();
   }
   if (line[0] == 'B' || line[0] == '$') return dispatch_.runQuestion(line);
   gcode::Piece piece;
   for (gcode::Pieces pieces(line); pieces.next(piece);) {
     if (piece.tenths == 100)
-      z_.declareInHold(modal_.toMm(piece.words.value('Z')));
-    else if (!modal_.take(piece.tenths) && !jogZ(piece.words))
+      z_.declareInHold(base_.modal.toMm(piece.words.value('Z')));
+    else if (!base_.modal.take(piece.tenths) && !jogZ(piece.words))
       return false;
   }
   return true;
 }
 
 bool OperatorLines::jogZ(const Words& words) {
-  const float target =
-      z_.within(modal_.targetOf(axes_.liftedTo(), words.value('Z'), coordinates_.begin(kZAxis)));
-  if (!ZAxis::reaches(target)) return answers_.refuse(tooLongForZ());
+  const float target = z_.within(
+      base_.modal.targetOf(base_.axes.liftedTo(), words.value('Z'), coordinates_.begin(kZAxis)));
+  if (!ZAxis::reaches(target)) return base_.answers.refuse(tooLongForZ());
   if (!door_.doesZFollow() || (!motors_.areOn() && !motors_.wake())) return false;
   const float most = z_.mostFeed();
-  const float asked = words.has('F') ? modal_.toMm(words.value('F')) : most;
-  axes_.lift(target, (asked < most ? asked : most) / 60, z_.acceleration());
+  const float asked = words.has('F') ? base_.modal.toMm(words.value('F')) : most;
+  base_.axes.lift(target, (asked < most ? asked : most) / 60, z_.acceleration());
   return true;
 }
 

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "coordinates.h"
-#include "course.h"
 #include "motion_door.h"
 #include "motor_power.h"
 #include "z_axis.h"
@@ -29,20 +28,13 @@ class Dispatch {
 /// refused with the reason, and never done later.
 class OperatorLines {
  public:
-  OperatorLines(Course& course, gcode::Input& input, gcode::Modal& modal, Axes& axes,
-                MotorPower& motors, ZAxis& z, MotionDoor& door, const Coordinates& coordinates,
-                Clock& clock, Printer& out, Answers& answers, Dispatch& dispatch)
-      : course_(course),
-        input_(input),
-        modal_(modal),
-        axes_(axes),
+  OperatorLines(Basis& basis, MotorPower& motors, ZAxis& z, MotionDoor& door,
+                const Coordinates& coordinates, Dispatch& dispatch)
+      : base_(basis),
         motors_(motors),
         z_(z),
         door_(door),
         coordinates_(coordinates),
-        clock_(clock),
-        out_(out),
-        answers_(answers),
         dispatch_(dispatch) {}
 
   /// 0x84: everything brakes and the program waits.
@@ -66,7 +58,7 @@ class OperatorLines {
 
   bool isForOperator(const gcode::Piece& piece) const;
   void wait(Event event);
-  bool isOperatorsTurn() const { return course_.lines() == Lines::kOperator; }
+  bool isOperatorsTurn() const { return base_.course.lines() == Lines::kOperator; }
   void comeBack();
   // Not inline: else every wait of the main program would have this line's stack.
   __attribute__((noinline)) void serveLine();
@@ -74,20 +66,14 @@ class OperatorLines {
   bool run(const char* line);
   bool jogZ(const gcode::Words& words);
 
-  Course& course_;
-  gcode::Input& input_;
-  gcode::Modal& modal_;
-  Axes& axes_;
+  Basis& base_;
   MotorPower& motors_;
   ZAxis& z_;
   MotionDoor& door_;
   const Coordinates& coordinates_;
-  Clock& clock_;
-  Printer& out_;
-  Answers& answers_;
   Dispatch& dispatch_;
   gcode::Input typed_;                          ///< lines of the operator
-  gcode::Input* coming_ = &input_;              ///< the room of the line that came last
+  gcode::Input* coming_ = &base_.input;         ///< the room of the line that came last
   gcode::Modal program_;                        ///< modes of the program, restored at the end
   uint32_t since_ms_ = 0;                       ///< when the wait began
   uint32_t resumed_ms_ = uint32_t(0) - kTwice;  ///< when the last `~` came

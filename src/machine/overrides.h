@@ -1,7 +1,7 @@
 // Overrides: the operator makes feeds, rapids and the spindle's speed slower or faster.
 #pragma once
 
-#include <GCode.h>
+#include "basis.h"
 
 namespace machine {
 
@@ -63,6 +63,22 @@ class Overrides {
  private:
   Percent feed_, spindle_;
   uint8_t rapid_ = 100;
+};
+
+/// The overrides in force, handed to the axes, the planner and the cutter.
+class LiveOverrides {
+ public:
+  explicit LiveOverrides(Basis& basis) : base_(basis) {}
+
+  void take(gcode::Quick quick);
+  void reset();
+  const Overrides& now() const { return now_; }
+
+ private:
+  void apply();
+
+  Basis& base_;
+  Overrides now_;
 };
 
 }  // namespace machine

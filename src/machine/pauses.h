@@ -2,7 +2,6 @@
 #pragma once
 
 #include "operator_lines.h"
-#include "sled_place.h"
 #include "spindle.h"
 
 namespace machine {
@@ -10,15 +9,8 @@ namespace machine {
 /// Each waits for queued moves and for the end of a hold first, and returns false after a stop.
 class Pauses {
  public:
-  Pauses(OperatorLines& operator_lines, gcode::Input& input, gcode::Modal& modal, Spindle& spindle,
-         SledPlace& place, Printer& out, Waiting& waiting)
-      : operator_lines_(operator_lines),
-        input_(input),
-        modal_(modal),
-        spindle_(spindle),
-        place_(place),
-        out_(out),
-        waiting_(waiting) {}
+  Pauses(Basis& basis, OperatorLines& operator_lines, Spindle& spindle, SledPlace& place)
+      : base_(basis), operator_lines_(operator_lines), spindle_(spindle), place_(place) {}
 
   /// M0 and M1.
   bool pauseAfterMoves();
@@ -31,13 +23,10 @@ class Pauses {
  private:
   bool pause();
 
+  Basis& base_;
   OperatorLines& operator_lines_;
-  gcode::Input& input_;
-  gcode::Modal& modal_;
   Spindle& spindle_;
   SledPlace& place_;
-  Printer& out_;
-  Waiting& waiting_;
 };
 
 }  // namespace machine

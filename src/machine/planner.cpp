@@ -54,7 +54,8 @@ void Planner::standHere(Axes& axes) {
 
 bool Planner::fill(Axes& axes, const Geometry& geometry) {
   const auto exactly = [&geometry](motion::Point<float> place) { return geometry.inverse(place); };
-  const motion::Filled filled = moves_.fill(axes.setPoints(), exactly);
+  const bool is_z_near = moves_.awaitsZ() && axes.isZNear();
+  const motion::Filled filled = moves_.fill(axes.setPoints(), exactly, is_z_near);
   return filled == motion::Filled::kYes;
 }
 

@@ -7,9 +7,7 @@ namespace machine {
 
 class Reports {
  public:
-  Reports(Clock& clock, const gcode::Modal& modal, const Axes& axes, const gcode::Input& input,
-          Printer& out)
-      : clock_(clock), modal_(modal), axes_(axes), input_(input), out_(out) {}
+  explicit Reports(Basis& basis) : base_(basis) {}
 
   /// True every 200 ms.
   bool areDue();
@@ -18,12 +16,11 @@ class Reports {
   /// `[PE:...]`: how far the chains are from their set-points, and the room for lines.
   void sayErrors();
 
+  /// Three coordinates [mm], in the units of reports to a sender of Grbl.
+  void sayPlace(const Place& place);
+
  private:
-  Clock& clock_;
-  const gcode::Modal& modal_;
-  const Axes& axes_;
-  const gcode::Input& input_;
-  Printer& out_;
+  Basis& base_;
   uint32_t last_ms_ = 0;
 };
 

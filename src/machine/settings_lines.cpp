@@ -46,18 +46,77 @@ GrblSetting grblAt(uint8_t index) {
 
 }  // namespace
 
+bool SettingsLines::run(const char* line) {
+  const char* const text = line + 1;
+  if (*text == '\0') {
+    base_.out.line(
+        FLASH("$$ shows all settings, $n=value sets one, $RST=$ or # or * restores defaults"));
+    return true;
+  }
+  if (!base_.waiting.drain()) return false;
+  if (*text == '$') {
+    if (text[1] != '\0') return base_.answers.refuseStatement();
+    dump();
+    return true;
+  }
+  if (text[0] == '#' && text[1] == '\0') {
+    coordinates_.show();
+    return true;
+  }
+  if (strncmp_P(text, PSTR("RST="), 4) == 0) return reset(text + 4);
+  return set(text);
+}
+
+bool SettingsLines::reset(const char* what) {
+  using settings::Reset;
+  const bool is_known = (what[0] == '$' || what[0] == '#' || what[0] == '*') && what[1] == '\0';
+  if (!is_known) return base_.answers.refuseStatement();
+  if (what[0] == '#' && base_.out.speaksGrbl()) {
+    coordinates_.forget();
+    return true;
+  }
+  restoreDefaults(what[0] == '$'   ? Reset::kSettings
+                  : what[0] == '#' ? Reset::kSettingsAndPosition
+                                   : Reset::kEverything);
+  return true;
+}
+
+void SettingsLines::restoreDefaults(settings::Reset what) {
+  base_.out.line(FLASH("Message: Restoring defaults "));
+  spindle_.switchLaser(false);
+  base_.memory.reset(what);
+  const bool forgets_position = what != settings::Reset::kSettings;
+  if (forgets_position) {
+    base_.axes.setCounts(0, 0, 0);
+    base_.keeper.startAfresh();
+  }
+  base_.axes.simulate(base_.values.at(kSimulatedMotors) != 0);
+  new_values_.take(NewValues::kAll);
+  greeting_.sayBoard();
+  greeting_.sayMotors(base_.axes.isSimulated());
+  greeting_.sayReady();
+  base_.answers.setAnswered(true);
+  if (!forgets_position) return;
+  new_values_.prepareGeometry();
+  place_.search(Search::kErased);
+  place_.sayUnset(true);
+}
+
 void SettingsLines::dump() { dumpFrom(0); }
 
 /// Says all listed settings, with numbers from `first` on.
 void SettingsLines::dumpFrom(uint16_t first) {
-  PutLetter put = {out_};
-  for (uint8_t i = 0; i < values_.count(); ++i) {
-    if (values_.table().at(i).access != settings::Access::kListed) continue;
-    settings::putSetting(values_, i, first, put);
-    out_.end();
+  PutLetter put = {base_.out};
+  const bool speaks_grbl = base_.out.speaksGrbl();
+  for (uint8_t i = 0; i < base_.values.count(); ++i) {
+    if (base_.values.table().at(i).access != settings::Access::kListed) continue;
+    settings::putSetting(base_.values, i, first, put);
+    base_.out.end();
     // Whatever else goes on, goes on; a stop ends the dump.
-    waiting_.service();
-    if (waiting_.isStopping()) return;
+    base_.waiting.service();
+    if (base_.waiting.isStopping()) return;
+    // A sender that takes the lines of both for one table keeps wrong numbers.
+    if (base_.out.speaksGrbl() != speaks_grbl) return dumpForGrbl();
   }
 }
 
@@ -67,12 +126,12 @@ void SettingsLines::dumpForGrbl() {
 }
 
 void SettingsLines::sayGrblNumbers() {
-  PutLetter put = {out_};
+  PutLetter put = {base_.out};
   for (uint8_t i = 0; i < kGrblCount; ++i) {
     const GrblSetting row = grblAt(i);
-    out_ << '$' << int32_t(row.number) << '=';
-    settings::putNumber(row.isFixed() ? row.fixed : values_.at(row.setting), put);
-    out_.end();
+    base_.out << '$' << int32_t(row.number) << '=';
+    settings::putNumber(row.isFixed() ? row.fixed : base_.values.at(row.setting), put);
+    base_.out.end();
   }
 }
 
@@ -85,17 +144,18 @@ bool SettingsLines::setForGrbl(const char* text) {
     const GrblSetting row = grblAt(i);
     if (float(row.number) != number) continue;
     if (!row.isFixed())
-      return setValue(values_.table().at(row.setting).number, value, kFirstForGrbl);
+      return setValue(base_.values.table().at(row.setting).number, value, kFirstForGrbl);
     return value == row.fixed ||
-           answers_.refuse(FLASH("this machine cannot change that number of Grbl's"));
+           base_.answers.refuse(FLASH("this machine cannot change that number of Grbl's"));
   }
-  return answers_.refuse(FLASH("this machine has no such number; its settings begin at $1000"));
+  return base_.answers.refuse(
+      FLASH("this machine has no such number; its settings begin at $1000"));
 }
 
 bool SettingsLines::set(const char* text) {
   float number, value;
   if (!read(text, number, value)) return false;
-  if (!(number >= 0 && number <= 255)) return answers_.refuseStatement();
+  if (!(number >= 0 && number <= 255)) return base_.answers.refuseStatement();
   return setValue(uint8_t(number), value, 0);
 }
 
@@ -107,36 +167,36 @@ bool SettingsLines::read(const char* text, float& number, float& value) {
   if (has_number) ++text;
   const gcode::Number right = gcode::readNumber(text);
   if (!has_number || right.fault != gcode::Fault::kNone || *text != '\0')
-    return answers_.refuse(FLASH("Bad number format"), grbl::kBadNumber);
+    return base_.answers.refuse(FLASH("Bad number format"), grbl::kBadNumber);
   if (!(left.value >= 0 && left.value < 2000) || left.value != float(uint16_t(left.value)))
-    return answers_.refuseStatement();
+    return base_.answers.refuseStatement();
   number = left.value;
   value = right.value;
   return true;
 }
 
 bool SettingsLines::setValue(uint8_t number, float value, uint16_t first) {
-  const settings::Table& table = values_.table();
+  const settings::Table& table = base_.values.table();
   const uint8_t meant = meantBy(number);
-  if (meant == table.at(kChainSpeed).number && value > Planner::mostChainSpeed(values_))
+  if (meant == table.at(kChainSpeed).number && value > Planner::mostChainSpeed(base_.values))
     return refuseChainSpeed();
-  const settings::Refusal refusal = memory_.set(meant, value);
+  const settings::Refusal refusal = base_.memory.set(meant, value);
   if (refusal == settings::Refusal::kNone) {
     new_values_.take(table.at(settings::indexOf(table, meant)).touches);
     return true;
   }
-  answers_.beginError();
-  PutLetter put = {out_};
+  base_.answers.beginError();
+  PutLetter put = {base_.out};
   settings::putRefusal(table, number, refusal, first, put);
-  out_.end();
+  base_.out.end();
   return false;
 }
 
 bool SettingsLines::refuseChainSpeed() {
-  answers_.beginError();
-  out_ << FLASH("$68 must be at most ");
-  out_.fixed(Planner::mostChainSpeed(values_), 0);
-  out_.line(FLASH(": the gearbox turns a sprocket 20 times a minute at most"));
+  base_.answers.beginError();
+  base_.out << FLASH("$68 must be at most ");
+  base_.out.fixed(Planner::mostChainSpeed(base_.values), 0);
+  base_.out.line(FLASH(": the gearbox turns a sprocket 20 times a minute at most"));
   return false;
 }
 

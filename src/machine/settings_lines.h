@@ -1,24 +1,29 @@
 // Lines with a `$` that show or set a value.
 #pragma once
 
-#include "answers.h"
+#include "coordinates.h"
+#include "greeting.h"
 #include "new_values.h"
-#include "waiting.h"
+#include "spindle.h"
 
 namespace machine {
 
 /// `$$` and `$n=value`.
 class SettingsLines {
  public:
-  SettingsLines(settings::Memory& memory, const settings::Values& values, NewValues& new_values,
-                Printer& out, Answers& answers, Waiting& waiting)
-      : memory_(memory),
-        values_(values),
+  SettingsLines(Basis& basis, Greeting& greeting, SledPlace& place, Spindle& spindle,
+                NewValues& new_values, Coordinates& coordinates)
+      : base_(basis),
+        greeting_(greeting),
+        place_(place),
+        spindle_(spindle),
         new_values_(new_values),
-        out_(out),
-        answers_(answers),
-        waiting_(waiting) {}
+        coordinates_(coordinates) {}
 
+  /// Does a line that begins with `$`, for a client of Maslow's.
+  bool run(const char* line);
+  /// `$RST=` and a letter.
+  bool reset(const char* what);
   /// Says all listed settings, a line each.
   void dump();
   /// Takes the text behind the `$`: a number, `=`, a value.
@@ -33,17 +38,18 @@ class SettingsLines {
   enum : uint16_t { kFirstForGrbl = 1000 };
 
   /// `$n=value` behind the `$`; false, with a refusal, if it is none.
+  void restoreDefaults(settings::Reset what);
   bool read(const char* text, float& number, float& value);
   void dumpFrom(uint16_t first);
   bool setValue(uint8_t number, float value, uint16_t first);
   bool refuseChainSpeed();
 
-  settings::Memory& memory_;
-  const settings::Values& values_;
+  Basis& base_;
+  Greeting& greeting_;
+  SledPlace& place_;
+  Spindle& spindle_;
   NewValues& new_values_;
-  Printer& out_;
-  Answers& answers_;
-  Waiting& waiting_;
+  Coordinates& coordinates_;
 };
 
 }  // namespace machine

@@ -1,40 +1,27 @@
 // Moves of a single axis by its length: calibration, chains by hand, the probe.
 #pragma once
 
-#include "answers.h"
 #include "motion_door.h"
 #include "motor_power.h"
-#include "sled_place.h"
-#include "waiting.h"
+#include "reports.h"
 #include "z_axis.h"
 
 namespace machine {
 
-/// B02, B06, B08 to B10, B15 and G38.2.
+/// B02, B06, B08 to B10, B15 and G38.2 to G38.5.
 class SingleAxis {
  public:
-  SingleAxis(const settings::Values& values, const Geometry& geometry, Axes& axes, Planner& mover,
-             MotorPower& motors, SledPlace& place, ZAxis& z, MotionDoor& door, Aux& aux,
-             const gcode::Modal& modal, Printer& out, Answers& answers, Waiting& waiting)
-      : values_(values),
-        geometry_(geometry),
-        axes_(axes),
-        planner_(mover),
-        motors_(motors),
-        place_(place),
-        z_(z),
-        door_(door),
-        aux_(aux),
-        modal_(modal),
-        out_(out),
-        answers_(answers),
-        waiting_(waiting) {}
+  SingleAxis(Basis& basis, Reports& reports, MotorPower& motors, SledPlace& place, ZAxis& z,
+             MotionDoor& door)
+      : base_(basis), reports_(reports), motors_(motors), place_(place), z_(z), door_(door) {}
 
   /// [mm] Whether a chain or z can be that long.
   static bool isLength(float value) { return float(fabs(value)) <= kMostTravel; }
 
   /// B02: pays out a chain to the length for hooking the sled on.
   bool measureOut(Axis axis);
+  /// Refuses lengths of chains [mm] that would put the sled far off the sheet.
+  bool mayHang(float left, float right);
   /// B06: declares the lengths of the chains [mm].
   bool setChains(float left, float right);
   /// B08: declares that the chains are at their marks.
@@ -45,26 +32,27 @@ class SingleAxis {
   bool goHome();
   /// B10.
   bool measureChain(bool left);
-  /// G38.2: z goes down until the probe touches; there z becomes zero.
-  bool probe(float target);
+  /// G38.2 to G38.5: z goes on until the probe touches, or, away from it, until it lets go. There z
+  /// becomes zero, but keeps its height for a sender of Grbl, which counts from there. False,
+  /// with a refusal, also where it goes to the end though it must not.
+  bool probe(float target, bool until_touch, bool must);
+  /// Says where the last probe ended, for a sender of Grbl.
+  void sayProbed();
 
  private:
-  bool move(Axis axis, float goal, float feed, bool until_probe = false);
+  /// What ends a move before its goal.
+  enum class Until : uint8_t { kGoal, kTouch, kLetGo };
+  bool move(Axis axis, float goal, float feed, Until until = Until::kGoal);
   void sayProbing(float target, float feed);
 
-  const settings::Values& values_;
-  const Geometry& geometry_;
-  Axes& axes_;
-  Planner& planner_;
+  Basis& base_;
+  Reports& reports_;
   MotorPower& motors_;
   SledPlace& place_;
   ZAxis& z_;
   MotionDoor& door_;
-  Aux& aux_;
-  const gcode::Modal& modal_;
-  Printer& out_;
-  Answers& answers_;
-  Waiting& waiting_;
+  Place probed_ = {0, 0, 0};
+  bool has_probed_ = false;
 };
 
 }  // namespace machine

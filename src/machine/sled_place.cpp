@@ -27,18 +27,18 @@ FlashText textOf(settings::Doubt why) {
 }  // namespace
 
 FoundPlace SledPlace::byChains(float left, float right) const {
-  return geometry_.forward(left, right, {sled_.x, sled_.y});
+  return base_.geometry.forward(left, right, {sled_.x, sled_.y});
 }
 
 void SledPlace::say() const {
-  out_.line(FLASH("position loaded at:"));
-  out_.fixed(modal_.fromMm(sled_.x), 2).end();
-  out_.fixed(modal_.fromMm(sled_.y), 2).end();
+  base_.out.line(FLASH("position loaded at:"));
+  base_.out.fixed(base_.modal.fromMm(sled_.x), 2).end();
+  base_.out.fixed(base_.modal.fromMm(sled_.y), 2).end();
 }
 
 void SledPlace::sayLengths() const {
-  out_.fixed(axes_.length(kLeftAxis), 2) << FLASH(", ");
-  out_.fixed(axes_.length(kRightAxis), 2);
+  base_.out.fixed(base_.axes.length(kLeftAxis), 2) << FLASH(", ");
+  base_.out.fixed(base_.axes.length(kRightAxis), 2);
 }
 
 bool SledPlace::isSaid(Search why) {
@@ -55,14 +55,14 @@ bool SledPlace::isSaid(Search why) {
 }
 
 bool SledPlace::search(Search why) {
-  const bool is_said = isSaid(why) && keeper_.trustsChains();
+  const bool is_said = isSaid(why) && base_.keeper.trustsChains();
   if (is_said) moved_by_ = 0;
   // A sender of Grbl reads the place from the status.
-  const bool is_shown = is_said && !out_.speaksGrbl();
-  if (is_shown) out_.line(FLASH("[Forward Calculating Position]"));
-  const FoundPlace found = byChains(axes_.length(kLeftAxis), axes_.length(kRightAxis));
+  const bool is_shown = is_said && !base_.out.speaksGrbl();
+  if (is_shown) base_.out.line(FLASH("[Forward Calculating Position]"));
+  const FoundPlace found = byChains(base_.axes.length(kLeftAxis), base_.axes.length(kRightAxis));
   hangs_ = found.found;
-  axes_.standStill();
+  base_.axes.standStill();
   sled_.x = hangs_ ? found.at.x : 0;
   sled_.y = hangs_ ? found.at.y : 0;
   standHere();
@@ -72,30 +72,31 @@ bool SledPlace::search(Search why) {
 }
 
 void SledPlace::standHere() {
-  sled_.z = axes_.length(kZAxis);
-  program_.beginAt(sled_);
-  planner_.standAt(axes_.setPoint());
+  sled_.z = base_.axes.length(kZAxis);
+  base_.program.beginAt(sled_);
+  base_.planner.standAt(base_.axes.setPoint());
 }
 
 void SledPlace::declareZ(float z) {
-  axes_.declare(kZAxis, z);
-  program_.beginAtZ(z);
-  planner_.standAt(axes_.setPoint());
-  keeper_.declareZ();
+  base_.axes.declare(kZAxis, z);
+  base_.program.beginAtZ(z);
+  base_.planner.standAt(base_.axes.setPoint());
+  base_.keeper.declareZ();
 }
 
 void SledPlace::sayNowhere() {
-  out_ << FLASH("Message: Unable to find valid machine position for chain lengths ");
+  base_.out << FLASH("Message: Unable to find valid machine position for chain lengths ");
   sayLengths();
-  out_.line(FLASH(" . Please set the chains to a known length (Actions -> Set Chain Lengths)"));
+  base_.out.line(
+      FLASH(" . Please set the chains to a known length (Actions -> Set Chain Lengths)"));
 }
 
 void SledPlace::restore(const settings::Started& started) {
   using settings::Known;
   const settings::Position& kept = started.position;
   const bool is_kept = started.known != Known::kNothing;
-  axes_.setCounts(is_kept ? kept.left : 0, is_kept ? kept.right : 0, is_kept ? kept.z : 0);
-  keeper_.begin(started.known);
+  base_.axes.setCounts(is_kept ? kept.left : 0, is_kept ? kept.right : 0, is_kept ? kept.z : 0);
+  base_.keeper.begin(started.known);
   switch (started.known) {
     case Known::kNothing:
       search(Search::kStart);
@@ -103,13 +104,13 @@ void SledPlace::restore(const settings::Started& started) {
     case Known::kMoving:
       return lose(settings::Doubt::kMoving);
     case Known::kDoubted:
-      return lose(memory_.doubted());
+      return lose(base_.memory.doubted());
     case Known::kAtRest:
       break;
   }
   const bool is_found = search(Search::kStart);
   using settings::Agreement;
-  const Agreement agreement = settings::compare(kept, memory_.scale(), sled_.x, sled_.y);
+  const Agreement agreement = settings::compare(kept, base_.memory.scale(), sled_.x, sled_.y);
   if (agreement == Agreement::kScaleChanged)
     lose(settings::Doubt::kScale);
   else if (is_found && agreement == Agreement::kPlaceDiffers)
@@ -117,27 +118,27 @@ void SledPlace::restore(const settings::Started& started) {
 }
 
 void SledPlace::sayUnset(bool has_defaults) {
-  if (has_defaults) out_ << FLASH("Settings are the defaults. ");
-  out_.line(
+  if (has_defaults) base_.out << FLASH("Settings are the defaults. ");
+  base_.out.line(
       FLASH("Chain lengths are not known yet: send your settings, then set the chains "
             "(Actions -> Set Chain Lengths, or B06 L R)."));
 }
 
 void SledPlace::lose(settings::Doubt why) {
-  keeper_.doubtChains(why);
-  axes_.standStill();
+  base_.keeper.doubtChains(why);
+  base_.axes.standStill();
   // Else the next move of z would start from chains of no length.
   standHere();
   // WebControl looks for the first two words.
-  out_.alarm(grbl::kAlarmOfFault) << FLASH("Position Lost. ") << textOf(why)
-                                  << FLASH(" Last known chain lengths: ");
+  base_.out.alarm(grbl::kAlarmOfFault)
+      << FLASH("Position Lost. ") << textOf(why) << FLASH(" Last known chain lengths: ");
   sayLengths();
-  out_.line(FLASH(" mm. Set them (B06 L R), or set the chains to their marks (B08)."));
+  base_.out.line(FLASH(" mm. Set them (B06 L R), or set the chains to their marks (B08)."));
 }
 
 void SledPlace::doubtCounts() {
   for (uint8_t i = 0; i < kAxisCount; ++i)
-    if (axes_.isDisproved(Axis(i))) keeper_.doubt(Axis(i), settings::Doubt::kCounts);
+    if (base_.axes.isDisproved(Axis(i))) base_.keeper.doubt(Axis(i), settings::Doubt::kCounts);
 }
 
 FlashText SledPlace::whatIsLost() const {
@@ -154,10 +155,10 @@ FlashText SledPlace::whatIsLost() const {
 void SledPlace::followPulledChains() {
   if (farthestOff() <= kMovedByHand) return;
   const bool begins = moved_by_ == 0;
-  if (begins) left_at_ = program_.aim();
+  if (begins) left_at_ = base_.program.aim();
   search(Search::kPulled);
   if (!isKnown()) return;
-  if (begins) out_.line(FLASH("The sled moves while its motors are off."));
+  if (begins) base_.out.line(FLASH("The sled moves while its motors are off."));
   const float x = sled_.x - left_at_.x, y = sled_.y - left_at_.y, z = sled_.z - left_at_.z;
   moved_by_ = float(sqrt(x * x + y * y + z * z));
 }
@@ -165,7 +166,7 @@ void SledPlace::followPulledChains() {
 float SledPlace::farthestOff() const {
   float farthest = 0;
   for (uint8_t i = 0; i < kAxisCount; ++i) {
-    const float off = float(fabs(axes_.error(Axis(i))));
+    const float off = float(fabs(base_.axes.error(Axis(i))));
     if (off > farthest) farthest = off;
   }
   return farthest;
@@ -174,29 +175,29 @@ float SledPlace::farthestOff() const {
 void SledPlace::keepWhenAtRest(uint32_t now_ms) {
   // A motor may have run on, somebody may pull a chain, a heavy sled may sink: what is reported,
   // and where the next move begins, is where the sled is.
-  if (keeper_.isReleased()) followPulledChains();
-  if (!keeper_.isDue(now_ms)) return;
+  if (base_.keeper.isReleased()) followPulledChains();
+  if (!base_.keeper.isDue(now_ms)) return;
   settings::Position position;
-  position.left = axes_.counts(kLeftAxis);
-  position.right = axes_.counts(kRightAxis);
-  position.z = axes_.counts(kZAxis);
+  position.left = base_.axes.counts(kLeftAxis);
+  position.right = base_.axes.counts(kRightAxis);
+  position.z = base_.axes.counts(kZAxis);
   // The record's place follows from the measured chains, not from the command: the next start
   // compares it with the chains.
-  const FoundPlace found = byChains(axes_.length(kLeftAxis), axes_.length(kRightAxis));
+  const FoundPlace found = byChains(base_.axes.length(kLeftAxis), base_.axes.length(kRightAxis));
   position.x = found.at.x;
   position.y = found.at.y;
   position.has_place = found.found;
-  keeper_.keep(position);
+  base_.keeper.keep(position);
 }
 
 Place SledPlace::now(bool is_moving) {
-  sled_.z = axes_.length(kZAxis);
+  sled_.z = base_.axes.length(kZAxis);
   if (!is_moving || !isKnown()) {
-    sled_.x = program_.aim().x;
-    sled_.y = program_.aim().y;
+    sled_.x = base_.program.aim().x;
+    sled_.y = base_.program.aim().y;
     return sled_;
   }
-  const SetPoint point = axes_.setPoint();
+  const SetPoint point = base_.axes.setPoint();
   // A search that begins at its last result may end a digit next to it.
   if (point.left == shown_left_ && point.right == shown_right_) return sled_;
   const FoundPlace found =

@@ -1,13 +1,7 @@
 // Where the sled is: worked out from the chains, stored for power cuts, reported when it is lost.
 #pragma once
 
-#include <GCode.h>
-
-#include "geometry.h"
-#include "planner.h"
-#include "position_keeper.h"
-#include "printer.h"
-#include "program_place.h"
+#include "basis.h"
 
 namespace machine {
 
@@ -36,25 +30,15 @@ enum class Search : uint8_t {
 /// why it is lost. Where the program is follows: see ProgramPlace.
 class SledPlace {
  public:
-  SledPlace(Printer& out, Axes& axes, const Geometry& geometry, Planner& mover,
-            PositionKeeper& keeper, settings::Memory& memory, const gcode::Modal& modal,
-            ProgramPlace& program)
-      : out_(out),
-        axes_(axes),
-        geometry_(geometry),
-        planner_(mover),
-        keeper_(keeper),
-        memory_(memory),
-        modal_(modal),
-        program_(program) {}
+  explicit SledPlace(Basis& basis) : base_(basis) {}
 
   Whereabouts whereabouts() const {
-    if (!keeper_.trustsChains()) return Whereabouts::kLost;
+    if (!base_.keeper.trustsChains()) return Whereabouts::kLost;
     return hangs_ ? Whereabouts::kFound : Whereabouts::kNowhere;
   }
   bool isKnown() const { return whereabouts() == Whereabouts::kFound; }
   /// Whether nothing has proved the chains or z wrong since they were declared.
-  bool isTrusted() const { return keeper_.trustsAll(); }
+  bool isTrusted() const { return base_.keeper.trustsAll(); }
 
   /// Works out the place from the measured chains; all moves begin there. If the reason is one to
   /// say it and the chains are trusted, says it, and from now on the sled belongs there. Returns
@@ -65,13 +49,14 @@ class SledPlace {
   /// Declares that the tool is at this z [mm].
   void declareZ(float z);
   /// Somebody said how long both chains are.
-  void trustChains() { keeper_.declareChains(); }
+  void trustChains() { base_.keeper.declareChains(); }
   /// Lengths stay, but now counts mean other lengths, or the chains mean another place.
-  void reconsider() { keeper_.reconsider(); }
+  void reconsider() { base_.keeper.reconsider(); }
   /// Whether the lengths of both chains can be trusted.
-  bool trustsChains() const { return keeper_.trustsChains(); }
+  bool trustsChains() const { return base_.keeper.trustsChains(); }
+  bool trustsZ() const { return base_.keeper.trusts(kZAxis); }
   /// Somebody said where z is; nothing else changes.
-  void trustZ() { keeper_.declareZ(); }
+  void trustZ() { base_.keeper.declareZ(); }
 
   /// At the start: takes over the stored position.
   void restore(const settings::Started& started);
@@ -80,7 +65,7 @@ class SledPlace {
   void lose(settings::Doubt why);
   /// Takes over which axes' counts were proved wrong.
   void doubtCounts();
-  void doubt(Axis axis, settings::Doubt why) { keeper_.doubt(axis, why); }
+  void doubt(Axis axis, settings::Doubt why) { base_.keeper.doubt(axis, why); }
   /// What must be set before the sled can cross the sheet.
   FlashText whatIsLost() const;
   /// Stores the position once everything rests; to be called often.
@@ -102,14 +87,7 @@ class SledPlace {
   void followPulledChains();
   FoundPlace byChains(float left, float right) const;
 
-  Printer& out_;
-  Axes& axes_;
-  const Geometry& geometry_;
-  Planner& planner_;
-  PositionKeeper& keeper_;
-  settings::Memory& memory_;
-  const gcode::Modal& modal_;
-  ProgramPlace& program_;
+  Basis& base_;
   Place sled_ = {0, 0, 0};  ///< where the tool was at the last search or call of now()
   int32_t shown_left_ = 0, shown_right_ = 0;  ///< set-points of `sled_` while it moves [counts]
   Place left_at_ = {0, 0, 0};                 ///< where the motors left the tool

@@ -14,36 +14,37 @@ bool Spindle::turnServo(uint8_t angle) {
   const uint8_t angles[] = {kIdleAngle, angle, kIdleAngle};
   bool completed = true;
   for (uint8_t i = 0; i < 3 && completed; ++i) {
-    aux_.turnServo(angles[i]);
-    completed = waiting_.waitFor(kServoMs);
+    base_.aux.turnServo(angles[i]);
+    completed = base_.waiting.waitFor(kServoMs);
   }
-  aux_.turnServo(kNoServo);
+  base_.aux.turnServo(kNoServo);
   return completed;
 }
 
 bool Spindle::turn(bool on) {
-  const SpindleKind kind = cutter_.kind();
+  const SpindleKind kind = base_.cutter.kind();
   if (kind == SpindleKind::kNone) return true;
-  out_.line(on ? FLASH("Turning Spindle On") : FLASH("Turning Spindle Off"));
-  cutter_.setSpindle(on);
+  base_.out.line(on ? FLASH("Turning Spindle On") : FLASH("Turning Spindle Off"));
+  base_.cutter.setSpindle(on);
   if (kind == SpindleKind::kServo && !turnServo(on ? kOnAngle : kOffAngle)) return false;
-  return waiting_.waitFor(kSwitchedMs);
+  return base_.waiting.waitFor(kSwitchedMs);
 }
 
 bool Spindle::takeS(const gcode::Words& words) {
   if (!words.has('S')) return true;
   const float s = words.value('S');
   // Moves before the S word are made at the old speed.
-  if (cutter_.changesSpeed(s) && !waiting_.drain()) return false;
-  cutter_.takeS(s);
+  if (base_.cutter.changesSpeed(s) && !base_.waiting.drain()) return false;
+  base_.cutter.takeS(s);
   return true;
 }
 
 void Spindle::switchLaser(bool on) {
-  const bool changes = cutter_.isArmed() != on;
-  cutter_.arm(on);
+  const bool changes = base_.cutter.isArmed() != on;
+  base_.cutter.arm(on);
   // Maslow clients hear it at each stop.
-  if (changes || !out_.speaksGrbl()) out_.line(on ? FLASH("Laser on") : FLASH("Laser off"));
+  if (changes || !base_.out.speaksGrbl())
+    base_.out.line(on ? FLASH("Laser on") : FLASH("Laser off"));
 }
 
 }  // namespace machine

@@ -2,8 +2,6 @@
 #pragma once
 
 #include "board_watch.h"
-#include "planner.h"
-#include "printer.h"
 #include "sled_place.h"
 
 namespace machine {
@@ -11,18 +9,8 @@ namespace machine {
 /// Watches the board and reports on it.
 class Telemetry {
  public:
-  Telemetry(Drives& drives, Aux& aux, Clock& clock, Axes& axes, Planner& mover, SledPlace& place,
-            settings::Memory& memory, const settings::Values& values, Printer& out, Start start)
-      : drives_(drives),
-        aux_(aux),
-        clock_(clock),
-        axes_(axes),
-        planner_(mover),
-        place_(place),
-        memory_(memory),
-        values_(values),
-        out_(out),
-        start_(start) {}
+  Telemetry(Basis& basis, SledPlace& place, Start start)
+      : base_(basis), place_(place), start_(start) {}
 
   /// At the start: stores why the firmware started, unless the start was usual.
   void noteStart();
@@ -39,15 +27,8 @@ class Telemetry {
   void tellSlips();
   FlashText lastEvent() const;
 
-  Drives& drives_;
-  Aux& aux_;
-  Clock& clock_;
-  Axes& axes_;
-  Planner& planner_;
+  Basis& base_;
   SledPlace& place_;
-  settings::Memory& memory_;
-  const settings::Values& values_;
-  Printer& out_;
   BoardWatch watch_;
   uint32_t looked_ms_ = 0;
   Start start_;

@@ -2,65 +2,67 @@
 #include "z_axis.h"
 
 namespace machine {
-float ZAxis::mostFeed() const { return values_.at(kZSpeed) * float(fabs(values_.at(kZPerTurn))); }
+float ZAxis::mostFeed() const {
+  return base_.values.at(kZSpeed) * float(fabs(base_.values.at(kZPerTurn)));
+}
 
 float ZAxis::within(float z) const {
-  const float high = values_.at(kZUpperLimit), low = values_.at(kZLowerLimit);
+  const float high = base_.values.at(kZUpperLimit), low = base_.values.at(kZLowerLimit);
   if (!reaches(z)) return z;
   if (z > high) return high;
   return z < low ? low : z;
 }
 
 bool ZAxis::setLimit(bool upper) {
-  const float z = axes_.length(kZAxis);
-  const settings::Refusal refusal = memory_.setRow(upper ? kZUpperLimit : kZLowerLimit, z);
+  const float z = base_.axes.length(kZAxis);
+  const settings::Refusal refusal = base_.memory.setRow(upper ? kZUpperLimit : kZLowerLimit, z);
   if (refusal != settings::Refusal::kNone)
-    return answers_.refuse(FLASH("that is no z at which a limit can be"));
-  out_ << (upper ? FLASH("Upper") : FLASH("Lower")) << FLASH(" limit set to: ");
-  out_.fixed(modal_.fromMm(z), 2).end();
+    return base_.answers.refuse(FLASH("that is no z at which a limit can be"));
+  base_.out << (upper ? FLASH("Upper") : FLASH("Lower")) << FLASH(" limit set to: ");
+  base_.out.fixed(base_.modal.fromMm(z), 2).end();
   return true;
 }
 
 bool ZAxis::clearLimits() {
-  memory_.setRow(kZUpperLimit, kMostZ);
-  memory_.setRow(kZLowerLimit, -kMostZ);
-  out_.line(FLASH("Z Axis Limits Cleared"));
+  base_.memory.setRow(kZUpperLimit, kMostZ);
+  base_.memory.setRow(kZLowerLimit, -kMostZ);
+  base_.out.line(FLASH("Z Axis Limits Cleared"));
   return true;
 }
 
 void ZAxis::sayLimit(float limit) {
   if (float(fabs(limit)) >= kMostZ)
-    out_ << FLASH("NAN");
+    base_.out << FLASH("NAN");
   else
-    out_.fixed(modal_.fromMm(limit), 2);
+    base_.out.fixed(base_.modal.fromMm(limit), 2);
 }
 
 bool ZAxis::showLimits() {
-  out_ << FLASH("Z Axis Upper Limit: ");
-  sayLimit(values_.at(kZUpperLimit));
-  out_ << FLASH(" Lower Limit: ");
-  sayLimit(values_.at(kZLowerLimit));
-  out_.end();
+  base_.out << FLASH("Z Axis Upper Limit: ");
+  sayLimit(base_.values.at(kZUpperLimit));
+  base_.out << FLASH(" Lower Limit: ");
+  sayLimit(base_.values.at(kZLowerLimit));
+  base_.out.end();
   return true;
 }
 
 void ZAxis::declare(float z) {
-  const float shift = z - axes_.length(kZAxis);
+  const float shift = z - base_.axes.length(kZAxis);
   place_.declareZ(z);
   shiftLimits(shift);
 }
 
 void ZAxis::declareInHold(float z) {
-  const float shift = z - axes_.length(kZAxis);
-  axes_.declareLifted(z);
+  const float shift = z - base_.axes.length(kZAxis);
+  base_.axes.declareLifted(z);
   place_.trustZ();
   shiftLimits(shift);
 }
 
 void ZAxis::shiftLimits(float shift) {
-  const float high = values_.at(kZUpperLimit), low = values_.at(kZLowerLimit);
-  if (high < kMostZ) memory_.setRow(kZUpperLimit, high + shift);
-  if (low > -kMostZ) memory_.setRow(kZLowerLimit, low + shift);
+  const float high = base_.values.at(kZUpperLimit), low = base_.values.at(kZLowerLimit);
+  if (high < kMostZ) base_.memory.setRow(kZUpperLimit, high + shift);
+  if (low > -kMostZ) base_.memory.setRow(kZLowerLimit, low + shift);
 }
 
 }  // namespace machine

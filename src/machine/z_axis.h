@@ -3,7 +3,6 @@
 
 #include <math.h>
 
-#include "answers.h"
 #include "sled_place.h"
 
 namespace machine {
@@ -14,19 +13,11 @@ const float kMostZ = 10000;
 /// Limits are in machine coordinates; they shift when z is declared.
 class ZAxis {
  public:
-  ZAxis(settings::Memory& memory, const settings::Values& values, Axes& axes, SledPlace& place,
-        const gcode::Modal& modal, Printer& out, Answers& answers)
-      : memory_(memory),
-        values_(values),
-        axes_(axes),
-        place_(place),
-        modal_(modal),
-        out_(out),
-        answers_(answers) {}
+  ZAxis(Basis& basis, SledPlace& place) : base_(basis), place_(place) {}
 
-  bool hasMotor() const { return values_.at(kZMotor) != 0; }
-  float mostFeed() const;                                            ///< [mm/min]
-  float acceleration() const { return values_.at(kAccelerationZ); }  ///< [mm/s^2]
+  bool hasMotor() const { return base_.values.at(kZMotor) != 0; }
+  float mostFeed() const;                                                 ///< [mm/min]
+  float acceleration() const { return base_.values.at(kAccelerationZ); }  ///< [mm/s^2]
   /// [mm] z limited to the allowed range. A z that no axis reaches stays, to be refused.
   float within(float z) const;
   /// Whether an axis reaches that z [mm].
@@ -43,13 +34,8 @@ class ZAxis {
   void sayLimit(float limit);
   void shiftLimits(float shift);
 
-  settings::Memory& memory_;
-  const settings::Values& values_;
-  Axes& axes_;
+  Basis& base_;
   SledPlace& place_;
-  const gcode::Modal& modal_;
-  Printer& out_;
-  Answers& answers_;
 };
 
 }  // namespace machine

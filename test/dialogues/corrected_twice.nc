@@ -67,7 +67,7 @@
 <- FAKE_SERVO off
 <- Corrected twice: the machine adds $37 to $160. Set one of each pair to 0, in your client too.
 <- Plumb v*
-<- ready
+<* ready
 <- ok
 <- [Forward Calculating Position]
 <- position loaded at:

@@ -73,8 +73,8 @@
 <- error: this machine does no G52
 -> G68 R45
 <- error: this machine does no G68
--> G38.3 Z-5
-<- error: this machine does no G38.3
+-> G38.6 Z-5
+<- error: this machine does no G38.6
 -> G123
 <- error: this machine does no G123
 -> M98 P1000

@@ -35,3 +35,16 @@
 <- ok
 ~~ wait 1
 ~~ sled X0 Y0 within 0.06
+; At a slower feed a move of z ends too, and the next one begins.
+-> $18=18
+<- ok
+>> ^2
+<- [Feed: 90 %]
+-> G1 Z-1 F90
+<- ok
+-> G0 Z1
+<- ok
+-> G4 P0
+<- dwell time*
+<- ok within 6
+~~ z 1 within 0.05

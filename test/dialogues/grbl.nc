@@ -43,9 +43,19 @@
 -> $H
 <- [MSG:no switches to search for.*
 <- error:5
+; What Grbl has and this machine has not, and what neither has.
+-> $SLP
+<- [MSG:Invalid statement]
+<- error:3
 -> $Q
 <- [MSG:Invalid statement]
 <- error:3
+; A dwell is in seconds.
+~~ answers from now
+-> G4 P2
+~~ wait 1.9
+~~ answers 0
+<* ok within 0.3
 ; A move: the state, the feed, the place, and where the work begins.
 -> G92 X10 Y5
 <- ok
@@ -114,7 +124,7 @@
 <- [MSG:Halted at G0 X99999: *
 <- ALARM:2
 -> $J=X5F100
-<- error:9
+<- error:8
 >> ^X
 <* Grbl 1.1h ['$' for help]
 -> G98

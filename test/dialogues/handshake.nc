@@ -7,7 +7,7 @@
 <- soft reset commanded
 <- PCB v1.2 Detected
 <- Plumb v*
-<- ready
+<* ready
 <- ok
 <- Laser off
 -> $$ 

@@ -1,6 +1,7 @@
 // Counts the answers that the machine owes the computer, and checks each line that it sends.
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 /// What clients rely on: an answer for each line and each quick character, but none for a line that

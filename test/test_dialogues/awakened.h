@@ -1,6 +1,7 @@
 // What a machine says and knows when power comes back, for a given EEPROM.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 

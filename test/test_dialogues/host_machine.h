@@ -7,11 +7,18 @@
 #include "brain/host_brain.h"
 #include "player.h"
 
+/// The machine of dialogues with motors drawn by a seed; 0: nominal motors.
+inline world::Parts withMotors(unsigned seed) {
+  world::Parts parts = partsOfDialogues();
+  parts.seed = seed;
+  return parts;
+}
+
 /// A machine with chains of `paid_out` [mm].
 struct HostMachine {
   explicit HostMachine(std::vector<Step> steps, double paid_out = 1651,
-                       const machine::BoardName& board = {2, ""})
-      : world(partsOfDialogues(), paid_out),
+                       const machine::BoardName& board = {2, ""}, unsigned motors = 0)
+      : world(withMotors(motors), paid_out),
         brain(world, board),
         player(std::move(steps), world, brain) {}
 

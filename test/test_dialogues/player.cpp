@@ -15,11 +15,12 @@ bool startsWith(const std::string& text, const std::string& start) {
   return text.compare(0, start.size(), start) == 0;
 }
 
-/// What ^ and a letter stand for: ^X ctrl-X, ^N a line's end, ^H hold, ^J the end of a jog, ^0 to
-/// ^9 and ^A to ^D the overrides.
+/// What ^ and a letter stand for: ^X ctrl-X, ^N a line's end, ^M a return, ^H hold, ^J the end of a
+/// jog, ^0 to ^9 and ^A to ^D the overrides.
 char specialNamed(char name) {
   if (name >= '0' && name <= '9') return char(0x90 + (name - '0'));
   if (name >= 'A' && name <= 'D') return char(0x9a + (name - 'A'));
+  if (name == 'M') return '\r';
   return name == 'X' ? '\x18' : name == 'H' ? '\x84' : name == 'J' ? '\x85' : '\n';
 }
 

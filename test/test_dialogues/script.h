@@ -10,8 +10,8 @@
 struct Step {
   enum Kind {
     kSend,     ///< `-> text`: a line with its end
-    kSendRaw,  ///< `>> text`: characters alone; ^X is ctrl-X, ^N a line end, ^H 0x84, ^0 to ^4 0x90
-               ///< to 0x94, ^J 0x85, ^5 to ^9 0x95 to 0x99, ^A to ^D 0x9A to 0x9D
+    kSendRaw,  ///< `>> text`: characters alone; ^X is ctrl-X, ^N a line end, ^M CR, ^H 0x84, ^0 to
+               ///< ^4 0x90 to 0x94, ^J 0x85, ^5 to ^9 0x95 to 0x99, ^A to ^D 0x9A to 0x9D
     kExpect,   ///< `<- text [within t]`: the next line, reports aside
     kSkipTo,   ///< `<* text [within t]`: some later line; those before are passed over
     kAsk,      ///< `~~ question`: of the simulated machine

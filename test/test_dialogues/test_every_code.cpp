@@ -45,7 +45,10 @@ std::string wordsFor(int tenths) {
     case 301:
       return "";
     case 382:
+    case 383:
       return " Z-1";
+    case 384:
+    case 385:
     case 431:
       return " Z0";
     case 810:
@@ -57,6 +60,11 @@ std::string wordsFor(int tenths) {
     default:
       return " X0";
   }
+}
+
+/// The height [mm] at which the probe touches, for a code that goes on until it does or lets go.
+std::string probeFor(int tenths) {
+  return tenths == 383 ? "-1000" : tenths == 384 ? "-1.2" : tenths == 385 ? "1000" : "-0.5";
 }
 
 /// Codes that do not affect the next line.
@@ -89,7 +97,6 @@ TEST(EveryGCode, OutsideTheTableIsRefusedWithItsPlace) {
 
 TEST(EveryGCode, OfTheTableIsDone) {
   std::vector<Step> steps = readScript("test/dialogues", "setup.inc");
-  push(steps, Step::kAsk, "probe -0.5");
   push(steps, Step::kSend, "$70=1");
   push(steps, Step::kExpect, "ok");
   push(steps, Step::kSend, "G28.1 G30.1");
@@ -97,6 +104,7 @@ TEST(EveryGCode, OfTheTableIsDone) {
   for (const int tenths : doneCodes()) {
     push(steps, Step::kSend, kTidyUp);
     push(steps, Step::kExpect, "ok");
+    push(steps, Step::kAsk, "probe " + probeFor(tenths));
     push(steps, Step::kAsk, "answers from now");
     push(steps, Step::kSend, nameOf(tenths) + (tenths == 800 ? "" : wordsFor(tenths)));
     push(steps, Step::kSkipTo, "ok");
@@ -113,8 +121,9 @@ TEST(EveryModeCode, LeavesAPlaceOnItsLineToTheMotionInForce) {
   for (const int tenths : doneCodes()) {
     // Motion, cycles, and codes that take the place words.
     const bool takes_place = tenths < 50 || tenths == 100 || (tenths >= 280 && tenths <= 301) ||
-                             tenths == 382 || tenths == 431 || (tenths >= 800 && tenths <= 830) ||
-                             tenths == 910 || tenths == 200 || tenths == 920;
+                             (tenths >= 382 && tenths <= 385) || tenths == 431 ||
+                             (tenths >= 800 && tenths <= 830) || tenths == 910 || tenths == 200 ||
+                             tenths == 920;
     if (takes_place) continue;
     x = x == 5 ? 0 : 5;
     const std::string place = "X" + std::to_string(x);

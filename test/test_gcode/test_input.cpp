@@ -88,7 +88,7 @@ TEST(Quick, AQuestionMarkAsksForTheStatusOutsideComments) {
 
 TEST(Input, DropsControlCharactersInFrontOfALine) {
   Input input;
-  put(input, std::string("\0\x01\x7f", 2) + "G1 X5\n\x10\rG1 X6\n\x02G1");
+  put(input, std::string("\0\x01\x7f", 2) + "G1 X5\n\x10G1 X6\n\x02G1");
   EXPECT_EQ("G1 X5|G1 X6|", lines(input));
   put(input, "\n\x02G2\n");
   EXPECT_EQ("G1|G2|", lines(input));
@@ -107,34 +107,29 @@ TEST(Input, MakesAControlCharacterInALineAMistakeAsADigitMayHaveBecomeIt) {
   EXPECT_EQ(Fault::kNone, faultOf(line));
 }
 
-TEST(Input, MakesAReturnAMistakeUnlessItIsAtTheEnd) {
+TEST(Input, EndsALineAtAReturnOrALineFeedOrBothOnce) {
   Input input;
-  put(input, "X5\r\nX6\r \r\t\nX\r7 (-)\n");
-  EXPECT_EQ("X5|X6  |X?7 (-)|", lines(input)) << "a minus sign may have become that return";
-  put(input, "X8 (\r) Y8\r");
-  input.clear();
-  put(input, " \nX9\n");
-  EXPECT_EQ("X9|", lines(input));
-  put(input, "X8 (\r) Y8\n");
-  EXPECT_EQ("X8 (?) Y8|", lines(input)) << "the comment's end stays";
+  put(input, "X5\r\nX6\rX7\nX8\r \n\r\n\nX\r7\n");
+  EXPECT_EQ("X5|X6|X7|X8|||X|7|", lines(input)) << "a minus that became a return leaves no number";
+  EXPECT_EQ("!~X", put(input, "!\r\n~\r\n\x18\r\n"));
+  EXPECT_EQ("", lines(input));
 }
 
 TEST(Input, SkipsALineThatAnUnreadableCharacterMakesTooLong) {
   Input input;
-  put(input, std::string(125, 'X') + "\rXX\nG1\n" + std::string(1000, '\x10') + "\n");
+  put(input, std::string(125, 'X') + "\x10XX\nG1\n" + std::string(1000, '\x10') + "\n");
   EXPECT_EQ("(too long)|G1||", lines(input));
   put(input, "X" + std::string(1000, '\x10') + "\n");
   EXPECT_EQ("(too long)|", lines(input));
 }
 
 TEST(Input, DropsWhatIsLeftOfALineThatWasCut) {
-  for (const char* begun :
-       {"G1 X10 ", "G1 X10 (a", "G1 X10 ;a", "G1 X10\r", " ", "(", "G1\nG1 X10 "}) {
+  for (const char* begun : {"G1 X10 ", "G1 X10 (a", "G1 X10 ;a", " ", "(", "G1\nG1 X10 "}) {
     Input input;
     put(input, begun);
     input.clear();
     EXPECT_EQ(kAllFree, input.room());
-    put(input, "Y50 (a) ;b\r F900\nG1 X5\n");
+    put(input, "Y50 (a) ;b F900\nG1 X5\n");
     EXPECT_EQ("G1 X5|", lines(input)) << begun;
   }
   Input input;

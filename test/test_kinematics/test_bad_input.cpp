@@ -105,3 +105,18 @@ TEST(BadInput, FoundPlacesAlwaysGiveTheirChainsBack) {
   EXPECT_GT(found, 500);
   EXPECT_GT(refused, 500);
 }
+
+TEST(BadInput, PlacesAlmostUnderAMotor) {
+  for (double gap = 2400; gap < 2480; gap += 4) {
+    Tried narrow = triedMachines()[0];
+    narrow.motor_gap = gap;
+    const Machine<float> laws = lawsOf<float>(narrow);
+    for (float x = 1150; x < 1240; x += 0.25f)
+      for (const float y : {-600.0f, 0.0f, 600.0f}) {
+        const PaidOut<float> paid = inverse(laws, Point<float>{x, y});
+        if (paid.found != Found::kYes) continue;
+        const float straight = hypotf(x + float(gap) / 2, laws.frame.motor_height - y);
+        EXPECT_NEAR(straight, paid.chains.left, 400) << gap << " " << x << " " << y;
+      }
+  }
+}

@@ -44,7 +44,8 @@ TEST(Course, HoldsWhateverMoves) {
 
 TEST(Course, LetsThePathGoWhereLinesMayMoveItOrQueuedMovesEnd) {
   for (const State state : all<State>())
-    EXPECT_EQ(state == State::kRunning || state == State::kHalted, Course::pathGoesIn(state));
+    EXPECT_EQ(state == State::kRunning || state == State::kJogging || state == State::kHalted,
+              Course::pathGoesIn(state));
 }
 
 TEST(Course, OpensAHaltByNothingButAStop) {
@@ -60,7 +61,9 @@ TEST(Course, RunsAgainOnlyOnceZIsBackOrAllHasStood) {
   for (const State state : all<State>())
     for (const Event event : all<Event>())
       if (Course::after(state, event) == State::kRunning) {
-        EXPECT_TRUE(event == Event::kBack || (event == Event::kStood && state == State::kStopping))
+        const bool has_stood = event == Event::kStood && state < State::kHalted;
+        const bool is_checked = event == Event::kCheck && state == State::kChecking;
+        EXPECT_TRUE(event == Event::kBack || has_stood || is_checked)
             << int(state) << " " << int(event);
       }
 }
@@ -83,6 +86,20 @@ TEST(Course, DoesLinesOfTheOperatorOnlyWhereThePathStands) {
               Course::linesIn(state) == Lines::kQuestions)
         << int(state);
   }
+}
+
+TEST(Course, AsksOneGateForEveryKindOfLine) {
+  for (const State state : all<State>()) {
+    const uint8_t lines = uint8_t(Course::linesIn(state));
+    const bool runs = state == State::kRunning, jogs = state == State::kJogging;
+    const bool checks = state == State::kChecking;
+    EXPECT_EQ(runs || jogs, (lines & kJog) != 0) << int(state);
+    EXPECT_EQ(runs || checks, (lines & kCheck) != 0) << int(state);
+    if (jogs || checks) {
+      EXPECT_EQ(0, lines & (kAct | kSetting)) << int(state);
+    }
+  }
+  EXPECT_FALSE(Course::pathGoesIn(State::kChecking));
 }
 
 TEST(Course, BrakesZOffThePathAndTakesNoEventThatTheTableLacks) {

@@ -7,7 +7,7 @@
 
 using namespace machine;
 
-struct AnswersAlone : Parts {};
+struct AnswersAlone : PartsAtRest {};
 
 TEST_F(AnswersAlone, HaltTheMachineOrSayErrorAsTheSettingAsks) {
   answers.begin("G1X5Y-2");
@@ -34,7 +34,7 @@ TEST_F(AnswersAlone, RefuseWithoutAHalt) {
   EXPECT_FALSE(answers.mustHalt());
 }
 
-struct MotorPowerAlone : Parts {
+struct MotorPowerAlone : PartsAtRest {
   /// As after a rest: the EEPROM holds a record that motion makes invalid.
   void keepRecord() {
     memory.keepPosition(settings::Position{});
@@ -128,7 +128,7 @@ TEST_F(MotorPowerAlone, WaitsForTheRecordForASecondWheneverThatIs) {
   EXPECT_NEAR(1000, waiting.rounds - before, 2);
 }
 
-struct ZAxisAlone : Parts {};
+struct ZAxisAlone : PartsAtRest {};
 
 TEST_F(ZAxisAlone, KeepsItsLimitsWithTheMachineWhenZIsDeclared) {
   z.declare(5);
@@ -150,7 +150,7 @@ TEST_F(ZAxisAlone, KeepsItsLimitsWithTheMachineWhenZIsDeclared) {
   EXPECT_NEAR(12.6 * 3.17, z.mostFeed(), 1e-3);
 }
 
-struct SpindleAlone : Parts {};
+struct SpindleAlone : PartsAtRest {};
 
 TEST_F(SpindleAlone, IsWaitedForAndItsServoIsTurnedBack) {
   EXPECT_TRUE(spindle.turn(true));
@@ -176,7 +176,7 @@ TEST_F(SpindleAlone, ChangesItsSpeedAfterTheMovesBefore) {
   EXPECT_FALSE(waiting.isMoving());
 }
 
-struct NewValuesAlone : Parts {};
+struct NewValuesAlone : PartsAtRest {};
 
 TEST_F(NewValuesAlone, WaitForQuietBeforeThePlaceIsSaid) {
   new_values.take(settings::kGeometry);
@@ -201,7 +201,7 @@ TEST_F(NewValuesAlone, LookForThePlaceBeforeAMove) {
   EXPECT_NEAR(10, program.aim().x, 0.01);
 }
 
-struct OperatorAlone : Parts {
+struct OperatorAlone : PartsAtRest {
   void send(const std::string& text) {
     for (const char c : text) operator_lines.inputFor(c).put(c);
   }
@@ -326,10 +326,10 @@ TEST(YieldNotice, ComesOnceInAMotionThatYieldsForASecond) {
   EXPECT_EQ(2, said);
 }
 
-struct ReportsAlone : Parts {};
+struct ReportsAlone : PartsAtRest {};
 
 TEST_F(ReportsAlone, AreDueEveryFifthOfASecond) {
-  Reports reports(board, modal, axes, input, out);
+  Reports reports(*this);
   int due = 0;
   for (int i = 0; i < 1000; ++i, ++board.now_ms) due += reports.areDue();
   EXPECT_EQ(4, due);
@@ -338,7 +338,7 @@ TEST_F(ReportsAlone, AreDueEveryFifthOfASecond) {
   expectSaid("<Idle,MPos:1.0000,-2.0000,0.0000,WPos:0.000,0.000,0.000>\r\n");
 }
 
-struct KeeperAlone : Parts {};
+struct KeeperAlone : PartsAtRest {};
 
 // Else a chain that is pulled while the EEPROM is written would move the start of a planned move.
 TEST_F(KeeperAlone, IsNotReleasedWhileMotorsAreAboutToGetPower) {
@@ -349,16 +349,15 @@ TEST_F(KeeperAlone, IsNotReleasedWhileMotorsAreAboutToGetPower) {
   EXPECT_TRUE(keeper.isReleased());
 }
 
-struct TelemetryAlone : Parts {};
+struct TelemetryAlone : PartsAtRest {};
 
 TEST_F(TelemetryAlone, KeepsWhyTheFirmwareStarted) {
   for (const Start start : {Start::kUsual, Start::kWatchdog, Start::kBrownOut, Start::kWatchdog}) {
-    Telemetry telemetry(board, board, board, axes, planner, place, memory, values, out, start);
+    Telemetry telemetry(*this, place, start);
     telemetry.noteStart();
     settings_host::settle(memory);
   }
-  Telemetry telemetry(board, board, board, axes, planner, place, memory, values, out,
-                      Start::kUsual);
+  Telemetry telemetry(*this, place, Start::kUsual);
   telemetry.tell();
   expectSaid("|start:usual|events:1,2,0,0|last:watchdog,3|slips:0,0|slipped:none,0,0,0]\r\n");
 }

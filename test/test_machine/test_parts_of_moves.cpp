@@ -3,7 +3,7 @@
 
 using namespace machine;
 
-struct MovesAlone : Parts {};
+struct MovesAlone : PartsAtRest {};
 
 TEST_F(MovesAlone, GoToTheTargetAndCountFromIt) {
   EXPECT_TRUE(moves.move(1, words("G1 X20 Y-10 Z-1")));
@@ -97,7 +97,7 @@ TEST_F(MovesAlone, GoToAKeptPlaceFirstUpThenAcross) {
   expectAt(30, 10, 2);
 }
 
-struct DrillingAlone : Parts {};
+struct DrillingAlone : PartsAtRest {};
 
 TEST_F(DrillingAlone, MakesAHoleAndComesBackUp) {
   EXPECT_TRUE(moves.move(0, words("G0 Z2")) && waiting.drain());
@@ -117,7 +117,7 @@ TEST_F(DrillingAlone, RefusesAHoleBeyondTheSheet) {
   EXPECT_FALSE(drilling.drill(words("G81 X0 Z-1")) && !answers.isAnswered());
 }
 
-struct CoordinatesAlone : Parts {};
+struct CoordinatesAlone : PartsAtRest {};
 
 TEST_F(CoordinatesAlone, BeginWhereTheyAreDeclared) {
   EXPECT_TRUE(moves.move(0, words("G0 X20 Y10")) && waiting.drain());
@@ -150,7 +150,7 @@ TEST_F(CoordinatesAlone, RefuseWhatHasNoMeaning) {
   EXPECT_TRUE(coordinates.shift(words("G92 Z0")));
 }
 
-struct SingleAxisAlone : Parts {};
+struct SingleAxisAlone : PartsAtRest {};
 
 TEST_F(SingleAxisAlone, TakesTheChainsLengthsAndLooksForThePlace) {
   keeper.doubtChains(settings::Doubt::kCounts);
@@ -176,21 +176,21 @@ TEST_F(SingleAxisAlone, MovesChainsToOrByLengths) {
 
 TEST_F(SingleAxisAlone, MakesZeroWhereTheProbeTouches) {
   waiting.in_each_round = [&] { board.touches = axes.length(kZAxis) < -1; };
-  EXPECT_TRUE(single_axis.probe(-5));
+  EXPECT_TRUE(single_axis.probe(-5, true, true));
   EXPECT_NEAR(0, axes.length(kZAxis), 0.05);
   EXPECT_FALSE(waiting.isMoving());
   expectSaid("z axis zeroed");
   board.touches = true;
-  EXPECT_FALSE(single_axis.probe(-5));
+  EXPECT_FALSE(single_axis.probe(-5, true, true));
   expectSaid("the probe touches already");
   board.touches = false;
   waiting.in_each_round = [] {};
-  EXPECT_FALSE(single_axis.probe(-0.5f));
+  EXPECT_FALSE(single_axis.probe(-0.5f, true, true));
   expectSaid("probe did not connect");
   EXPECT_NEAR(axes.length(kZAxis), program.aim().z, 0.01) << "the next move begins there";
 }
 
-struct AxisTestsAlone : Parts {};
+struct AxisTestsAlone : PartsAtRest {};
 
 TEST_F(AxisTestsAlone, SayWhetherAnEncoderCountsTheRightWay) {
   axes.simulate(false);

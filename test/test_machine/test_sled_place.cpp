@@ -8,7 +8,7 @@ using namespace machine;
 
 namespace {
 
-struct PlaceAlone : Parts {};
+struct PlaceAlone : PartsAtRest {};
 
 TEST_F(PlaceAlone, IsNoneWithoutTrustAndSaysWhy) {
   EXPECT_TRUE(place.isKnown());

@@ -3,7 +3,7 @@
 
 using namespace machine;
 
-struct WaitingAlone : Parts {};
+struct WaitingAlone : PartsAtRest {};
 
 TEST_F(WaitingAlone, LastsItsTimeAndEndsAtOnceAfterAStop) {
   EXPECT_TRUE(waiting.waitFor(50));

@@ -81,3 +81,20 @@ TEST(Share, OfNothingIsRest) {
   EXPECT_TRUE(plain.playback.isAtRest());
   EXPECT_TRUE(plain.playback.isDone());
 }
+
+TEST(Share, BringsEachPathToItsEndAtWhateverShare) {
+  for (uint16_t share = 1; share <= Playback::kAllOfIt; ++share)
+    for (int length = 1; length <= 21; ++length) {
+      Plain plain;
+      plain.playback.goAt(share);
+      const float to = float(length) * float(length) * 0.01f;
+      plain.lineTo(0, 0, to, 0.66f);
+      plain.lineTo(to, 0, to);
+      int most = 4000 + 512 * 900 / share;  // [ticks] a count may be half of a slow share
+      do {
+        plain.tick();
+      } while (--most > 0 && !(plain.set_points.isEmpty() && plain.playback.isDone()));
+      ASSERT_NEAR(to, plain.asked.back().x, 1e-3) << share << "/256 of " << to << " mm";
+      ASSERT_NEAR(to, plain.asked.back().z, 1e-3) << share << "/256 of " << to << " mm";
+    }
+}

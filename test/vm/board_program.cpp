@@ -64,6 +64,27 @@ uint8_t edgesOfOtherPins() {
   return edges;
 }
 
+/// Sum of what is added behind ten skips, of which every second skips. simavr takes the first ADIW
+/// for an instruction of two words, and would skip the next one too.
+uint8_t addedBehindSkips() {
+  uint16_t sum = 0;
+  for (uint8_t i = 0; i < 10; ++i)
+    asm volatile("sbrc %1, 0\n adiw %0, 15\n adiw %0, 1\n" : "+w"(sum) : "r"(i));
+  return uint8_t(sum);
+}
+
+/// Cycles of one skip over such an ADIW, and of one that does not skip, without those around it.
+uint8_t cyclesOf(uint8_t bit) {
+  uint16_t sum = 0;
+  uint8_t before, after;
+  TCCR1A = TIMSK1 = 0;
+  TCCR1B = 1 << CS10;
+  asm volatile("lds %0, %3\n sbrc %4, 0\n adiw %2, 15\n lds %1, %3\n"
+               : "=&r"(before), "=&r"(after), "+w"(sum)
+               : "n"(_SFR_MEM_ADDR(TCNT1L)), "r"(bit));
+  return uint8_t(after - before - 2);
+}
+
 }  // namespace
 
 ISR(TIMER1_COMPA_vect) { ++timer_calls; }
@@ -82,6 +103,9 @@ int main() {
   tell("taken_back", matchesTakenBack());
   _delay_ms(5);
   tell("edges_low", edgesOfOtherPins());
+  tell("added", addedBehindSkips());
+  tell("skip_cycles", cyclesOf(0));
+  tell("add_cycles", cyclesOf(1));
   for (;;) {
   }
 }

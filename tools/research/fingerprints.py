@@ -154,7 +154,7 @@ def look_alikes(name: str, fields: Fields, *, most: int = 3) -> list[LookAlike]:
     nearest first.
     """
     mine = [field for _, field in fields[name] if field.has_shape]
-    alikes = []
+    others_found = []
     for other, cases in fields.items():
         cosines = [
             cosine(shown.shape, field.shape)
@@ -163,9 +163,9 @@ def look_alikes(name: str, fields: Fields, *, most: int = 3) -> list[LookAlike]:
             if field.has_shape
         ]
         if other != name and cosines:
-            alikes.append(LookAlike(other, max(cosines, key=abs)))
+            others_found.append(LookAlike(other, max(cosines, key=abs)))
     # Rounded first, so that the order does not hang on the last bits.
-    return sorted(alikes, key=lambda alike: (-round(abs(alike.cosine), 2), alike.name))[:most]
+    return sorted(others_found, key=lambda alike: (-round(abs(alike.cosine), 2), alike.name))[:most]
 
 
 def cosine(first: Array, second: Array) -> float:

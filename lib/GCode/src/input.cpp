@@ -53,7 +53,12 @@ Quick Input::put(char character) {
   after_quick_ = quick != Quick::kNone;
   if (quick == Quick::kResume) resumable_ = uint8_t(lines_ + 1);
   if (quick != Quick::kNone) return quick;
-  if (character == '\n') {
+  if (after_return_ && line_ == Line::kBegins && (character == ' ' || character == '\n')) {
+    after_return_ = character == ' ';
+    return Quick::kNone;
+  }
+  after_return_ = character == '\r';
+  if (character == '\n' || character == '\r') {
     // The end of the quick character, and of what it cut.
     if (!after_quick) return endLine();
     if (line_ == Line::kCut) line_ = Line::kBegins;
@@ -89,15 +94,6 @@ Quick Input::take(char character) {
       break;
     default:
       break;
-  }
-  if (character == '\r') {
-    line_ = Line::kEnds;
-    return Quick::kNone;
-  }
-  if (line_ == Line::kEnds) {
-    if (kept(character) == ' ') return keep(' ');
-    // A wrong bit may have made that CR of a minus sign.
-    keep(kUnreadable);
   }
   line_ = character == '(' ? Line::kComment : character == ';' ? Line::kRemark : Line::kWords;
   return keep(kept(character));

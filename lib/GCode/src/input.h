@@ -79,7 +79,6 @@ class Input {
     kWords,    ///< words are coming
     kComment,  ///< in a comment that `)` ends
     kRemark,   ///< behind a `;`, which ends with the line
-    kEnds,     ///< a CR came: only spaces may be between it and the end
     kTooLong,  ///< it has no room and is skipped to its end
     kCut,      ///< clear() came inside it: it is dropped to its end
   };
@@ -99,6 +98,7 @@ class Input {
   uint8_t resumable_ = 0;  ///< lines before the last `~`: the line taken last, and waiting lines
   Line line_ = Line::kBegins;
   bool after_quick_ = false, was_too_long_ = false;
+  bool after_return_ = false;  ///< a CR ended a line: a LF behind it is the same end
 };
 
 }  // namespace gcode

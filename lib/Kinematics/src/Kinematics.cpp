@@ -3,6 +3,7 @@
 #include "Kinematics.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "search.h"
 
@@ -23,6 +24,20 @@ const float kFlattest = 1.0f / 128;
 // (The slopes leave out that sag and stretch change along a step. A step misses 2 to 5 per cent of
 // its length for this, 12 per cent at worst under a light sled.)
 const float kSafeStep = 10.0f;  // [mm]
+
+/// Whether a strand is so steep that hardly anything pulls on the other: its sag has no bound.
+template <class Real>
+bool isSteep(Real cosine) {
+  return !(cosine >= Real(1) / Real(32));
+}
+
+/// The same by the bits of a number: the board compares integers in a fifth of the time.
+inline bool isSteep(float cosine) {
+  const int32_t kBits = 0x3d000000;  // of 1 / 32
+  int32_t bits;
+  memcpy(&bits, &cosine, sizeof bits);
+  return bits < kBits;
+}
 
 /// Free chain and direction of a strand; returns sine less cosine of the line from the sprocket's
 /// centre to the bit.
@@ -82,6 +97,7 @@ PLUMB_INLINE void drawBoth(const Machine<Real>& machine, Point<Real> bit, const 
     }
     hanging.strand[side].side = Side(side);
     drawStraight(machine, run, drop, drop_squared, directed, hanging.strand[side]);
+    if (directed && isSteep(hanging.strand[side].cosine)) hanging.found = Found::kOutOfReach;
   }
 }
 

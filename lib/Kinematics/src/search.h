@@ -38,7 +38,7 @@ template <class Real>
 Point<Real> meet(Real left, Real right, Real gap) {
   const Real run = (gap + (left - right) * (left + right) / gap) * Real(0.5);
   const Real drop_squared = left * left - run * run;
-  return {run, drop_squared > Real(0) ? sqrt(drop_squared) : Real(0)};
+  return {run, drop_squared > Real(0) ? Real(sqrt(drop_squared)) : Real(0)};
 }
 
 /// Step of a bit whose chains are short by these errors [mm]. The slopes of both lengths are the

@@ -186,9 +186,11 @@ inline Added MoveQueue::add(const Path<float>& path, float z_from, float z_to, f
   move.entry_squared = move.corner_squared = 0;
   if (count_ != 0) {
     const Move& before = at(uint8_t(count_ - 1));
-    move.corner_squared = cornerSpeedSquared(
-        end_, {begin.x * xy, begin.y * xy, z}, smaller(before.acceleration, move.acceleration),
-        limits_.corner_deviation, 0.5f * (before.length + move.length));
+    // Between z alone and a path there is a stop: see Mover::fill.
+    if (has_path == (before.path.length != 0))
+      move.corner_squared = cornerSpeedSquared(
+          end_, {begin.x * xy, begin.y * xy, z}, smaller(before.acceleration, move.acceleration),
+          limits_.corner_deviation, 0.5f * (before.length + move.length));
   }
   end_ = {end.x * xy, end.y * xy, z};
   ++count_;

@@ -50,9 +50,12 @@ class Mover {
   Added add(const Path<float>& path, float z_to, float feed, Space space = Space::kSheet,
             uint8_t beam = 0, bool is_rapid = false);
 
-  /// Fills the ring with set-points. `inverse`: Point<float> -> Lengths<float>.
+  /// Fills the ring with set-points. `inverse`: Point<float> -> Lengths<float>. After a move of z
+  /// alone that ends at rest nothing goes on before `is_z_near`.
   template <class Inverse>
-  Filled fill(SetPoints& set_points, const Inverse& inverse);
+  Filled fill(SetPoints& set_points, const Inverse& inverse, bool is_z_near = true);
+  /// Whether the next set-point waits for z.
+  bool awaitsZ() const { return awaits_z_; }
 
   /// From now on multiplies feeds; see MoveQueue::boost.
   void boost(float times, float most_feed, float rapid = 1);
@@ -85,6 +88,8 @@ class Mover {
   bool begin(const Stretch& stretch, const Inverse& inverse);
   template <class Inverse>
   bool pass(const Inverse& inverse);
+  /// Whether the first move is of z alone.
+  bool isOfZ() const { return queue_.first().path.length == 0; }
   template <class Inverse>
   bool step(float change, const Inverse& inverse);
   // Not inline: else every tick would save the registers that only a new segment needs.
@@ -109,6 +114,7 @@ class Mover {
   Segment segment_;      ///< both chains
   Steps z_steps_;
   bool has_z_ = false;                 ///< the first move also moves z
+  bool awaits_z_ = false;              ///< z alone has moved, and whatever comes waits for it
   bool is_taken_up_ = false;           ///< the two numbers below belong to the first move
   uint8_t even_ticks_, uneven_ticks_;  ///< most ticks of a segment
   float z_from_ = 0;                   ///< [mm] where the first move begins

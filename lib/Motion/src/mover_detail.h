@@ -30,6 +30,7 @@ inline void Mover::forget() {
 
 inline void Mover::standAt(const SetPoint& point) {
   last_ = point;
+  awaits_z_ = false;
   forget();
 }
 
@@ -170,7 +171,10 @@ bool Mover::pass(const Inverse& inverse) {
   }
   walk_.done = walk_.done > length ? walk_.done - length : 0;
   // At a corner with a stop the next move begins at rest.
-  if (queue_.exitSquared() == 0) walk_ = {0, 0};
+  if (queue_.exitSquared() == 0) {
+    walk_ = {0, 0};
+    awaits_z_ = isOfZ();
+  }
   dropFirst();
   return true;
 }
@@ -195,6 +199,7 @@ bool Mover::step(float change, const Inverse& inverse) {
   if (!here.reachable) return false;
   last_ = {here.knot.left, here.knot.right, zAt(move, walk_.done)};
   if (arrives) {
+    awaits_z_ = isOfZ();
     // z as it was commanded, not as counts round it.
     const float z_end = z_end_;
     forget();
@@ -239,7 +244,7 @@ inline void Mover::push(SetPoints& set_points) const {
 }
 
 template <class Inverse>
-Filled Mover::fill(SetPoints& set_points, const Inverse& inverse) {
+Filled Mover::fill(SetPoints& set_points, const Inverse& inverse, bool is_z_near) {
   // The axes stood still while they waited, so they must speed up from rest.
   if (set_points.hasRunDry() && walk().speed != 0) {
     if (times_dry_ != UINT16_MAX) ++times_dry_;
@@ -247,6 +252,8 @@ Filled Mover::fill(SetPoints& set_points, const Inverse& inverse) {
     walk_.speed = 0;
   }
   while (!queue_.isEmpty() && set_points.hasRoom()) {
+    if (awaits_z_ && !is_z_near) return Filled::kYes;
+    awaits_z_ = false;
     bool rests = false;
     if (segment_.ticks_left == 0) {
       rests = walk_.speed == 0;

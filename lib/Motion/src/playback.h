@@ -99,15 +99,17 @@ class Playback {
     gone_ = 0;
   }
 
+  /// A count: whatever is left of a path, each tick goes on.
+  static uint32_t atLeastOne(uint32_t way) { return way == 0 ? 1 : way; }
+
   /// The way of the next tick at its share of the planned speed.
   uint32_t planned(const SetPoints& ring) const {
     const uint32_t left = leg_.way - gone_;
-    uint32_t asked = leg_.way * share_ >> 8;
-    if (asked == 0) asked = 1;
+    const uint32_t asked = atLeastOne(leg_.way * share_ >> 8);
     if (asked <= left) return asked;
     if (ring.isEmpty()) return left;
     // The rest of the tick is in the next leg, at that leg's speed.
-    return left + (ring.first().way * shareOf(asked - left, leg_.way) >> kShareBits);
+    return atLeastOne(left + (ring.first().way * shareOf(asked - left, leg_.way) >> kShareBits));
   }
 
   // Not inline: else every tick would save the registers that only a slower tick needs.

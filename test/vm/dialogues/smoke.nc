@@ -2,7 +2,7 @@
 <- PCB v1.2 Detected
 <- FAKE_SERVO off
 <- Plumb v*
-<- ready
+<* ready
 <- ok
 <- Settings are the defaults. Chain lengths are not known yet*
 -> $$ 

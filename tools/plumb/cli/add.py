@@ -110,13 +110,19 @@ def run(arguments: argparse.Namespace) -> int:
     held = dict(arguments.hold)
     refuse_unfitted(inputs.checked, effects, held)
     result = add(inputs, effects=effects, held=held, patch=arguments.patch)
-    files, client = written(arguments, inputs, result)
+    files: list[str] = []
+    client: ClientFiles | None = None
+    if arguments.force or not result.stops:
+        files, client = written(arguments, inputs, result)
     if arguments.json:
         print_json(NamedAnswer(**vars(result), written=tuple(files), client=client))
     else:
         shown = as_text(result, asked_patch=arguments.patch)
         _print(shown if arguments.details else numbers_text(result), verdict_of(result))
-        _print_written(files, client, arguments)
+        if result.stops and not arguments.force:
+            print("\nNothing is written. --force writes these numbers all the same.")
+        else:
+            _print_written(files, client, arguments)
     return int(not result.pays and arguments.effect != [NONE])
 
 

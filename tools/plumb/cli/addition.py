@@ -26,6 +26,8 @@ def verdict_of(result: Addition) -> str:
     many = " and ".join(added) if len(added) <= MOST_NAMED else f"{len(added)} effects"
     if result.pays:
         return headline(f"It pays to add {many}. {_fall(result)}", GOOD)
+    if result.stops:
+        return headline(f"Do not set the machine by {many}. {_fall(result)}", BAD)
     return headline(f"NOT better with {many}. {_fall(result)}", BAD)
 
 
@@ -69,14 +71,21 @@ def short_auto_text(result: AutoAddition) -> str:
 
 
 def numbers_text(result: Addition, before: Sequence[str] = ()) -> str:
-    """Return the new numbers in a few rows, and the first thing to know about them behind what
-    is said before.
+    """Return the new numbers in a few rows; behind what is said before, what speaks against them,
+    what a hand must do before they hold, and the first thing else to know.
     """
     parts = [parameter_table(result, most=NUMBERS)]
-    said = [*result.cures, *turn_sentences(result), *result.warnings]
-    more = [f"{len(said) - 1} more to know: see --details"] if len(said) > 1 else []
-    notes = [*before, *said[:1], *more]
+    notes = [*before, *first_notes(result)]
     return "\n\n".join([*parts, sentences(notes)] if notes else parts)
+
+
+def first_notes(result: Addition) -> list[str]:
+    """Return what speaks against the numbers, what a hand must do before they hold, and the first
+    thing else to know.
+    """
+    light = [each for each in result.warnings if each not in result.stops]
+    more = [f"{len(light) - 1} more to know: see --details"] if len(light) > 1 else []
+    return [*result.stops, *turn_sentences(result), *result.cures, *light[:1], *more]
 
 
 def auto_text(result: AutoAddition) -> str:
@@ -118,7 +127,8 @@ def as_text(result: Addition, *, asked_patch: bool = False) -> str:
     if result.benchmark_after:
         parts.insert(0, _benchmark_sentence(result))
     parts.append(sentences([f"{COLUMNS} {result.intervals_said}"], mark=""))
-    said = [*turn_sentences(result), *result.cures, *result.warnings]
+    said = [*result.stops, *turn_sentences(result), *result.cures]
+    said += [each for each in result.warnings if each not in result.stops]
     if PATCH in result.effects_added:
         said.append(PATCH_WARNING)
     elif asked_patch:

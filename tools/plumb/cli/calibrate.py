@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from pydantic import computed_field
 
 from plumb.cli import add as add_command
-from plumb.cli.addition import COLUMNS, parameter_table, quality_table
+from plumb.cli.addition import COLUMNS, first_notes, parameter_table, quality_table
 from plumb.cli.arguments import (
     add_details,
     add_force,
@@ -205,8 +205,8 @@ def size_now(this: Round) -> list[str]:
     if diagnosis.outliers:
         return [sentences([slip.sentence for slip in diagnosis.outliers][:SLIPS])]
     if this.done and this.result.addition:
-        odd = [*this.result.addition.cures, *this.result.addition.warnings]
-        return [sentences(odd[:1])] if odd else []
+        notes = first_notes(this.result.addition)
+        return [sentences(notes)] if notes else []
     if this.result.is_good:
         choice = diagnosis.choice
         error = f"Over the sheet expect {worded(choice.as_set)} RMS." if choice else ""

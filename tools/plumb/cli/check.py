@@ -21,7 +21,7 @@ from plumb.cli.arguments import (
     length,
 )
 from plumb.cli.inputs import inputs_of, picture_form
-from plumb.cli.output import refuse_twins, write_outputs
+from plumb.cli.output import refuse_twins, say_failure, write_outputs
 from plumb.cli.screen import (
     BAD,
     GOOD,
@@ -87,7 +87,7 @@ def run(arguments: argparse.Namespace) -> int:
     form = picture_form(arguments.picture) if arguments.picture else ""
     settings = settings_in(arguments.settings)
     arguments.controller = None
-    lines = program_in(arguments.job)
+    lines = program_in(arguments.job, say=say_failure)
     checked = _checked(arguments, settings, lines)
     files, changes = {}, tuple[Change, ...]()
     if arguments.fix:

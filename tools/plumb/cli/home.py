@@ -38,6 +38,7 @@ from plumb.job.slip import repair_program
 from plumb.settings.machine import MachineSettings
 from plumb.text.answers import Internal, json_of
 from plumb.text.errors import InputError
+from plumb.text.files import alone_in
 from plumb.text.values import bare, signed, typed_length, unit, worded
 
 
@@ -146,8 +147,11 @@ def _written(arguments: argparse.Namespace, answer: HomeAnswer) -> list[str]:
         write_outputs({arguments.output: content}, inputs=[arguments.settings])
         written += [] if arguments.output == STDOUT else [arguments.output]
     if arguments.keep:
+        name, _ = arguments.keep
         path = home_file(arguments.settings)
-        write_home_marks(path, answer.kept)
+        with alone_in(path.parent):
+            # Another command may have kept another mark since this one began.
+            write_home_marks(path, {**read_home_marks(path), name: answer.kept[name]})
         written.append(str(path))
     if arguments.keep or arguments.at:
         entry = {

@@ -10,7 +10,6 @@ from plumb.lab.server import serve
 
 def run(arguments: argparse.Namespace) -> int:
     """Serve until Ctrl-C, and return the exit code."""
-    print("The lab is at this address; Ctrl-C ends it.", flush=True)
     serve(
         Path(arguments.folder),
         port=arguments.port,

@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 from collections.abc import Sequence
 from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
 
@@ -27,6 +28,7 @@ from plumb.fit.inputs import Inputs, settings_in
 from plumb.pictures.plan import draw_plan
 from plumb.plan import Next, Proposal, propose
 from plumb.plan.case import Case
+from plumb.plan.options import READ_ONLY
 from plumb.plan.proposal import (
     AGAIN,
     CONFIRM,
@@ -75,27 +77,29 @@ def run(arguments: argparse.Namespace) -> int:
     inputs = stated_inputs(arguments)
     diagnosis = diagnose(inputs)
     advice = propose(diagnosis, inputs, progress=bar("simulating"))
-    files = _files(arguments, advice, inputs, form)
+    place, files = _files(arguments, advice, inputs, form)
     named = filter(None, [arguments.cut_with, arguments.cut_next_with])
     read = [arguments.settings, *arguments.marks, *named]
     write_outputs(files, inputs=read)
     if arguments.json:
         print_json(NextAnswer(**vars(advice), diagnosis=diagnosis, written=tuple(files)))
     else:
-        facts = details(diagnosis, advice) if arguments.details else other_ways(advice)
-        best = advice.proposals[0] if advice.proposals else None
-        print("\n\n".join([*facts, *first_proposal(best, arguments, inputs.settings)]))
+        facts = details(diagnosis, advice) if arguments.details else other_ways(advice, place)
+        chosen = advice.proposals[place - 1] if advice.proposals else None
+        print("\n\n".join([*facts, *first_proposal(chosen, arguments, inputs.settings)]))
+        if files:
+            print(f"\nWritten: {', '.join(files)}")
     return 0
 
 
 def _files(
     arguments: argparse.Namespace, advice: Next, inputs: Inputs, form: str
-) -> dict[str, bytes]:
-    """Return the files that were asked for."""
+) -> tuple[int, dict[str, bytes]]:
+    """Return the number of the proposal to show, and the files that were asked for."""
     if not (arguments.picture or arguments.template or arguments.output):
         if arguments.choose is not None:
             raise InputError("--choose is for --picture, --marks and --output: add what you want")
-        return {}
+        return 1, {}
     place, chosen = _chosen(advice, arguments.choose, is_cut=bool(arguments.output))
     assert advice.case, "what is proposed is proposed for a case"
     files: dict[str, bytes] = {}
@@ -120,7 +124,7 @@ def _files(
         files[arguments.output] = program_of(
             advice, place, arguments.output, form=arguments.template
         )
-    return files
+    return place, files
 
 
 def _in_force(arguments: argparse.Namespace, case: Case) -> str | None:
@@ -154,15 +158,15 @@ def _chosen(advice: Next, wanted: int | None, *, is_cut: bool) -> tuple[int, Pro
     return place, advice.proposals[place - 1]
 
 
-def other_ways(advice: Next) -> list[str]:
-    """Return the next best proposals in a few rows, without what the first is in whole."""
-    others = advice.proposals[1:FEW]
+def other_ways(advice: Next, shown: int = 1) -> list[str]:
+    """Return the best proposals in a few rows, without the one that is shown in whole."""
+    others = [(i, each) for i, each in enumerate(advice.proposals[:FEW], 1) if i != shown]
     if not others:
         return []
-    question = others[0].question
+    question = others[0][1].question
     rows = [
         [f"{i}", each.option.title, f"{each.option.minutes:.0f}", promise_of(each)]
-        for i, each in enumerate(others, 2)
+        for i, each in others
     ]
     return [
         table(["", "other ways", "minutes", HEADS[question]], rows, left=2, words=WORDED[question])
@@ -202,6 +206,12 @@ def to_read(best: Proposal, steps: Sequence[str], settings: MachineSettings) -> 
 
 def after(best: Proposal, arguments: argparse.Namespace, settings: MachineSettings) -> str:
     """Return the commands after the measurement."""
+    if best.option.kind in READ_ONLY and not len(best.option.visits):
+        name = Path(arguments.marks[-1]).name
+        words = f"Add each reading to {name} as a [[distance]] of the same ends. Then:"
+        if best.question == REREAD:
+            words = f"Correct its line in {name}. Then:"
+        return next_step(words, ["calibrate", *same_inputs(arguments)])
     if best.option.checks or not len(best.option.visits):
         checks = [
             word

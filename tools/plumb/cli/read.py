@@ -15,8 +15,7 @@ from plumb.firmware.settings import every_setting, machine_of_numbers
 from plumb.firmware.telemetry import slip_suspicion, telemetry_in
 from plumb.line.memory import read_numbers
 from plumb.line.port import SerialPort, port_for
-from plumb.line.sender import Sender
-from plumb.line.worker import lost_place
+from plumb.line.sender import Sender, lost_place
 from plumb.settings.toml import machine_toml
 from plumb.text.answers import meant
 

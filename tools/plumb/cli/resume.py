@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Annotated
 
 from plumb.cli.arguments import add_force, add_json, add_machine, add_units, count, place
-from plumb.cli.output import STDOUT, write_outputs
+from plumb.cli.output import STDOUT, say_failure, write_outputs
 from plumb.cli.screen import next_step, print_json, sentences
 from plumb.fit.inputs import settings_in
 from plumb.job.dry_run import comment_of, program_in
@@ -35,7 +35,7 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.line is None and arguments.at is None:
         raise InputError("say where to go on: --line N, --at X,Y, or both")
     machine = Machine(settings_in(arguments.settings), (*arguments.start, 0.0), dict(arguments.set))
-    lines = program_in(arguments.job)
+    lines = program_in(arguments.job, say=say_failure)
     if arguments.at is None:
         resumed = resume_at_line(machine, lines, arguments.line)
     else:

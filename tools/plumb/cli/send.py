@@ -127,7 +127,7 @@ def _program(what: str, more: Sequence[str]) -> list[str]:
     if files and more:
         why = "goes alone; several lines can go together"
         raise InputError(files[0], why, remedy=f"plumb send {files[0]}")
-    lines = program_in(what) if files else [what, *more]
+    lines = program_in(what, say=say_failure) if files else [what, *more]
     list(cleaned(lines))
     return lines
 

@@ -178,9 +178,15 @@ class Addition:
         return intervals_sentence(self.after_fit.sigma, self.sigma_from)
 
     @property
+    def stops(self) -> tuple[str, ...]:
+        """Why nobody should set a machine by these numbers; empty if nothing is against it."""
+        wrong = (_impossible(each) for each in self.parameters if not each.possible)
+        return (*_unsettled(self.after_fit), *wrong)
+
+    @property
     def pays(self) -> bool:
-        """Whether the effects predict marks better that the fit did not see."""
-        return self.after.left_out_rms < self.before.left_out_rms
+        """Whether sizes that can be predict marks better that the fit did not see."""
+        return not self.stops and self.after.left_out_rms < self.before.left_out_rms
 
 
 def add(
@@ -237,10 +243,11 @@ def add_to(board: LiveBoard, raw: Comparison, chosen: Chosen, *, patch: bool = F
             name for name in names if not any(board.model.effects.get(name, {}).values())
         ),
         warnings=(
+            *_unsettled(after_fit),
+            *(_impossible(each) for each in parameters if not each.possible),
             *_far_from_marks(board),
             *raw.warnings,
             *board.said,
-            *_unsettled(after_fit),
             *_unfelt(after_fit),
             *notes_on(parameter.name for parameter in parameters),
             *_surprises(parameters, known),
@@ -323,14 +330,12 @@ def _unsettled(fitted: Fit) -> list[str]:
 
 
 def _surprises(parameters: Sequence[Parameter], known: Collection[str]) -> list[str]:
-    """Sentences about numbers that no real machine has, that moved too far, or that may be zero;
+    """Sentences about numbers that moved too far, or that may be zero;
     what is known of a number, measured or usual, holds whether the marks show it or not.
     """
     said = []
     for parameter in parameters:
-        if not parameter.possible:
-            said.append(_impossible(parameter))
-        elif parameter.name not in known and may_be_zero(parameter):
+        if parameter.possible and parameter.name not in known and may_be_zero(parameter):
             said.append(_zero_sentence(parameter))
         moved = parameter.value - parameter.before
         trusted = parameter.prior_sigma

@@ -62,7 +62,8 @@ def sizes_of(explanation: Explanation, effect: str, noise: Noise) -> tuple[Size,
         half = noise.quantile * float(np.sqrt(variance)) * scale
         felt = bool(np.any(explanation.slopes[:, column]))
         plausible = plausible_range(name)
-        least = 0.0 if plausible.low >= 0 else -np.inf
+        # What cannot be negative has no negative part of an interval, unless it was fitted there.
+        least = 0.0 if min(plausible.low, value) >= 0 else -np.inf
         sizes.append(
             Size(
                 name=name.partition(".")[2],

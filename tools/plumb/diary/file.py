@@ -140,9 +140,15 @@ def _add_line(path: Path, line: bytes) -> None:
         length = os.fstat(handle).st_size
         is_cut = length > 0 and os.pread(handle, 1, length - 1) != b"\n"
         rest = memoryview(b"\n" + line if is_cut else line)
-        while rest:
-            rest = rest[os.write(handle, rest) :]
-        os.fsync(handle)
+        try:
+            while rest:
+                rest = rest[os.write(handle, rest) :]
+            os.fsync(handle)
+        except OSError:
+            os.ftruncate(handle, length)
+            if is_new:
+                path.unlink()
+            raise
     finally:
         os.close(handle)
     if is_new:

@@ -23,6 +23,7 @@ from plumb.job.findings import (
     ends_too_high,
     findings_of,
     hanging_along,
+    meant_otherwise,
     slower_moves,
     times_of,
 )
@@ -78,7 +79,7 @@ def check_job(
     tools = tools or Tools.of(lines)
     taken = take(over_sheet, tools)
     findings = [*findings_of(done), *spoiled(over_sheet, taken, tools, lines)]
-    findings += ends_too_high(settings, done)
+    findings += [*ends_too_high(settings, done), *meant_otherwise(done, lines)]
     if inputs:
         parts = with_errors(Believed.of(inputs), settings, parts)
     return Checked(

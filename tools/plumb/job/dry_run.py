@@ -17,7 +17,7 @@ from plumb.line.sender import PlainError, plain
 from plumb.model.predict import FOUND, Array, lengths
 from plumb.settings.machine import MachineSettings
 from plumb.text.errors import InputError
-from plumb.text.files import read_text
+from plumb.text.files import MB, read_text
 
 __all__ = ["COLUMNS", "Done", "Refused", "Run", "pieces"]
 
@@ -230,6 +230,8 @@ def safe_height(moves: Moves) -> float:
     return max(CLEAR, float(moves["z_to"][across].max(initial=0.0)))
 
 
+LARGEST_PROGRAM = 200 * MB
+
 # What holds no program: settings, marks and tables, refused before any line is sent.
 
 SETTINGS = "numbers are sent from a machine.toml"
@@ -247,9 +249,12 @@ OTHERS = (
 NO_CODE = re.compile(r"(this begins no word|a number is missing behind|there is no such code).*")
 
 
-def program_in(path: str | PathLike[str]) -> list[str]:
-    """Return the lines of a program; InputError for what holds none."""
-    text = read_text(path)
+def program_in(path: str | PathLike[str], *, say: Callable[[str], None]) -> list[str]:
+    """Return the lines of a program; InputError for what holds none.
+
+    Old CAM programs write comments in the code page of Windows; `say` hears of it.
+    """
+    text = read_text(path, most=LARGEST_PROGRAM, say=say)
     refuse_what_is_no_program(path, text)
     return text.splitlines()
 

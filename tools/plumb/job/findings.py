@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import re
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Annotated
 
 import numpy as np
 from pydantic import computed_field
 
-from plumb.job.dry_run import Done, Flags, Moves, Samples
+from plumb.job.dry_run import Done, Flags, Moves, Samples, pieces
 from plumb.model.plain import greatest, least
 from plumb.model.predict import CANNOT_HANG, REACH_WORDS, USABLE, Array, Codes, reach
 from plumb.model.reach import with_soft_chains
@@ -18,8 +19,8 @@ from plumb.text.answers import Internal, key
 
 HALTS, LEAVES, WAITS, IGNORED = "halts", "leaves the sheet", "waits", "ignored"
 GOUGES, STILL, DEEP = "gouges", "spindle off", "too deep"
-SINKS = "may sink"
-WRONG = (HALTS, LEAVES, GOUGES, STILL, DEEP)
+SINKS, FEED, NO_ARC = "may sink", "no feed", "no arc"
+WRONG = (HALTS, LEAVES, GOUGES, STILL, DEEP, FEED, NO_ARC)
 
 
 @dataclass(frozen=True)
@@ -70,6 +71,36 @@ def _said(line: int, text: str) -> tuple[int, str, str] | None:
     if text == "Maslow Paused":
         return line, WAITS, "the machine waits until the operator goes on"
     return None
+
+
+# What the machine does as it is told, and nobody can mean.
+
+LEAST_FEED = 5.0  # [mm/min]
+F_WORD = re.compile(r"(?i)f\s*\.?\d")
+R_OF_ZERO = re.compile(r"(?i)r\s*[-+]?(?:0+\.?0*|\.0+)(?![\d.])")
+
+
+def meant_otherwise(done: Done, lines: Sequence[str]) -> Iterator[Finding]:
+    """Yield feeds that are missing or next to nothing, and arcs of no radius."""
+    fed = done.moves.only(~done.moves.rapid & done.moves.over_sheet)
+    numbers = fed["line"].astype(int)
+    if len(fed) and not any(map(F_WORD.search, lines[: numbers[0]])):
+        feed = f"{fed['asked'][0]:.0f} mm/min"
+        says = f"no F says how fast to cut, so the machine keeps the feed that it has: {feed}"
+        yield Finding(FEED, says, (int(numbers[0]),))
+    slow = fed["asked"] < LEAST_FEED
+    for asked in np.unique(fed["asked"][slow]):
+        those = slow & (fed["asked"] == asked)
+        minutes = float((fed.way[those] / asked).sum())
+        says = f"the feed is {asked:g} mm/min, at which this takes {minutes:.0f} minutes"
+        yield Finding(FEED, says, tuple(np.unique(numbers[those]).tolist()))
+    for number, line in enumerate(lines, start=1):
+        if R_OF_ZERO.search(line) and any(
+            letter == "G" and code in (2, 3) and words.get("R") == 0
+            for letter, code, words in pieces(line)
+        ):
+            says = "R0 is the radius of no arc; the machine goes straight"
+            yield Finding(NO_ARC, says, (number,))
 
 
 # Whether a job ends so high on the sheet that the sled may sink without its motors.

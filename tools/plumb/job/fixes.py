@@ -1,13 +1,15 @@
 """An equal program that this machine runs: places that it does not have, motions that are left out.
 
-Three habits of CAM programs halt this machine, or send its bit into the wood: a retract to the home
-of another machine (`G28 G91 Z0`), a place near the top of another machine's z (`G53 G0 Z-5`), and a
-place behind G80 without G0. Each is written as this machine reads it, line for line. Then the dry
-run must cut the same as the program itself on machines that have a home, wherever that home is.
+Some habits of CAM programs halt this machine, or send its bit into the wood: a retract to the home
+of another machine (`G28 G91 Z0`), a place near the top of another machine's z (`G53 G0 Z-5`), a
+place behind G80 without G0, holes with broken chips (G73), and pecks of no depth (Q0). Each is
+written as this machine reads it, line for line. Then the dry run must cut the same as the program
+itself on machines that have a home, wherever that home is.
 """
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
@@ -25,6 +27,8 @@ from plumb.text.errors import InputError
 
 HOME, MACHINE, CANCEL, NO_MOTION = (28.0, 30.0), 53.0, 80.0, 80
 NO_PLACE, NO_MODE = "no place is kept for it", "no motion is in force after G80"
+NO_CHIPS, NO_PECK = "this machine does no G73", "G83 needs Q"
+CYCLE, PECK = re.compile(r"(?i)g0*(73|83)(?![\d.])"), re.compile(r"(?i)\s*q\s*[-+.\d]+")
 AXES = "XYZ"
 HOMES = ((0.0, 0.0, 0.0), (37.0, -23.0, 7.0))  # [mm] x, y, and z above all the program
 SAME = 2e-3  # [mm] between two cuts that are the same
@@ -41,6 +45,7 @@ class Change:
     after: str
     why: str
     goes_home: Internal[bool] = False  # a machine that has a home does the line as it is
+    drills: Internal[bool] = False
 
 
 @dataclass(frozen=True)
@@ -76,7 +81,8 @@ def fixed(
 
 def has_habit(findings: Sequence[Finding]) -> bool:
     """Return whether fixed() knows a habit that is among the findings."""
-    known = any(each.says.startswith((NO_PLACE, NO_MODE)) for each in _halts(findings))
+    habits = (NO_PLACE, NO_MODE, NO_CHIPS, NO_PECK)
+    known = any(each.says.startswith(habits) for each in _halts(findings))
     return known or _means_top(findings)
 
 
@@ -152,8 +158,20 @@ def _changes(lines: Sequence[str], findings: Sequence[Finding], top: float) -> I
             change = _from_top(number, line, words, modes, top)
         elif says.startswith(NO_MODE) and modes.motion == NO_MOTION:
             change = _after_cycle(number, line, words, modes)
+        elif says.startswith((NO_CHIPS, NO_PECK)) and CYCLE.search(line):
+            change = _drilled(number, line, words)
         if change:
             yield change
+
+
+def _drilled(number: int, line: str, words: Sequence[Word]) -> Change:
+    """Return the holes of a G73 by G83, or by G81 where a peck has no depth."""
+    if any(each.get("Q", 0.0) > 0 for _, _, each in words):
+        after, why = CYCLE.sub("G83", line.strip()), "this machine pecks by G83"
+        return Change(number, line.strip(), after, why, drills=True)
+    after = PECK.sub("", CYCLE.sub("G81", line.strip()))
+    why = "a peck without a depth is the whole hole: G81"
+    return Change(number, line.strip(), after, why, drills=True)
 
 
 def _after_cycle(number: int, line: str, words: Sequence[Word], modes: _Modes) -> Change | None:
@@ -221,7 +239,7 @@ def _refuse_halts(lines: Sequence[str], findings: Sequence[Finding]) -> None:
 
 def _refuse_cuts_of(changes: Sequence[Change], moves: Moves) -> None:
     """_UnknownError if a changed line cuts."""
-    numbers = [each.line for each in changes]
+    numbers = [each.line for each in changes if not each.drills]
     rises = (moves["length"] == 0) & (moves["z_to"] > moves["z_from"])
     wrong = moves.cut & ~rises & np.isin(moves["line"], numbers)
     if wrong.any():

@@ -24,7 +24,7 @@ from plumb.model.predict import FOUND, Array, believed_lengths, places
 from plumb.settings.machine import MachineSettings
 from plumb.text.answers import key
 from plumb.text.errors import InputError
-from plumb.text.files import read_text, write_whole
+from plumb.text.files import parsed, read_text, write_whole
 
 NAME = "home.toml"
 HEAD = "# Home marks of a machine, for plumb: holes, and the chains with the bit in them. mm."
@@ -115,10 +115,10 @@ def read_home_marks(path: str | PathLike[str]) -> dict[str, HomeMark]:
     """Return the home marks of a file by name; none if there is no file. Raises InputError."""
     if not Path(path).exists():
         return {}
+    head = parsed(path, read_text(path), tomllib.loads, "TOML")
     try:
-        tables = tomllib.loads(read_text(path)).get("mark", {})
-        return {name: _mark(name, each) for name, each in tables.items()}
-    except (tomllib.TOMLDecodeError, AttributeError, KeyError, TypeError, ValueError) as error:
+        return {name: _mark(name, each) for name, each in head.get("mark", {}).items()}
+    except (AttributeError, KeyError, TypeError, ValueError) as error:
         raise InputError(path, f"holds no home marks ({error})", remedy="mend it") from None
 
 

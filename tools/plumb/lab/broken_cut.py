@@ -17,11 +17,11 @@ PLUNGE = re.compile(r"G1 Z-")
 
 
 class BrokenCut(BaseModel):
-    """A cut that did not come to its end, as far as the folder knows."""
+    """The last cut of a program, as far as the folder knows how far it came."""
 
     model_config = ConfigDict(frozen=True, extra="forbid")
 
-    digest: str  # of the program's text
+    digest: str  # of what the machine is sent
     marks: NonNegativeInt = 0  # that are surely cut
     begun: NonNegativeInt = 0  # with those that the machine may have cut when nobody saw it
     is_virtual: bool  # its sheet is gone with the program that ran it
@@ -67,13 +67,14 @@ def begin(
     paused: Callable[[int], None] = lambda lines: None,
 ) -> None:
     """Send a program from its first mark; `paused` hears of its pauses. The machine moves."""
-    cut = BrokenCut(digest=digest_of(text.encode()), is_virtual=line.virtual is not None)
+    cut = BrokenCut(digest=digest_of_sent(text), is_virtual=line.virtual is not None)
+    noting = Noting(project, program, cut, plunges_in(text))
     line.worker.send(
         program,
         text.splitlines(),
-        then=lambda sender: end(project, program),
+        then=lambda sender: noting.all_cut(),
         paused=paused,
-        came=Noting(project, program, cut, plunges_in(text)),
+        came=noting,
     )
 
 
@@ -97,12 +98,13 @@ def go_on(
     seen = cut.model_copy(update={"marks": on_sheet, "begun": on_sheet})
     plunges = plunges_in(text)
     lines, before = rest_of(text.splitlines(), plunges, on_sheet)
+    noting = Noting(project, program, seen, plunges)
     line.worker.send(
         program,
         lines,
-        then=lambda sender: end(project, program),
+        then=lambda sender: noting.all_cut(),
         paused=paused,
-        came=Noting(project, program, seen, plunges),
+        came=noting,
         before=before,
     )
 
@@ -125,8 +127,13 @@ class Noting:
 
     def __call__(self, done: int, begun: int) -> None:
         """Note how far it is: how many lines are surely done, and how many perhaps."""
-        marks = max(self._cut.marks, self._count(done))
-        most = max(marks, self._count(begun))
+        self._note(marks := max(self._cut.marks, self._count(done)), max(marks, self._count(begun)))
+
+    def all_cut(self) -> None:
+        """Note that the cut came to its end."""
+        self._note(len(self._plunges), len(self._plunges))
+
+    def _note(self, marks: int, most: int) -> None:
         now = self._cut.model_copy(update={"marks": marks, "begun": most})
         if now != self._noted:
             self._noted = now
@@ -134,12 +141,6 @@ class Noting:
 
     def _count(self, lines: int) -> int:
         return sum(plunge <= lines for plunge in self._plunges)
-
-
-def end(project: Project, program: str) -> None:
-    """Note that a cut came to its end."""
-    notes = _notes(project)
-    _keep(project, {name: cut for name, cut in notes.items() if name != program})
 
 
 def end_virtual(project: Project) -> None:
@@ -151,7 +152,12 @@ def end_virtual(project: Project) -> None:
 def _broken_cut(project: Project, program: str, text: str) -> BrokenCut | None:
     """Return how far this program came when it broke off; None if it did not begin, or ended."""
     cut = _notes(project).get(program)
-    return cut if cut and cut.digest == digest_of(text.encode()) else None
+    return cut if cut and cut.digest == digest_of_sent(text) else None
+
+
+def digest_of_sent(text: str) -> str:
+    """Return the digest of what the machine is sent of a program: comments may differ."""
+    return digest_of("\n".join(cleaned(text.splitlines())).encode())
 
 
 def _notes(project: Project) -> dict[str, BrokenCut]:

@@ -202,13 +202,29 @@ def read_choices(project: Project) -> tuple[Choices, str]:
     """Return the choices and the digest of their file. Raises InputError if the file is damaged."""
     content = project.read(FILE)
     if content is None:
-        return Choices(), digest_of(None)
+        return _found(project), digest_of(None)
     try:
         return Choices.model_validate_json(content), digest_of(content)
     except ValidationError as error:
         first = error.errors()[0]
         place = ".".join(str(part) for part in first["loc"])
         raise InputError(FILE, first["msg"], place=place, remedy="mend or delete it") from None
+
+
+# The settings that a folder of the command line has, the newest first.
+USUAL = ("machine.toml", "groundcontrol.ini", "webcontrol.json")
+CUT_WITH = re.compile(rb'^cut_with *= *"([\w.-]+)"', re.MULTILINE | re.ASCII)
+FORM = re.compile(rb"^\s*\[\[(mark|distance)\]\]", re.MULTILINE)
+
+
+def _found(project: Project) -> Choices:
+    """Return what a folder shows that nobody opened here yet: its settings, and its forms."""
+    names = project.names()
+    toml = {name: project.read(name) or b"" for name in names if name.endswith(".toml")}
+    forms = {name: text for name, text in toml.items() if FORM.search(text)}
+    cut_with = [named[1].decode() for text in forms.values() if (named := CUT_WITH.search(text))]
+    settings = next((name for name in (USUAL[0], *cut_with, *USUAL) if name in names), "")
+    return Choices(settings=settings, marks=list(forms) if settings else [])
 
 
 def choices_text(choices: Choices) -> bytes:

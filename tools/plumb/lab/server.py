@@ -33,12 +33,19 @@ TOKEN = re.compile(r"[A-Za-z0-9_-]{43}")
 
 def serve(folder: Path, *, port: int, browser: bool, say: Callable[[str], None]) -> None:
     """Serve the lab of a folder until Ctrl-C; port 0 takes any. Raises InputError."""
+    if not folder.exists():
+        try:
+            folder.mkdir(parents=True)
+        except OSError as error:
+            raise InputError(folder, f"cannot be made ({error.strerror})") from None
+        say(f"{folder}: a new folder, made for this machine")
     if not folder.is_dir():
-        raise InputError(f"{folder}: there is no such folder; make it, or name another")
+        raise InputError(folder, "is a file", remedy="name a folder")
     token = _token(folder)
     with _listening(port) as listener:
         address = Address(HOST, listener.getsockname()[1])
         url = f"http://{HOST}:{address.port}/?token={token}"
+        say("The lab is at this address; Ctrl-C ends it.")
         say(url)
         if browser:
             Thread(target=_open, args=(url, say), daemon=True).start()

@@ -34,6 +34,10 @@ PER_SECOND = 5  # reports
 KEPT = 2.0  # [s] after the motors are off: then the position is in the memory
 COMMENT = re.compile(r"\([^)]*\)")
 NUMBER = re.compile(r"\$(9|71)\s*=\s*([\d.]+)")  # that say how long motors hold, and are ahead
+# What a machine says of its place, at its start or to a line: its reports say nothing of that.
+LOST_PLACE = ("Position Lost", "Chain lengths are not known", "Unable to find valid machine")
+FOUND_PLACE = "position loaded at:"
+KEPT_LENGTHS = re.compile(r"Last known chain lengths: (-?[\d.]+), (-?[\d.]+)")
 STATUS = re.compile(r"<(\w+),MPos:(-?[\d.]+),(-?[\d.]+),(-?[\d.]+)")
 MM_PER_INCH = 25.4
 IN_INCHES = re.compile(r"<\w+,MPos:-?\d+\.\d{4}")  # after G20; a report in mm has two decimals
@@ -45,6 +49,11 @@ class RefusedError(InputError):
 
 class StoppedError(Exception):
     """Whoever sends gave up; the machine has stopped."""
+
+
+def lost_place(said: Iterable[str]) -> str:
+    """Return the machine's words for a place that it does not know; empty if there are none."""
+    return next((line for line in said if any(words in line for words in LOST_PLACE)), "")
 
 
 @dataclass(frozen=True)
@@ -69,6 +78,8 @@ class Sender:
     holds_for: float = 2.0  # [s] after a motion until the motors are off ($9)
     ahead: float = 1.0  # [s] of motion that may be left of a line that is answered ($71)
     reported_at: float = 0.0  # when the last came, by this computer's clock [s]; 0: none did
+    knows_place: bool | None = None  # as the machine last said; None: it has not said anything
+    kept_lengths: tuple[float, float] | None = None  # [mm] of the chains when it last stood still
     greeting: tuple[str, ...] = ()  # what the machine said before its first report
     _stirred: Watch | None = None  # since it last may have moved; None: it has not
     _place: tuple[float, float, float] | None = None  # [mm] where it stands, or last moved to
@@ -287,7 +298,18 @@ class Sender:
             )
         text = self._partial + came.decode("ascii", errors="replace")
         *lines, self._partial = text.split("\n")
-        yield from (line.strip("\r") for line in lines)
+        for line in lines:
+            self._note_place(line)
+            yield line.strip("\r")
+
+    def _note_place(self, line: str) -> None:
+        """Note what the machine says of its place, whoever else hears that."""
+        if lost_place([line]):
+            self.knows_place = False
+        elif line.startswith(FOUND_PLACE):
+            self.knows_place = True
+        if kept := KEPT_LENGTHS.search(line):
+            self.kept_lengths = float(kept[1]), float(kept[2])
 
     def _note_status(self, line: str) -> bool:
         """Return whether a line is a report."""

@@ -6,7 +6,7 @@ Hold, go on and stop do not wait for the work that is being done.
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Future
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
@@ -31,7 +31,6 @@ Phase = Literal["none", "connecting", "ready", "busy", "stopping", "lost"]
 LEAVES = 5.0  # [s] in which a line is usually let go of
 SAID = 30  # lines of the machine that are kept
 SURE = 2  # reports after which it shows whether a hold that was pressed is done
-FOUND_PLACE = "position loaded at:"
 HAS_HALTED = "The machine has halted: press Stop."
 
 
@@ -58,6 +57,7 @@ class LineState:
     phase: Phase = "none"
     place: tuple[float, float, float] | None = None  # [mm] x, y, z
     knows_place: bool = True
+    kept_lengths: tuple[float, float] | None = None  # [mm] of the chains when it last stood still
     holds: bool = False
     moves: bool = False
     trouble: str = ""  # what went wrong last
@@ -223,10 +223,7 @@ class LineWorker:
     def _finished(self, outcome: Literal["done", "stopped", "refused"], trouble: str) -> _Done:
         program = self.state.program
         assert program is not None
-        changes: dict[str, Any] = {"program": replace(program, outcome=outcome), "trouble": trouble}
-        if lost_place([trouble]):
-            changes["knows_place"] = False
-        return _Done(changes)
+        return _Done({"program": replace(program, outcome=outcome), "trouble": trouble})
 
     def _run(self) -> None:
         port: Port | None = None
@@ -324,6 +321,8 @@ class LineWorker:
 
     def _see(self, sender: Sender) -> None:
         """Note what the machine reported."""
+        if sender.knows_place is not None:
+            self._note(knows_place=sender.knows_place, kept_lengths=sender.kept_lengths)
         status = sender.status
         if status is None:
             return
@@ -354,10 +353,6 @@ class LineWorker:
         if line == SAID_PAUSED and program and program.outcome == "running":
             changes["program"] = replace(program, paused_at=program.done)
             self._paused(program.done)
-        if lost_place([line]):
-            changes["knows_place"] = False
-        elif line.startswith(FOUND_PLACE):
-            changes["knows_place"] = True
         if line.startswith("ALARM"):
             changes["trouble"] = line
         self._note(**changes)
@@ -387,14 +382,3 @@ def _busy(phase: Phase) -> str:
         "connecting": "the machine is not ready yet: wait a moment",
         "lost": "the line to the machine was lost: connect it again",
     }.get(phase, "the machine is busy: wait, or press Stop")
-
-
-# Whether a machine knows where its sled is: its greeting alone says so, its reports do not.
-
-# What a machine says at its start, or to a line that would move it.
-LOST_PLACE = ("Position Lost", "Chain lengths are not known", "Unable to find valid machine")
-
-
-def lost_place(said: Iterable[str]) -> str:
-    """Return the machine's words for a place that it does not know; empty if there are none."""
-    return next((line for line in said if any(words in line for words in LOST_PLACE)), "")

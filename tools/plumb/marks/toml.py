@@ -16,7 +16,7 @@ from plumb.marks.plausible import Sheet, to_machine
 from plumb.settings.files import read_settings
 from plumb.settings.machine import CONTROLLERS
 from plumb.text.errors import InputError, naming
-from plumb.text.files import read_text
+from plumb.text.files import parsed, read_text
 from plumb.text.values import (
     UNITS,
     length,
@@ -82,10 +82,7 @@ def read_marks_toml(
     """Return the marks and distances of a marks.toml, moved to the machine frame; unread
     marks too.
     """
-    try:
-        head = tomllib.loads(with_quoted_fractions(read_text(path)))
-    except tomllib.TOMLDecodeError as error:
-        raise InputError(path, f"is not valid TOML: {error}", remedy="mend that line") from None
+    head = parsed(path, with_quoted_fractions(read_text(path)), tomllib.loads, "TOML")
     with naming(path, "at the top"):
         refuse_unknown(head, HEAD_KEYS)
     if "frame" not in head:

@@ -27,7 +27,7 @@ from plumb.settings.ini import (
 from plumb.settings.machine import MachineSettings, SettingsFile
 from plumb.settings.toml import read_machine_toml
 from plumb.text.errors import InputError
-from plumb.text.files import CODE, read_bytes, read_text
+from plumb.text.files import CODE, parsed, read_bytes, read_text
 from plumb.text.ini import IniEntry, IniText, parse_ini
 
 WEBCONTROL_ENDING = ".json"
@@ -125,10 +125,7 @@ def changed_webcontrol(
 
 def _loaded(text: str, source: str) -> dict[str, Any]:
     """Return the document, if it is one of WebControl."""
-    try:
-        document = json.loads(text)
-    except ValueError as error:
-        raise InputError(source, f"is not valid JSON: {error}", remedy="mend that line") from None
+    document = parsed(source, text, json.loads, "JSON")
     sections = document.values() if isinstance(document, dict) else ()
     if not any(isinstance(section, list) for section in sections):
         raise InputError(

@@ -26,7 +26,7 @@ from plumb.settings.machine import (
     frame_of,
 )
 from plumb.text.errors import InputError, naming, to_do
-from plumb.text.files import read_text, write_whole
+from plumb.text.files import parsed, read_text, write_whole
 from plumb.text.values import number, numbers, one_of, refuse_unknown, text_of, texts
 
 
@@ -34,10 +34,7 @@ def read_machine_toml(
     path: str | PathLike[str], *, known: Mapping[str, Sequence[str]] | None = None
 ) -> MachineSettings:
     """Return the settings of a machine.toml; known lists the parameters of each effect."""
-    try:
-        head = tomllib.loads(read_text(path))
-    except tomllib.TOMLDecodeError as error:
-        raise InputError(path, f"is not valid TOML: {error}", remedy="mend that line") from None
+    head = parsed(path, read_text(path), tomllib.loads, "TOML")
     if "mark" in head or "distance" in head:
         raise InputError(
             path, "holds marks, not settings", remedy="give SETTINGS first, then MARKS"

@@ -8,20 +8,23 @@ from __future__ import annotations
 
 import codecs
 import errno
+import fcntl
 import os
 import re
 import stat
 import tempfile
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager, suppress
 from contextvars import ContextVar
 from os import PathLike
 from pathlib import Path
+from typing import Any
 
 from plumb.text.errors import InputError
 
+MB = 1_000_000
 # A file of marks or settings has a few kilobytes; more is some other file picked by mistake.
-LARGEST_FILE_BYTES = 5_000_000
+LARGEST_FILE = 5 * MB
 _follows: ContextVar[bool] = ContextVar("follows", default=True)
 _PIPED: dict[str, bytes] = {}  # what came through pipes, which can be read only once
 
@@ -53,15 +56,17 @@ def opened(path: str | PathLike[str], flags: int, *, follows: bool | None = None
         raise
 
 
-def read_bytes(path: str | PathLike[str]) -> bytes:
-    """Return the bytes of a file that exists, is not empty and is not absurdly large."""
+def read_bytes(path: str | PathLike[str], *, most: int = LARGEST_FILE) -> bytes:
+    """Return the bytes of a file that exists, is not empty and has at most `most` bytes."""
     place = Path(path)
     try:
         if place.is_dir():
             raise InputError(path, "is a folder", remedy="name the file inside it")
-        if place.stat().st_size > LARGEST_FILE_BYTES:
-            raise InputError(path, "is larger than 5 MB", remedy="check that it is the right file")
-        content = _PIPED.get(str(path)) or _content(path)
+        # A device says no size, so one byte more than allowed is asked for.
+        content = _PIPED.get(str(path)) or _content(path, most + 1)
+        if len(content) > most:
+            why = f"is larger than {most // MB} MB"
+            raise InputError(path, why, remedy="check that it is the right file")
         if not place.is_file():
             _PIPED[str(path)] = content
     except FileNotFoundError:
@@ -74,9 +79,9 @@ def read_bytes(path: str | PathLike[str]) -> bytes:
     return content
 
 
-def _content(path: str | PathLike[str]) -> bytes:
+def _content(path: str | PathLike[str], most: int) -> bytes:
     with os.fdopen(opened(path, os.O_RDONLY), "rb") as file:
-        return file.read()
+        return file.read(most)
 
 
 # How files begin that are no text, and what each is.
@@ -92,11 +97,11 @@ NO_TEXT = (
 )
 
 
-def text_bytes(path: str | PathLike[str]) -> bytes:
+def text_bytes(path: str | PathLike[str], *, most: int = LARGEST_FILE) -> bytes:
     """Return a file's text in UTF-8, also that of UTF-16, which Notepad calls `Unicode` and whose
     first bytes say so. InputError for what is no text.
     """
-    content = read_bytes(path)
+    content = read_bytes(path, most=most)
     for begin, what in NO_TEXT:
         if content.startswith(begin):
             raise InputError(path, f"is {what}, not a text file", remedy="name another file")
@@ -108,12 +113,20 @@ def text_bytes(path: str | PathLike[str]) -> bytes:
     return content
 
 
-def read_text(path: str | PathLike[str]) -> str:
-    """Return the text of a file in UTF-8 or UTF-16, without a byte-order mark."""
-    content = text_bytes(path)
+def read_text(
+    path: str | PathLike[str], *, most: int = LARGEST_FILE, say: Callable[[str], None] | None = None
+) -> str:
+    """Return the text of a file in UTF-8 or UTF-16, without a byte-order mark.
+
+    say: where it may be text of an old Windows too, hears that it was read so.
+    """
+    content = text_bytes(path, most=most)
     try:
         text = content.decode("utf-8-sig")
     except UnicodeDecodeError as error:
+        if say:
+            say(f"{path} is not UTF-8, so it was read as text of Windows (cp1252)")
+            return content.decode("cp1252", errors="replace")
         line = content[: error.start].count(b"\n") + 1
         raise InputError(
             path,
@@ -126,6 +139,28 @@ def read_text(path: str | PathLike[str]) -> str:
     return text
 
 
+def parsed(
+    path: str | PathLike[str], text: str, parse: Callable[[str], dict[str, Any]], form: str
+) -> dict[str, Any]:
+    """Return what `parse` makes of a file's text; InputError for what is not valid in that form."""
+    try:
+        return parse(text)
+    except (ValueError, RecursionError) as error:
+        why = error if isinstance(error, ValueError) else "brackets in brackets without end"
+        raise InputError(path, f"is not valid {form}: {why}", remedy="mend that line") from None
+
+
+@contextmanager
+def alone_in(folder: str | PathLike[str]) -> Iterator[None]:
+    """Until the end, whoever asks the same for this folder waits."""
+    handle = os.open(folder, os.O_RDONLY)
+    try:
+        fcntl.flock(handle, fcntl.LOCK_EX)
+        yield
+    finally:
+        os.close(handle)
+
+
 def write_whole(path: str | PathLike[str], content: bytes) -> None:
     """Replace a file in one step: a crash leaves the old or the new file, never half."""
     write_all({os.fspath(path): content})
@@ -136,23 +171,28 @@ def write_all(files: Mapping[str, bytes]) -> None:
 
     Devices and pipes stay what they are: they get the bytes, just before the files are replaced.
     """
-    staged: dict[str, tuple[str, Path]] = {}
+    staged: dict[str, tuple[int, str, Path]] = {}
     path = ""
     try:
         poured = [path for path in files if _is_poured_into(path)]
         for path in files:
             if path not in poured:
-                target = os.path.realpath(path) if _follows.get() else path
-                staged[path] = _staged(Path(target), files[path])
+                target = Path(os.path.realpath(path) if _follows.get() else path)
+                staged[path] = (*_staged(target, files[path]), target)
         for path in poured:
             with open(path, "wb") as stream:
                 stream.write(files[path])
         for path in staged:
-            os.replace(*staged[path])
+            handle, name, target = staged[path]
+            if not os.path.exists(name):
+                # Any folder's handle makes Python follow the link to the file without a name.
+                os.link(f"/proc/self/fd/{handle}", name, src_dir_fd=handle)
+            os.replace(name, target)
     except OSError as error:
         raise InputError(path, f"cannot be written ({error.strerror})") from None
     finally:
-        for name, _ in staged.values():
+        for handle, name, _ in staged.values():
+            os.close(handle)
             Path(name).unlink(missing_ok=True)
 
 
@@ -174,19 +214,28 @@ def _is_poured_into(path: str | PathLike[str]) -> bool:
     return stat.S_ISFIFO(mode) or stat.S_ISCHR(mode)
 
 
-def _staged(target: Path, content: bytes) -> tuple[str, Path]:
-    """Return the content in a new file next to the target, whose place it takes later."""
-    handle, name = tempfile.mkstemp(dir=target.parent, prefix=f".{target.name}.")
+def _staged(target: Path, content: bytes) -> tuple[int, str]:
+    """Return the content in an open file, and the name under which it is next to the target.
+
+    Where the system has them, the file gets its name only when it is whole, so that a command that
+    is killed leaves nothing behind.
+    """
     try:
-        with os.fdopen(handle, "wb") as file:
+        handle = os.open(target.parent, os.O_TMPFILE | os.O_RDWR, 0o600)
+        name = str(target.with_name(f".{target.name}.{os.getpid()}-{handle}"))
+    except (AttributeError, OSError):
+        handle, name = tempfile.mkstemp(dir=target.parent, prefix=f".{target.name}.")
+    try:
+        with os.fdopen(handle, "wb", closefd=False) as file:
             file.write(content)
             file.flush()
-            os.fsync(file.fileno())
-        os.chmod(name, _mode_for(target))
+            os.fsync(handle)
+        os.fchmod(handle, _mode_for(target))
     except OSError:
+        os.close(handle)
         Path(name).unlink(missing_ok=True)
         raise
-    return name, target
+    return handle, name
 
 
 def _mode_for(target: Path) -> int:

@@ -145,6 +145,29 @@ def test_a_hidden_effect_is_added_and_the_second_round_starts_from_the_new_machi
     assert before > 3.0 and after < 0.35
 
 
+def test_what_a_hand_must_do_about_a_turned_sheet_stands_beside_the_promise(run):
+    known = {name: sizes for name, sizes in EFFECTS.items() if name != "chain_pitch"}
+    believed = replace(BELIEVED, effects=known)
+    write_machine_toml("first.toml", believed)
+    turn = 4.9 / 2438.4
+    turned = [
+        replace(
+            mark,
+            measured=(
+                mark.measured[0] + turn * mark.measured[1],
+                mark.measured[1] - turn * mark.measured[0],
+            ),
+        )
+        for mark in marks_on(TRUE, believed, grid(7, 5), noise=0.2, seed=3)
+    ]
+    Path("a.csv").write_text(csv_of(turned))
+    options = ("--sigma", "0.2", "--checked", "tape_scale.strain=0+-0.0001")
+    for command in ("calibrate", "add --effect auto"):
+        name, *more = command.split()
+        said = " ".join(run(name, "first.toml", "a.csv", *more, *options)[1].split())
+        assert re.search(r"lower the right end of the next sheet by 4\.\d+ mm", said), said
+
+
 def test_numbers_of_a_machine_without_a_client_go_there_before_new_marks_are_cut(run):
     known = {name: sizes for name, sizes in EFFECTS.items() if name != "chain_pitch"}
     believed = replace(BELIEVED, effects=known)

@@ -39,8 +39,11 @@ def test_compare_above_the_limit_is_bad_news(run):
 def test_add_writes_settings_that_explain_the_marks(ask, tmp_path):
     new, ini = tmp_path / "machine.toml", tmp_path / "machine-groundcontrol.ini"
     options = ("--client", "groundcontrol", "--firmware", "published")
+    # These marks ask for a sag below zero, which only --force writes.
     code, answer = ask("add", *BOARD, *EFFECTS, "-o", new, *options)
-    assert code == 0 and answer["written"] == [str(new), str(ini)]
+    assert (code, answer["written"], list(tmp_path.iterdir())) == (1, [], [])
+    code, answer = ask("add", *BOARD, *EFFECTS, "-o", new, *options, "--force")
+    assert code == 1 and answer["written"] == [str(new), str(ini)]
     assert answer["effects_added"] == ["chain_pitch", "chain_sag"]
     assert answer["raw"]["rms_mm"] > answer["before"]["fit_rms_mm"] > answer["after"]["fit_rms_mm"]
     assert answer["after"]["fit_rms_mm"] < answer["after"]["priced_rms_mm"] < 0.9
@@ -59,7 +62,7 @@ def test_add_writes_settings_that_explain_the_marks(ask, tmp_path):
 def test_add_keeps_every_key_of_the_ini_that_it_does_not_change(run, tmp_path):
     ini = tmp_path / "new-groundcontrol.ini"
     options = ("--client", "groundcontrol", "--firmware", "published")
-    assert run("add", *BOARD, *EFFECTS, *options, "-o", tmp_path / "new.toml")[0] == 0
+    run("add", *BOARD, *EFFECTS, *options, "--force", "-o", tmp_path / "new.toml")
     old, new = SETTINGS.read_text().splitlines(), ini.read_text().splitlines()
     changed = {
         line.split(" = ")[0] for line, new_line in zip(old, new, strict=True) if line != new_line
@@ -76,8 +79,11 @@ def test_add_keeps_every_key_of_the_ini_that_it_does_not_change(run, tmp_path):
 
 def test_add_tells_people_the_fall_the_doubts_and_what_was_written(run, tmp_path):
     new, picture = tmp_path / "machine.toml", tmp_path / "fall.png"
-    code, said, _ = run("add", *BOARD, *EFFECTS, "-o", new, "--picture", picture, "--details")
-    assert code == 0 and "The error goes from 7.29 to 0.64 mm RMS" in " ".join(said.split())
+    written = ("-o", new, "--picture", picture)
+    code, said, _ = run("add", *BOARD, *EFFECTS, *written)
+    assert code == 1 and "Do not set the machine by" in said and "Nothing is written" in said
+    code, said, _ = run("add", *BOARD, *EFFECTS, *written, "--details", "--force")
+    assert code == 1 and "The error goes from 7.29 to 0.64 mm RMS" in " ".join(said.split())
     assert "impossible" in said and "measure it again" in said
     assert str(new) in said and picture.read_bytes().startswith(b"\x89PNG")
 

@@ -79,6 +79,11 @@ def test_a_proposal_is_cut_by_a_program(run, ask, file, maker, tmp_path):
     assert all(line.count("(") == line.count(")") <= 1 for line in text.splitlines())
     assert chosen["do"][0][:20] in text
     assert run("check", cut, maker)[0] == 0
+    numbers = [i for i, each in enumerate(answer["next"], 1) if each["marks"]]
+    other = answer["next"][numbers[-1] - 1]
+    written = ("--choose", numbers[-1], "--marks", tmp_path / "more.toml")
+    _, said, _ = run("next", maker, path, "--sigma", "0.3", *written)
+    assert f"Next: {other['title']}" in said and f"Written: {tmp_path / 'more.toml'}" in said
 
 
 def test_what_is_only_read_again_is_not_cut(run, ask, file, maker, tmp_path):
@@ -225,3 +230,15 @@ def test_sentences_and_tables_name_effects_as_makers_do(run):
         # A name in brackets is what --effect takes.
         bare_names = [name for name in effect_names() if re.search(rf"(?<!\(){name}\b", said)]
         assert bare_names == [], words[0]
+
+
+@pytest.mark.parametrize(
+    ("distances", "words"),
+    [
+        ("squares.toml", "Add each reading to squares.toml as a [[distance]] of the same ends."),
+        ("spacings.toml", "Correct its line in spacings.toml."),
+    ],
+)
+def test_it_says_where_a_distance_that_is_measured_again_is_written(run, distances, words):
+    folder = EXAMPLE[0].parents[2] / "tools/plumb/examples/gero-2017-04-26"
+    assert words in run("next", folder / "as-triangular.ini", folder / distances)[1]

@@ -1,5 +1,8 @@
 """`plumb slip` and `plumb home`: the repair that they write, and what they refuse."""
 
+import subprocess
+import sys
+import tomllib
 from pathlib import Path
 
 import pytest
@@ -24,6 +27,17 @@ def test_a_slip_is_named_and_its_repair_written(run, folder):
     comment, line = (folder / "repair.nc").read_text().splitlines()
     assert "touch 2" in comment and line.startswith("B06 L") and line in said
     assert "plumb send repair.nc" in said
+
+
+def test_marks_that_six_commands_keep_at_once_are_all_kept(folder):
+    command = [sys.executable, "-m", "plumb.cli.start", "home", "machine.toml"]
+    begun = [
+        subprocess.Popen([*command, f"--keep=m{i}=0,{100 * i}"], stdout=subprocess.DEVNULL)
+        for i in range(6)
+    ]
+    assert [each.wait() for each in begun] == [0] * 6
+    kept = tomllib.loads((folder / "home.toml").read_text())["mark"]
+    assert sorted(kept) == [f"m{i}" for i in range(6)]
 
 
 def test_touches_odds_and_the_line_are_said(run):

@@ -36,6 +36,28 @@ def test_a_line_is_json_that_other_programs_read(tmp_path):
     assert line["rms_mm"] is None and line["pair"] == [1, 2]
 
 
+def test_a_full_disk_leaves_the_diary_as_it_was(tmp_path):
+    """A file may grow to so many bytes and no more, as on a disk that is nearly full."""
+    append(tmp_path, "fit", {"rms_mm": 1.0}, at=NOON)
+    script = (
+        "import resource, sys\n"
+        "from plumb.diary.file import append\n"
+        "from plumb.text.errors import InputError\n"
+        "most, folder = int(sys.argv[1]), sys.argv[2]\n"
+        "resource.setrlimit(resource.RLIMIT_FSIZE, (most, most))\n"
+        "try: append(folder, 'fit', {'said': 'a' * 1000})\n"
+        "except InputError as error: print(error)\n"
+    )
+    before = (tmp_path / NAME).read_bytes()
+    (tmp_path / "new").mkdir()
+    for folder, most in ((tmp_path, len(before) + 100), (tmp_path / "new", 100)):
+        command = [sys.executable, "-c", script, str(most), folder]
+        done = subprocess.run(command, capture_output=True, text=True)
+        assert "diary.jsonl: cannot be written" in done.stdout, done.stderr
+    assert (tmp_path / NAME).read_bytes() == before
+    assert list((tmp_path / "new").iterdir()) == []
+
+
 def test_a_folder_without_a_diary_has_no_entries(tmp_path):
     assert read_diary(tmp_path).entries == () and not has_diary(tmp_path)
     append(tmp_path, "fit", {})

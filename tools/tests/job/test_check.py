@@ -42,6 +42,20 @@ def lines_and_kinds(lines):
     return [(each.line, each.kind) for each in check_job(MAKER, lines).findings]
 
 
+@pytest.mark.parametrize(
+    ("lines", "line", "says"),
+    [
+        (["G1 Z-1", "G1 X10"], 1, "no F says how fast to cut"),
+        (["G1 Z-1 F100", "G1 X100 F0"], 2, "at which this takes 100 minutes"),
+        (["G1 Z-1 F100", "G1 X100 F0.0001"], 2, "the feed is 1 mm/min"),
+        (["G1 Z-1 F100", "G2 X10 Y0 R0"], 2, "R0 is the radius of no arc"),
+    ],
+)
+def test_a_feed_or_an_arc_that_nobody_can_mean_is_wrong(lines, line, says):
+    (finding,) = check_job(MAKER, ["G0 Z5", *lines]).findings
+    assert finding.is_wrong and finding.line == line + 1 and says in finding.says
+
+
 @pytest.mark.parametrize("name", NAMES)
 def test_nothing_is_wrong_with_the_programs(name):
     checked = check_job(MAKER, lines_of(name))

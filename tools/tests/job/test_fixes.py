@@ -162,3 +162,18 @@ def test_the_command_writes_it_lists_it_and_refuses_without_writing(tmp_path, ca
     assert main(["check", "job.nc", "machine.toml", "--fix", "other.nc"]) == 2
     assert not (tmp_path / "other.nc").exists()
     assert capsys.readouterr().err.count("\n") == 1
+
+
+@pytest.mark.parametrize(
+    ("line", "meant"),
+    [
+        ("G73 X10 Y10 Z-3 R1 Q1.5 F100", "G83 X10 Y10 Z-3 R1 Q1.5 F100"),
+        ("G98 G73 X10 Y10 Z-3 R1 Q0 F100", "G98 G81 X10 Y10 Z-3 R1 F100"),
+        ("G83 X10 Y10 Z-3 R1 Q0. F100", "G81 X10 Y10 Z-3 R1 F100"),
+    ],
+)
+def test_holes_that_this_machine_pecks_otherwise_are_drilled(line, meant):
+    program = ["G0 Z5", line, "X30", "G80", "G0 Z5"]
+    mended = fix(program)
+    assert list(mended.lines) == ["G0 Z5", meant, *program[2:]]
+    assert [change.line for change in mended.changes] == [2]

@@ -5,7 +5,6 @@ The machine is at a serial port, as a board is. Each number is typed as the tape
 
 import re
 import threading
-import time
 
 import pytest
 from folder import got
@@ -17,11 +16,11 @@ from plumb.vm.garage import RANDOM, hide, random_garage
 from plumb.vm.owner import VirtualOwner
 from plumb.vm.pseudo_terminal import Pace, PseudoTerminal
 from plumb.vm.tape import marks_on
-from screens import go_on_until, settle
+from screens import at_rest
 
 NUMBER = 9  # of the machine: one effect of 3 mm, and a sheet that lies turned
 SPEED = 200  # times as fast as a real machine
-AT_REST_S = 2  # in which a machine of that speed cuts the next mark, if it has its lines
+LONG_MS = 400_000  # in which a machine cuts the next mark, if it has its lines
 GAP = 2  # the machine's number for the gap between the motors
 SHEET = (2438.4, 1219.2)
 
@@ -37,12 +36,17 @@ class Garage:
         self._mine = threading.Lock()
         self.plug_in()
 
-    def plug_in(self):
+    def plug_in(self, speed=SPEED):
         """A cable to the machine; its port may have another name than before."""
-        self._terminal, self._pace = PseudoTerminal(self.owner.machine), Pace(SPEED)
+        self._terminal = PseudoTerminal(self.owner.machine)
+        self.run_at(speed)
         self._is_pulled = threading.Event()
         self._clock = threading.Thread(target=self._run)
         self._clock.start()
+
+    def run_at(self, speed):
+        """Let it run this many times as fast as a real machine."""
+        self._pace = Pace(speed)
 
     @property
     def path(self):
@@ -65,24 +69,24 @@ class Garage:
         return [(x + SHEET[0] / 2, SHEET[1] / 2 - y) for _, (x, y) in marks]
 
     @property
+    def lengths(self):
+        """What a tape says of both chains, and of the bit's height [mm]."""
+        with self._mine:
+            return *self.owner.machine.chains, self.owner.machine.height
+
+    @property
     def marks(self):
         """How many are on the sheet."""
         with self._mine:
             return len(marks_on(self.owner.machine.cuts()))
-
-    def await_marks(self, page, count):
-        """Wait until that many are on the sheet."""
-        for _ in range(PATIENCE // 100):
-            if self.marks >= count:
-                return
-            page.wait_for_timeout(100)
 
     def marks_at_rest(self):
         """How many there are when the machine has done all that it was sent."""
         before = -1
         while self.marks != before:
             before = self.marks
-            time.sleep(AT_REST_S)
+            with self._mine:
+                self._terminal.pass_time(LONG_MS)
         return before
 
     def lay_next_sheet(self, raised):
@@ -153,7 +157,6 @@ class Person:
     def cut(self, garage):
         self.go_to("Cut")
         self.press("^Move the sled and cut 9 marks$")
-        garage.await_marks(self.page, 9)
         self.see("All marks are cut.")
 
     def type_readings(self, garage, name):
@@ -166,8 +169,9 @@ class Person:
             self.type(f"{y:.1f}")
         self.see(re.compile("9 of 9 marks are read"))
         typed = [[round(x, 1), round(y, 1)] for x, y in readings]
-        go_on_until(self.page, lambda: self._saved(name) == typed)
-        settle(self.page)
+        at_rest(self.page)
+        assert self._saved(name) == typed
+        at_rest(self.page)
         said = self.page.locator(".count").inner_text()
         return float(re.search(r"(\d+\.\d+) mm", said)[1])
 

@@ -15,7 +15,7 @@ from pathlib import Path
 
 from conftest import QUIET
 from playwright.sync_api import Browser, Page, sync_playwright
-from screens import ROOT, measured_machine, settle
+from screens import ROOT, at_rest, measured_machine
 from served_lab import ServedLab, serve
 
 PICTURES = ROOT / "docs/pictures"
@@ -72,7 +72,7 @@ def take(browser: Browser, lab: ServedLab, picture: Picture, folder: Path) -> No
     page.set_default_timeout(PATIENCE_MS)
     page.goto(f"{lab.url}#/{picture.step}")
     picture.prepare(page)
-    settle(page)
+    at_rest(page)
     page.evaluate("() => { document.activeElement.blur(); scrollTo(0, 0); }")
     page.mouse.move(0, 0)
     page.screenshot(path=folder / f"{picture.name}.png")

@@ -13,14 +13,6 @@ PICTURES = ROOT / ".build/lab/screenshots"
 
 SIZES = {"desktop": (1280, 900), "phone": (375, 740)}
 SCHEMES = ("light", "dark")
-BUSY_S = 180  # of a busy computer
-DRAWN = """async () => {
-  const frame = () => new Promise((done) => requestAnimationFrame(() => setTimeout(done)));
-  await frame();
-  await frame();
-  const fading = document.getAnimations().filter((each) => each.effect.getTiming().iterations < 99);
-  await Promise.allSettled(fading.map((each) => each.finished));
-}"""
 SMALLEST_TEXT = 14  # CSS pixels; the body has 18
 SMALLEST_TARGET = 44  # CSS pixels, for a finger
 
@@ -121,33 +113,23 @@ def places(page) -> list[str]:
     return list(dict.fromkeys(link.get_attribute("href") for link in links))
 
 
-def settle(page):
-    """Wait until nothing is on its way and nothing is worked out."""
-    page.wait_for_load_state("networkidle")
-    busy = "() => !document.querySelector('[aria-busy=true], progress:not([value])')"
-    page.wait_for_function(busy, timeout=120_000)
-    drawn(page)
+def at_rest(page):
+    """Wait until the page has nothing to ask, to save or to draw."""
+    page.evaluate("() => new Promise(requestAnimationFrame)")  # so that it hears of a new address
+    page.locator("html[data-rest]").wait_for(state="attached")
 
 
-def go_on_until(page, condition):
-    """Let the page go on until this is so."""
-    for _ in range(3000):  # a tenth of a second each
-        if condition():
-            return
-        page.wait_for_timeout(100)
-    raise AssertionError("did not come")
-
-
-def drawn(page):
-    """Wait until the page has drawn what the last answer changed, and nothing fades any longer."""
-    page.evaluate(DRAWN)
+def await_question(page, held):
+    """Wait until the page asks what a test holds back."""
+    while not held:
+        page.evaluate("() => new Promise(requestAnimationFrame)")
 
 
 def walk(page):
     """Open each screen in turn; yields its name when it has settled."""
     for place in places(page):
         page.evaluate("(place) => { location.hash = place }", place)
-        settle(page)
+        at_rest(page)
         yield place.removeprefix("#/")
 
 

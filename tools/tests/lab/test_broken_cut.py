@@ -5,6 +5,7 @@ from dataclasses import dataclass, field
 
 import pytest
 from folder import asked, got, until
+from journeys import SPEED, Person
 from lab_machine import PATIENCE, bar, start_virtual
 from playwright.sync_api import expect
 from plumb.lab.broken_cut import begin, end_virtual, go_on, how_far, rest_of
@@ -16,7 +17,6 @@ from screens import fitted_machine
 from served_lab import serve
 
 SHEET = (2438.4, 1219.2)
-UNDER_WAY_MS = 800  # until the sled is surely on its way to the next mark, at 10 times its speed
 LINES = [
     "G21",
     "G90",
@@ -87,7 +87,7 @@ def test_a_mark_is_cut_for_sure_or_perhaps_and_never_less_than_before(tmp_path):
     line.sent["came"](0, 5)
     assert (far(), far("check.nc")) == ((1, 0), (0, 1))
     line.sent["then"](None)
-    assert (far(), far("check.nc")) == ((1, 0), (None, 0))
+    assert (far(), far("check.nc")) == ((1, 0), (2, 0))  # all are cut
 
 
 def test_a_cut_goes_on_with_the_kind_of_machine_that_began_it(tmp_path):
@@ -113,9 +113,11 @@ def test_check_marks_that_broke_off_are_asked_for_too(lab, page):
     fitted_machine(lab.folder)
     with lab.client() as client:
         got(client.post("/api/check"))
-        text = (lab.folder / "check.nc").read_text()
+        # It is sent as it was made; in the folder it names its form too.
+        told = (lab.folder / "check.nc").read_text().splitlines(keepends=True)
         line = Line()
-        begin(Project(lab.folder), line, "check.nc", text)
+        sent = "".join(line for line in told if not line.startswith("("))
+        begin(Project(lab.folder), line, "check.nc", sent)
         line.sent["came"](0, 7)  # the first plunge has left
         check = got(client.get("/api/check"))
         assert (check["broke_off"], check["perhaps"], check["goes_on"]) == (0, 1, True)
@@ -126,7 +128,7 @@ def test_check_marks_that_broke_off_are_asked_for_too(lab, page):
     page.goto(f"{lab.url}#/check")
     said = "Cut 0 of 2 marks, then it broke off. The machine may have cut mark 1 too."
     expect(page.get_by_text(said)).to_be_visible()
-    line.sent["came"](0, len(text.splitlines()))
+    line.sent["came"](0, len(sent.splitlines()))
     page.reload()
     expect(page.get_by_text("The machine may have cut marks 1 and 2 too.")).to_be_visible()
 
@@ -151,7 +153,8 @@ def test_a_stopped_cut_goes_on_from_the_next_mark(lab, page):
     expect(page.get_by_label(re.compile("[2-4] of 9 marks are cut"))).to_be_visible(
         timeout=PATIENCE
     )
-    page.wait_for_timeout(UNDER_WAY_MS)
+    with lab.client() as client:  # on its way to the next mark
+        until(client, lambda machine: machine["moves"] and machine["place"][2] > 3)
     bar(page).get_by_role("button", name="Stop").click()
     expect(page.get_by_text(re.compile("Cut [2-5] of 9 marks, then it broke off"))).to_be_visible()
     expect(page.get_by_role("button", name="Begin again: move the sled")).to_be_visible()
@@ -159,7 +162,6 @@ def test_a_stopped_cut_goes_on_from_the_next_mark(lab, page):
         got(client.post("/api/machine/speed", json={"speed": 1000}))
     page.get_by_role("button", name=re.compile("Go on: move the sled and cut from mark")).click()
     expect(page.get_by_text("All marks are cut.")).to_be_visible(timeout=PATIENCE)
-    assert not (lab.folder / ".cut.json").exists()
     page.get_by_role("button", name="Let a tape read the 9 marks").click()
     expect(page.get_by_text("9 of 9 marks are read")).to_be_visible(timeout=PATIENCE)
     assert len(read_marks(lab.folder / "marks.toml", sheet=SHEET).measured_marks) == 9
@@ -213,6 +215,49 @@ def test_no_mark_is_cut_twice_after_the_lab_died_in_a_cut(tmp_path, page, garage
     finally:
         lab.end()
     assert garage.marks_at_rest() == 9
+
+
+def test_a_cut_whose_line_was_lost_goes_on_once_the_machine_knows_its_chains(lab, page, garage):
+    """Nothing is typed in that nobody measured; what the machine last knew is offered as that."""
+    person = Person(page, lab)
+    person.connect(garage.path)
+    person.go_to("Cut")
+    person.press("^Move the sled and cut 9 marks$")
+    with lab.client() as client:
+        until(client, lambda machine: garage.marks >= 3)
+        garage.run_at(1)
+        until(client, lambda machine: machine["moves"] and machine["place"][2] > 3)
+    garage.pull_out()
+    expect(bar(page)).to_contain_text("the line is lost", timeout=PATIENCE)
+    garage.plug_in(1)
+    page.reload()
+    with lab.client() as client:
+        connect(client, garage)
+        marks = got(client.get("/api/grid"))["marks"]
+    garage.run_at(SPEED)
+    there, lengths = garage.marks, garage.lengths
+    button = page.get_by_role("button", name="Set both lengths; nothing moves")
+    expect(button).to_be_disabled(timeout=PATIENCE)
+    fields = page.locator(".set-chains input")
+    assert [box.input_value() for box in fields.all()] == ["", "", ""]
+    page.get_by_role("button", name="Type these in").click()
+    last = [float(box.input_value()) for box in fields.all()]
+    assert last != pytest.approx(lengths, abs=1)  # it was moving
+    for box, length in zip(fields.all(), lengths, strict=True):
+        box.fill(f"{length:.1f}")
+    button.click()
+    expect(bar(page)).to_contain_text("stands", timeout=PATIENCE)
+    go_on_from(page, marks, there)
+    assert garage.marks_at_rest() == 9
+    # What is cut stays cut when the line is lost once more.
+    garage.pull_out()
+    garage.plug_in()
+    with lab.client() as client:
+        connect(client, garage)
+    expect(bar(page)).to_contain_text("stands", timeout=PATIENCE)
+    expect(page.get_by_role("link", name="Type what your tape says")).to_have_class(
+        re.compile("primary")
+    )
 
 
 def connect(client, garage):

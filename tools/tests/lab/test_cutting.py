@@ -2,8 +2,9 @@
 
 import re
 
-from folder import got
+from folder import got, until
 from lab_machine import PATIENCE, bar, start_virtual
+from playwright.sync_api import expect
 
 
 def set_speed(lab, speed):
@@ -22,11 +23,9 @@ def test_hold_waits_and_stop_gives_up_and_cutting_again_is_read_rightly(lab, pag
     go_on = bar(page).get_by_role("button", name="Go on")
     go_on.wait_for(timeout=PATIENCE)
     set_speed(lab, 10)
-    held, before = bar(page).inner_text(), ""
-    while held != before:  # the last move comes to its end
-        page.wait_for_timeout(200)
-        held, before = bar(page).inner_text(), held
-    assert "holds" in held
+    with lab.client() as client:  # the last move comes to its end
+        until(client, lambda machine: machine["holds"] and not machine["moves"])
+    expect(bar(page)).to_contain_text("holds")
     go_on.click()
     bar(page).get_by_role("button", name="Stop").click()
     page.get_by_text("then it broke off").wait_for(timeout=PATIENCE)

@@ -3,7 +3,7 @@
 import pytest
 from playwright.sync_api import expect
 from plumb.guide.talk import progress_in
-from screens import drawn
+from screens import at_rest, await_question
 
 WIDE, PHONE = {"width": 1280, "height": 900}, {"width": 375, "height": 812}
 
@@ -68,15 +68,14 @@ def test_an_answer_from_before_a_press_is_not_taken_for_the_state_after_it(first
             route.fulfill(response=answer)
 
     page.route("**/api/guide", hold)
-    while not looks:  # the page looks every few seconds
-        page.wait_for_timeout(50)
+    await_question(page, looks)  # the page looks every few seconds
     page.get_by_role("button", name="Begin: Read the machine's numbers").click()
     page.get_by_text("The machine works").wait_for()
     route, before = looks[0]
     with page.expect_response("**/api/guide") as shown:
         route.fulfill(response=before)
     shown.value.finished()
-    drawn(page)
+    at_rest(page)
     assert page.get_by_text("The machine works").is_visible()
     held.clear()
     for route, answer in looks[1:]:

@@ -8,7 +8,7 @@ from folder import EXAMPLE, example_form
 from playwright.sync_api import expect
 from plumb.grid.pattern import spans_line
 from plumb.marks.form import read_form
-from screens import go_on_until
+from screens import at_rest, await_question
 
 SHEET = (2438.4, 1219.2)
 LEFT, TOP = "Mark 2 from the left, mm", "Mark 2 from the top, mm"
@@ -79,7 +79,8 @@ def test_what_another_program_read_meanwhile_is_no_half_any_more(lab, readings):
     whole = (lab.folder / "marks.toml").read_text()
     field(page, LEFT).fill("")
     expect(page.locator(".count")).to_contain_text("22 of 23 marks are read")
-    go_on_until(page, lambda: read_on_disk(lab) == 22)
+    at_rest(page)
+    assert read_on_disk(lab) == 22
     (lab.folder / "marks.toml").write_text(whole)
     expect(page.locator(".count")).to_contain_text("23 of 23 marks are read")
     expect(field(page, LEFT)).not_to_have_value("")
@@ -95,9 +96,10 @@ def test_a_file_that_went_back_before_the_page_looked_is_loaded_again(lab, readi
     whole = (lab.folder / "marks.toml").read_text()
     holds, held = True, []
     page.route("**/api/project", lambda look: held.append(look) if holds else look.continue_())
-    field(page, LEFT).fill("")
-    expect(page.locator(".count")).to_contain_text("22 of 23 marks are read")
-    go_on_until(page, lambda: read_on_disk(lab) == 22 and held)
+    with page.expect_response("**/api/readings"):
+        field(page, LEFT).fill("")
+    assert read_on_disk(lab) == 22
+    await_question(page, held)
     (lab.folder / "marks.toml").write_text(whole)
     holds = False
     for look in held:
@@ -127,7 +129,8 @@ def test_the_sign_of_the_inch_means_inch(lab, readings):
         x, y = form.measurements.marks[1].measured
         return x + SHEET[0] / 2, SHEET[1] / 2 - y
 
-    go_on_until(page, lambda: place() == pytest.approx(wanted, abs=0.01))
+    at_rest(page)
+    assert place() == pytest.approx(wanted, abs=0.01)
 
 
 def test_a_distance_that_is_no_length_does_not_count(lab, page):

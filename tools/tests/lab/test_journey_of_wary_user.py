@@ -3,6 +3,7 @@
 import re
 
 import pytest
+from folder import until
 from journeys import Person
 from lab_machine import PATIENCE, bar
 from playwright.sync_api import expect
@@ -44,7 +45,8 @@ class Wary(Person):
         """
         self.go_to("Cut")
         self.press("^Move the sled and cut 9 marks$")
-        garage.await_marks(self.page, 3)
+        with self.lab.client() as client:
+            until(client, lambda machine: garage.marks >= 3)
         self.lab.process.kill()
         self.lab.process.wait()
         self.see("The lab does not answer")
@@ -56,7 +58,6 @@ class Wary(Person):
         self.go_to("Cut")
         garage.lay_next_sheet(raised=0)
         self.press("^Begin again on a fresh sheet: move the sled")
-        garage.await_marks(self.page, 9)
         self.see("All marks are cut.")
 
     def lose_the_line(self, garage):

@@ -4,7 +4,8 @@ import json
 
 import pytest
 from folder import got
-from screens import go_on_until
+from playwright.sync_api import expect
+from screens import at_rest, await_question
 from served_lab import serve
 
 
@@ -23,7 +24,8 @@ def page_open(lab, page):
 
 def test_a_choice_is_saved_at_once(lab, page_open):
     page_open.get_by_label("inch").check()
-    go_on_until(page_open, lambda: choices(lab).get("units") == "inch")
+    at_rest(page_open)
+    assert choices(lab).get("units") == "inch"
 
 
 def test_an_open_page_goes_on_with_a_server_that_was_killed_and_started(lab, page_open):
@@ -35,7 +37,8 @@ def test_an_open_page_goes_on_with_a_server_that_was_killed_and_started(lab, pag
     assert choices(lab) == {}
     again = serve(lab.folder, port=lab.port)
     try:
-        go_on_until(page_open, lambda: choices(lab).get("units") == "inch")
+        at_rest(page_open)
+        assert choices(lab).get("units") == "inch"
         page_open.get_by_role("alert").wait_for(state="detached")
         assert "kept" not in page_open.get_by_role("status").inner_text()
     finally:
@@ -50,7 +53,8 @@ def test_a_reload_takes_up_what_was_chosen_while_nobody_answered(lab, page_open)
     again = serve(lab.folder, port=lab.port)
     try:
         page_open.goto(lab.url)
-        go_on_until(page_open, lambda: choices(lab).get("units") == "inch")
+        at_rest(page_open)
+        assert choices(lab).get("units") == "inch"
         assert page_open.get_by_label("inch").is_checked()
     finally:
         again.end()
@@ -63,19 +67,22 @@ def test_a_choice_taken_back_while_it_is_saved_stays_taken_back(lab, page_open):
         "**/api/choices", lambda route: route.continue_() if saves else saves.append(route)
     )
     page_open.get_by_label("inch").check()
-    go_on_until(page_open, lambda: saves)
+    await_question(page_open, saves)
     page_open.get_by_label("mm").check()
     saves[0].continue_()
-    go_on_until(page_open, lambda: choices(lab).get("units") == "mm")
+    at_rest(page_open)
+    assert choices(lab).get("units") == "mm"
     assert page_open.get_by_label("mm").is_checked()
 
 
 def test_a_save_keeps_what_another_program_saved_in_the_meantime(lab, page_open):
     page_open.get_by_label("inch").check()
-    go_on_until(page_open, lambda: choices(lab).get("units") == "inch")
+    at_rest(page_open)
+    assert choices(lab).get("units") == "inch"
     (lab.folder / "lab.json").write_text(json.dumps({**choices(lab), "fineness": 0.25}))
     page_open.get_by_label("mm").check()
-    go_on_until(page_open, lambda: choices(lab).get("units") == "mm")
+    at_rest(page_open)
+    assert choices(lab).get("units") == "mm"
     assert choices(lab)["fineness"] == 0.25
 
 
@@ -91,11 +98,12 @@ def test_what_another_program_saves_while_a_save_is_under_way_is_kept(lab, page_
 
     page_open.route("**/api/choices", answer_late)
     page_open.get_by_label("inch").check()
-    go_on_until(page_open, lambda: late)
+    await_question(page_open, late)
     (lab.folder / "lab.json").write_text(json.dumps({**choices(lab), "fineness": 0.25}))
     page_open.get_by_label("mm").check()
     late[0].fulfill(json=got(lab.client().get("/api/project")))
-    go_on_until(page_open, lambda: choices(lab).get("units") == "mm")
+    at_rest(page_open)
+    assert choices(lab).get("units") == "mm"
     assert choices(lab)["fineness"] == 0.25
 
 
@@ -103,4 +111,4 @@ def test_a_second_tab_of_the_same_browser_needs_no_key_and_sees_the_choice(lab, 
     second = page_open.context.new_page()
     second.goto(lab.site)
     page_open.get_by_label("inch").check()
-    go_on_until(second, lambda: second.get_by_label("inch").is_checked())
+    expect(second.get_by_label("inch")).to_be_checked()

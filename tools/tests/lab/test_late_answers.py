@@ -6,7 +6,7 @@ import pytest
 from folder import example_form
 from lab_machine import start_virtual
 from playwright.sync_api import expect
-from screens import drawn, fitted_machine, go_on_until
+from screens import at_rest, await_question, fitted_machine
 
 PATIENCE = 300_000  # [ms] of a busy computer
 
@@ -36,12 +36,12 @@ def test_an_answer_to_an_older_question_changes_nothing(open_machine, page, scre
 
     page.route(f"**/api/{screen}", first_late)
     open_machine(screen)
-    go_on_until(page, lambda: late)
+    await_question(page, late)
     page.get_by_label("inch").check()
     expect(page.locator(shown).first).to_contain_text(" inch", timeout=PATIENCE)
     with page.expect_response(f"**/api/{screen}"):
         asked[0].fulfill(response=late[0])
-    drawn(page)
+    at_rest(page)
     expect(page.locator(shown).first).to_contain_text(" inch", timeout=PATIENCE)
 
 
@@ -53,10 +53,9 @@ def test_readings_count_from_the_edges_that_are_named_with_them(open_machine, pa
     left = page.get_by_label("Mark 1 from the left, mm", exact=True)
     x = float(left.input_value(timeout=PATIENCE))
     page.get_by_label("Measured from").select_option("top-right")
-    go_on_until(page, lambda: saves)
+    await_question(page, saves)
     # What the page would ask then is answered before this.
     page.evaluate("() => fetch('/').then((answer) => answer.text())")
-    drawn(page)
     assert float(left.input_value()) == x
     saves[0].continue_()
     right = page.get_by_label("Mark 1 from the right, mm", exact=True)
@@ -70,7 +69,7 @@ def test_a_question_that_nobody_answers_is_said_and_asked_again(lab, page):
     start_virtual(page, lab)
     page.get_by_role("heading", name="Its first day").wait_for(timeout=PATIENCE)
     page.route("**/api/guide", lambda route: never.append(route))
-    go_on_until(page, lambda: never)
+    await_question(page, never)
     said = page.get_by_text("The lab does not answer, so this may be old")
     assert said.count() == 0
     page.clock.fast_forward(10_000)

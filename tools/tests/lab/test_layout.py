@@ -7,9 +7,9 @@ import pytest
 from folder import asked, finished, got
 from lab_machine import PATIENCE, bar, start_virtual
 from playwright.sync_api import expect
-from plumb.lab.broken_cut import NOTES, BrokenCut
-from plumb.lab.project import CUT, digest_of
-from screens import drawn, fitted_machine, measured_machine, settle, with_check_marks
+from plumb.lab.broken_cut import NOTES, BrokenCut, digest_of_sent
+from plumb.lab.project import CUT
+from screens import at_rest, fitted_machine, measured_machine, with_check_marks
 
 WIDE, NARROW = {"width": 1280, "height": 800}, {"width": 390, "height": 844}
 SMALLER = {"width": 375, "height": 740}
@@ -38,7 +38,7 @@ def measured(lab, page):
 
     def opened(step):
         page.goto(f"{lab.url}#/{step}")
-        page.locator("main h1").wait_for()
+        at_rest(page)
         return page
 
     return opened
@@ -52,6 +52,7 @@ def measured(lab, page):
 def test_the_first_thing_to_do_is_on_the_first_screen(measured, step, size):
     page = measured(step)
     page.set_viewport_size(size)
+    at_rest(page)
     first = page.locator(FIRST[step]).first
     first.wait_for()
     foot = page.locator(".way-on").bounding_box()["y"]
@@ -67,7 +68,8 @@ def test_the_picture_stays_while_the_work_scrolls(measured, step):
     picture = page.locator(".stage svg").first
     picture.wait_for()
     page.locator(".work details").last.scroll_into_view_if_needed()
-    page.wait_for_function("() => scrollY > 0")
+    at_rest(page)
+    assert page.evaluate("() => scrollY") > 0
     expect(picture).to_be_in_viewport(ratio=0.9)
 
 
@@ -92,6 +94,7 @@ def test_the_error_stays_in_view_down_to_the_last_effect(measured):
 def test_a_phone_has_one_column_and_small_bars(measured):
     page = measured("known")
     page.set_viewport_size(NARROW)
+    at_rest(page)
     asks, stage, work = (
         page.locator(f".screen .{part}").bounding_box() for part in ("asks", "stage", "work")
     )
@@ -108,6 +111,7 @@ def test_a_phone_has_one_column_and_small_bars(measured):
 def test_a_phone_shows_the_first_field_of_the_readings_without_scrolling(measured):
     page = measured("readings")
     page.set_viewport_size(NARROW)
+    at_rest(page)
     fields = page.locator(".cells input")
     fields.first.wait_for()
     for field in (fields.nth(0), fields.nth(1)):
@@ -132,10 +136,12 @@ def test_the_steps_fold_on_a_phone_when_the_open_step_is_chosen_again(measured):
 def test_the_button_of_a_screen_is_in_view_and_covers_no_foot(measured, step, size):
     page = measured(step)
     page.set_viewport_size(size)
+    at_rest(page)
     act = page.get_by_role("button", name=ACTS[step])
     expect(act).to_be_in_viewport(ratio=1)
     page.mouse.wheel(0, 300)
-    page.wait_for_function("() => scrollY > 0")
+    at_rest(page)
+    assert page.evaluate("() => scrollY") > 0
     expect(act).to_be_in_viewport(ratio=1)
     foot = page.locator(".way-on")
     box = act.bounding_box()
@@ -200,10 +206,9 @@ def out_of_view(page, step, wanted):
     )
     for size in (WIDE, NARROW, SMALLER):
         page.set_viewport_size(size)
-        act.first.wait_for(timeout=PATIENCE)
-        settle(page)
+        at_rest(page)
         page.evaluate("() => scrollTo(0, 0)")
-        drawn(page)
+        at_rest(page)
         at = f"{step} at {size['width']}"
         primary = page.locator("main .primary, .machine-bar .primary").all_inner_texts()
         if wanted != "Stop" and primary not in ([], [act.inner_text()]):
@@ -250,7 +255,7 @@ def opened(lab, page):
         if state:
             with_machine(page, **state)
         page.goto(f"{lab.url}#/open")
-        page.get_by_role("heading", level=1).wait_for()
+        at_rest(page)
         return page
 
     return open_page
@@ -307,7 +312,7 @@ def note_break(folder, *, marks, begun):
     """Note how many marks are surely cut, and how many perhaps."""
     with asked(folder) as client:
         text = got(client.get("/api/grid"))["text"]
-    cut = BrokenCut(digest=digest_of(text.encode()), marks=marks, begun=begun, is_virtual=False)
+    cut = BrokenCut(digest=digest_of_sent(text), marks=marks, begun=begun, is_virtual=False)
     (folder / CUT).write_bytes(NOTES.dump_json({"grid-2.nc": cut}))
 
 

@@ -5,7 +5,7 @@ from folder import asked, example_form, with_settings
 from playwright.sync_api import expect
 from plumb.lab.guard import Editor, OtherTabError
 from plumb.marks.form import read_form
-from screens import go_on_until
+from screens import at_rest
 from test_readings_page import LEFT, SHEET, await_saved, open_readings, saved, type_in, with_form
 
 SAID = "This folder is open in another tab."
@@ -86,7 +86,7 @@ def test_what_the_losing_tab_did_not_save_stays_in_view_until_it_takes_over_agai
     first.get_by_text("What you typed here last is not saved.").wait_for()
     expect(cell(first)).to_have_value("98")
     first.unroute("**/api/readings")
-    first.wait_for_timeout(4000)  # longer than it waits before it sends again
+    at_rest(first)
     assert saved(lab) == {}
     take_over(first)
     await_saved(lab, first, {"1": MINE})
@@ -132,7 +132,8 @@ def test_a_file_that_a_program_changes_while_somebody_types_is_asked_about(
     first.get_by_role("button", name=answer).click()
     expect(first.get_by_text("The file has changed on disk")).to_have_count(0)
     expect(cell(first)).to_have_value("98" if "1" in kept else "")
-    go_on_until(first, lambda: on_disk(lab) == kept)
+    at_rest(first)
+    assert on_disk(lab) == kept
 
 
 def test_the_right_goes_to_the_next_tab_that_is_open():

@@ -16,5 +16,5 @@ def test_a_bad_file_is_refused_in_a_line_and_changes_nothing(lab, page, tmp_path
     bad = tmp_path / "holiday.ini"
     bad.write_text("no settings\n")
     page.get_by_label("Settings' file").set_input_files(bad)
-    assert "groundcontrol.ini" in page.get_by_role("alert").inner_text()
+    assert "holiday.ini" in page.get_by_role("alert").inner_text()
     assert not (lab.folder / "groundcontrol.ini").exists()

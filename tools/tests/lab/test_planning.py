@@ -5,7 +5,7 @@ import re
 
 import pytest
 from folder import EXAMPLE
-from screens import go_on_until
+from screens import at_rest, await_question
 
 PATIENCE = 300_000  # [ms] of a busy computer
 
@@ -36,28 +36,35 @@ def test_marks_are_chosen_dragged_added_and_taken_away(lab, opened):
     page.locator(".sum", has_text="would show").wait_for(timeout=PATIENCE)
     nine, sigmas = shows(page), page.locator(".heat table").text_content()
     page.get_by_label(re.compile("Twenty-five marks")).check()
-    go_on_until(page, lambda: shows(page) > nine)
+    at_rest(page)
+    assert shows(page) > nine
     assert choices(lab)["layout"] == "twenty-five"
     page.get_by_label(re.compile("^Nine marks")).check()
-    go_on_until(page, lambda: shows(page) == nine)
+    at_rest(page)
+    assert shows(page) == nine
     first = page.get_by_role("button", name=re.compile(r"^Mark 1 at"))
     box = first.bounding_box()
     page.mouse.move(box["x"] + box["width"] / 2, box["y"] + box["height"] / 2)
     page.mouse.down()
     page.mouse.move(box["x"] + 90, box["y"] + 80, steps=4)
     page.mouse.up()
-    go_on_until(page, lambda: choices(lab)["layout"] == "own")
+    at_rest(page)
+    assert choices(lab)["layout"] == "own"
     moved = choices(lab)["planned"]
     assert len(moved) == 9 and moved[1] == [0, 509.6]
     assert moved[0][0] > -1119 and moved[0][1] < 509
     first.focus()
     page.keyboard.press("ArrowRight")
-    go_on_until(page, lambda: choices(lab)["planned"][0][0] == moved[0][0] + 25)
+    at_rest(page)
+    assert choices(lab)["planned"][0][0] == moved[0][0] + 25
     page.keyboard.press("Delete")
-    go_on_until(page, lambda: len(choices(lab)["planned"]) == 8)
+    at_rest(page)
+    assert len(choices(lab)["planned"]) == 8
     page.get_by_role("button", name="Add a mark in the middle").click()
-    go_on_until(page, lambda: choices(lab)["planned"][-1] == [0, 0])
-    go_on_until(page, lambda: page.locator(".heat table").text_content() != sigmas)
+    at_rest(page)
+    assert choices(lab)["planned"][-1] == [0, 0]
+    at_rest(page)
+    assert page.locator(".heat table").text_content() != sigmas
 
 
 def test_the_recommended_plan_is_a_click_away(lab, opened):
@@ -66,7 +73,7 @@ def test_the_recommended_plan_is_a_click_away(lab, opened):
     page.route("**/layouts/advice*", lambda route: held.append(route))
     page.goto(f"{lab.site}#/measure")
     page.locator(".advised[aria-busy]", has_text="Working out").wait_for(timeout=PATIENCE)
-    go_on_until(page, lambda: bool(held))
+    await_question(page, held)
     held.pop().continue_()
     page.unroute("**/layouts/advice*")
     advice = page.locator(".advised:not([aria-busy])")
@@ -74,7 +81,8 @@ def test_the_recommended_plan_is_a_click_away(lab, opened):
     said = advice.inner_text()
     assert "would show" in said and "instead of 2 and 1 with nine marks" in said
     advice.get_by_role("button", name="Take these").click()
-    go_on_until(page, lambda: choices(lab).get("layout", "nine") != "nine")
+    at_rest(page)
+    assert choices(lab).get("layout", "nine") != "nine"
     advice.get_by_role("button").wait_for(state="detached")
     taken = page.locator(".layouts label:has(:checked)").inner_text().split("about")[0].strip()
     assert said.startswith(f"Recommended. {taken}")
@@ -91,14 +99,14 @@ def test_what_is_known_is_kept_and_makes_less_error_normal(lab, opened):
     gap.fill("2982,5")
     page.get_by_role("textbox", name=re.compile("the gap.*how far it may be off")).fill("0,8")
     page.keyboard.press("Tab")
-    go_on_until(
-        page, lambda: choices(lab).get("known") == {"motor_gap": {"value": 2982.5, "sigma": 0.8}}
-    )
+    at_rest(page)
+    assert choices(lab).get("known") == {"motor_gap": {"value": 2982.5, "sigma": 0.8}}
     gap.fill("about two")
     page.keyboard.press("Tab")
     page.get_by_text(re.compile("Type a number, like")).wait_for()
     # What cannot be read does not count, and the number before it no more.
-    go_on_until(page, lambda: "motor_gap" not in (choices(lab).get("known") or {}))
+    at_rest(page)
+    assert "motor_gap" not in (choices(lab).get("known") or {})
     gap.fill("298")
     page.keyboard.press("Tab")
     refused = page.get_by_role("alert").filter(has_text="298.0 mm is far from the 2978.4 mm")
@@ -122,7 +130,8 @@ def test_who_comes_for_a_number_sees_it_and_types_what_is_read(lab, opened):
     assert lean.bounding_box()["y"] < 900
     lean.fill("15")
     page.keyboard.press("Tab")
-    go_on_until(page, lambda: choices(lab).get("known"))
+    at_rest(page)
+    assert choices(lab).get("known")
     known = choices(lab)["known"]["frame_lean.tangent_squared"]
     assert known["value"] == pytest.approx(0.0718, abs=1e-4)
     assert known["sigma"] == pytest.approx(0.005, rel=0.1)

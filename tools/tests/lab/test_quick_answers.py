@@ -8,7 +8,7 @@ from pathlib import Path
 import plumb.lab.rounds
 from folder import got, with_marks
 from playwright.sync_api import expect
-from screens import go_on_until, measured_machine, settle
+from screens import at_rest, measured_machine
 
 ROOT = Path(__file__).resolve().parents[3]
 MOST_S = 0.03  # after its header; a body that waits for a receipt comes after 0.04
@@ -77,7 +77,7 @@ def test_a_slider_moves_the_arrows_many_times_a_second(lab, page):
     page.goto(f"{lab.url}#/bench")
     page.get_by_role("checkbox", name="chains too long").check()
     page.get_by_role("slider", name="left chain too long").wait_for()
-    settle(page)
+    at_rest(page)
     seen = page.evaluate(SLIDE)
     (ROOT / ".build/lab").mkdir(parents=True, exist_ok=True)
     (ROOT / ".build/lab/slider.txt").write_text(
@@ -88,6 +88,5 @@ def test_a_slider_moves_the_arrows_many_times_a_second(lab, page):
     left = page.locator(".fall-now output")
     expect(left).to_contain_text("mm")
     state = page.locator(".states label").last
-    go_on_until(
-        page, lambda: f"{left.inner_text()} noise leaves" in " ".join(state.inner_text().split())
-    )
+    at_rest(page)
+    assert f"{left.inner_text()} noise leaves" in " ".join(state.inner_text().split())

@@ -1,7 +1,9 @@
 """Readings as they are typed: each is saved, none is lost, and what disagrees is said."""
 
+import shutil
+
 import pytest
-from folder import EXAMPLE, choose, example_form, got
+from folder import EXAMPLE, ROOT, asked, choose, example_form, got
 from plumb.lab.routes import readings
 from plumb.marks.form import read_form
 from plumb.marks.read import read_marks
@@ -227,3 +229,30 @@ def test_what_a_form_says_besides_readings_stays(client, tmp_path):
     after = read_form(tmp_path / "marks.toml", sheet=SHEET)
     assert after.head["mark"][0].pop("measured") == pytest.approx([0.8, -0.4])
     assert after.head == before.head
+
+
+REAL = sorted(
+    path.parent
+    for path in (ROOT / "tools/plumb/examples").glob("*/SOURCE.md")
+    if any(path.parent.glob("*.toml"))
+)
+
+
+@pytest.mark.parametrize("folder", REAL, ids=lambda folder: folder.name)
+def test_what_the_commands_open_the_page_opens(folder, tmp_path):
+    """Each real machine, as a folder that somebody opens, and as files that he picks."""
+    as_folder = tmp_path / "whole"
+    shutil.copytree(folder, as_folder)
+    forms = got(asked(as_folder).get("/api/project"))
+    assert forms["machine"] and not forms["trouble"]
+    (tmp_path / "picked").mkdir()
+    picked = asked(tmp_path / "picked")
+    name = forms["choices"]["settings"]
+    with (folder / name).open("rb") as file:
+        assert got(picked.post("/api/settings", files={"file": (name, file)}))["machine"]
+    for path in folder.glob("*.toml"):
+        if path.name != name:
+            shown = got(picked.post("/api/marks", files={"file": (path.name, path.read_bytes())}))
+            assert any(mark["read"] for mark in shown["marks"]) or shown["distances"]
+            assert path.name in forms["choices"]["marks"]
+    got(picked.get("/api/bench") if (folder / "marks.toml").exists() else picked.get("/api/grid"))

@@ -9,7 +9,7 @@ from playwright.sync_api import expect
 from plumb.cli.main import main
 from plumb.grid.pattern import spans_line
 from plumb.marks.read import read_marks
-from screens import go_on_until
+from screens import at_rest
 
 SHEET = (2438.4, 1219.2)
 PATIENCE = 300_000  # [ms] of a busy computer
@@ -46,7 +46,8 @@ def saved(lab):
 
 
 def await_saved(lab, page, expected):
-    go_on_until(page, lambda: saved(lab) == expected)
+    at_rest(page)
+    assert saved(lab) == expected
 
 
 def test_what_is_typed_is_saved_and_a_reload_keeps_the_rest(lab, page):

@@ -142,9 +142,18 @@ def test_a_folder_that_cannot_be_written_is_refused_at_the_start(tmp_path):
     done = started("/proc", "--no-browser", "--port", "0")
     assert done.returncode == 2
     assert done.stderr.startswith("plumb: /proc: cannot be written")
-    done = started(tmp_path / "nothing", "--no-browser", "--port", "0")
-    assert (done.returncode, done.stderr.count("\n")) == (2, 1)
-    assert "there is no such folder" in done.stderr
+
+
+def test_a_folder_that_is_not_there_is_made_and_said(tmp_path):
+    """As in the example of its help."""
+    folder = tmp_path / "shop/my-maslow"
+    words = [*PLUMB, "lab", folder, "--no-browser", "--port", "0"]
+    process = subprocess.Popen(words, stdout=subprocess.PIPE, text=True)
+    made, _, address = (process.stdout.readline() for _ in range(3))
+    assert made == f"{folder}: a new folder, made for this machine\n" and folder.is_dir()
+    assert address.startswith("http://")
+    process.terminate()
+    process.wait()
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])

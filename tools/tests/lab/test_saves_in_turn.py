@@ -6,7 +6,7 @@ import pytest
 from folder import EXAMPLE, example_form
 from playwright.sync_api import expect
 from plumb.marks.form import read_form
-from screens import drawn, go_on_until
+from screens import at_rest, await_question
 
 SHEET = (2438.4, 1219.2)
 LEFT, TOP = "Mark {} from the left, mm", "Mark {} from the top, mm"
@@ -51,7 +51,7 @@ def read(lab):
 def let_go(page, late, count):
     """Let saves go on as they come; each is asked once that before it is answered."""
     for _ in range(count):
-        go_on_until(page, lambda: late)
+        await_question(page, late)
         assert len(late) == 1
         late.pop().continue_()
 
@@ -72,21 +72,22 @@ def test_a_reading_a_distance_and_the_tape_are_saved_together(lab, form, late):
     form.get_by_label(TOP.format(6), exact=True).fill("360")
     add(form, *FEW[0])
     let_go(form, late, 3)
-    go_on_until(form, lambda: len(read(lab).readings) == 6 and read(lab).distances)
+    at_rest(form)
+    assert len(read(lab).readings) == 6 and read(lab).distances
     assert read(lab).tape_sigma == pytest.approx(0.5, abs=0.3)
     assert form.get_by_role("alert").count() == 0
 
 
 def test_what_another_tab_saved_in_between_is_not_replaced(lab, form, late):
     add(form, *FEW[0])
-    go_on_until(form, lambda: late)
+    await_question(form, late)
     (lab.folder / "marks.toml").write_text(example_form(read=9))
     late.pop().continue_()
     form.get_by_role("alert").get_by_text("marks.toml has changed in the meantime").wait_for()
     assert len(read(lab).readings) == 9 and not read(lab).distances
     assert form.locator(".distances form input").input_value() == FEW[0][2]
     form.get_by_text("9 of 23 marks are read").wait_for()
-    drawn(form)
+    at_rest(form)
     assert form.get_by_role("alert").get_by_text("in the meantime").is_visible(), "it stays"
     form.get_by_role("button", name="Add the distance").click()
     let_go(form, late, 1)
@@ -100,10 +101,11 @@ def test_a_reading_is_saved_though_other_edges_are_chosen_before_its_turn(lab, f
     for mark, x, y in ((6, "98", "360"), (7, "660", "361")):
         form.get_by_label(LEFT.format(mark), exact=True).fill(x)
         form.get_by_label(TOP.format(mark), exact=True).fill(y)
-        go_on_until(form, lambda: late)
+        await_question(form, late)
     form.get_by_label("Measured from").select_option("bottom-right")
     form.get_by_label("Mark 6 from the right, mm", exact=True).wait_for()
     let_go(form, late, 2)
-    go_on_until(form, lambda: len(read(lab).readings) == 7)
+    at_rest(form)
+    assert len(read(lab).readings) == 7
     x, y = {mark.name: place for mark, place in read(lab).readings}["7"]
     assert (x + SHEET[0] / 2, SHEET[1] / 2 - y) == pytest.approx((660, 361), abs=0.1)

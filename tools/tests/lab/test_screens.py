@@ -16,10 +16,10 @@ from screens import (
     SMALLEST_TEXT,
     WANTED,
     WIDER,
+    at_rest,
     axe_findings,
     fitted_machine,
     measured_machine,
-    settle,
     tabbed,
     walk,
     with_check_marks,
@@ -171,7 +171,7 @@ def test_the_machine_in_mid_cut_is_in_view_on_every_screen(shown_cutting):
     page, findings = shown_cutting, []
     for place in IN_MID_CUT:
         page.evaluate("(place) => { location.hash = `#/${place}` }", place)
-        settle(page)
+        at_rest(page)
         bar = page.get_by_role("region", name="The machine", exact=True)
         assert "runs grid.nc" in bar.inner_text()
         for press in ("Hold", "Stop"):
@@ -190,7 +190,7 @@ def test_text_on_a_map_has_its_size_before_anybody_watches_the_map_grow(shown):
     shown.reload()
     shown.locator("nav").wait_for()  # else the page may yet open its first screen
     shown.evaluate("() => { location.hash = '#/reach' }")
-    settle(shown)
+    at_rest(shown)
     shown.locator(".sheet .names text").first.wait_for()
     assert shown.evaluate(SMALL_TEXT, SMALLEST_TEXT) == []
 
@@ -199,7 +199,7 @@ def faults_at(page, places, when):
     """The faults of some screens, each with its picture."""
     for place in places:
         page.evaluate("(place) => { location.hash = `#/${place}` }", place)
-        settle(page)
+        at_rest(page)
         page.picture(f"{place}-{when}")
         yield from (f"{place}: {each}" for each in faults(page))
 
@@ -224,6 +224,6 @@ def test_the_way_is_gone_by_keyboard_alone(shown):
     assert shown.evaluate("() => document.activeElement.id") == "screen"
     shown.get_by_role("link", name="What you know →").focus()
     shown.keyboard.press("Enter")
-    settle(shown)
+    at_rest(shown)
     assert "What you know" in shown.title()
     assert shown.evaluate("() => document.activeElement.id") == "screen"

@@ -8,7 +8,7 @@ import xml.etree.ElementTree as ET
 import pytest
 from folder import choose, finished
 from playwright.sync_api import expect
-from screens import axe_findings, go_on_until, measured_machine, settle
+from screens import at_rest, axe_findings, measured_machine
 
 SHEET = (2438.4, 1219.2)
 NOISE = 2.45  # sigmas: noise alone makes a longer error at 5 % of the marks
@@ -31,7 +31,7 @@ def verdict(lab, page):
     measured_machine(lab.folder)
     page.goto(f"{lab.url}#/verdict")
     page.locator(FRAME).wait_for()
-    settle(page)
+    at_rest(page)
     return page
 
 
@@ -184,7 +184,7 @@ def test_correct_compares_the_file_what_is_accepted_and_all_of_it_in_this_order(
     page.goto(f"{lab.url}#/correct")
     states = page.get_by_role("group", name="What is drawn").get_by_role("radio")
     expect(states).to_have_count(3)
-    settle(page)
+    at_rest(page)
     expect(states.nth(1)).to_be_checked()  # what is accepted
     figures, scales = page.locator(".errors dd").all_inner_texts(), []
     for index, name in enumerate(("as_set", "accepted", "whole")):
@@ -220,7 +220,7 @@ def test_it_is_enlarged_by_keys_buttons_wheel_and_two_fingers_and_comes_back(ver
     verdict.keyboard.down("Control")
     verdict.mouse.wheel(0, -200)
     verdict.keyboard.up("Control")
-    verdict.wait_for_timeout(50)
+    at_rest(verdict)
     near = span(verdict)
     assert near < 0.6 * (max(whole) - min(whole))
     verdict.mouse.move(x, y)
@@ -249,7 +249,7 @@ def pinch(page, x, y):
         }""",
         [x, y],
     )
-    page.wait_for_timeout(50)
+    at_rest(page)
 
 
 def test_the_legend_says_how_much_larger_arrows_are_and_how_long_a_bar_is(verdict):
@@ -267,7 +267,7 @@ def test_the_legend_says_how_much_larger_arrows_are_and_how_long_a_bar_is(verdic
 
 def test_its_axes_are_in_inches_where_the_page_is(verdict):
     verdict.get_by_role("radio", name="inch").check()
-    settle(verdict)
+    at_rest(verdict)
     expect(verdict.locator(".sheet .axes text").last).to_have_text("inch")
     assert 40 <= max(ticks(verdict)) <= 50
     verdict.locator(FRAME).focus()
@@ -282,11 +282,12 @@ def test_a_mark_stays_chosen_while_the_verdict_is_said_in_another_unit(verdict):
     verdict.route("**/api/verdict", half_worked(held))
     verdict.get_by_role("radio", name="inch").check()
     expect(verdict.locator(CARD)).to_contain_text(re.compile(r"Mark 1 0\.\d{3} inch off"))
-    go_on_until(verdict, lambda: len(held) > 1)  # asked again after the answer that is not whole
+    at_rest(verdict)
+    assert len(held) > 1
     expect(verdict.locator(".screen")).to_have_attribute("aria-busy", "true")
     expect(verdict.locator(CARD)).to_contain_text("Mark 1")
     verdict.unroute("**/api/verdict")
-    settle(verdict)
+    at_rest(verdict)
     expect(verdict.locator(CARD)).to_contain_text("Mark 1")
 
 
@@ -322,7 +323,7 @@ def test_its_picture_is_saved_in_light_colours_whatever_the_page_has(lab, browse
     page = context.new_page()
     page.goto(f"{lab.url}#/verdict")
     page.locator(FRAME).wait_for()
-    settle(page)
+    at_rest(page)
     path, name = saved(page, "Picture as SVG")
     assert name == "residuals.svg"
     text = path.read_text()
@@ -344,7 +345,7 @@ def test_on_a_phone_no_name_lies_over_another(lab, browser):
     page = context.new_page()
     page.goto(f"{lab.url}#/verdict")
     page.locator(FRAME).wait_for()
-    settle(page)
+    at_rest(page)
     names = page.locator(".sheet .names text").all_text_contents()
     assert {"1", "5", "11", "15"} <= set(names)
     assert page.evaluate(OVERLAPPING) == []

@@ -1,6 +1,5 @@
 """The thread that owns a line: programs, hold, go on, stop, and a line that is lost."""
 
-import time
 from threading import Event
 
 import pytest
@@ -22,6 +21,12 @@ def worker(board):
     until(lambda state: state.phase == "ready", working)
     yield working
     working.close()
+
+
+def look_on(worker, board, seconds=10):
+    """Let the board's time pass."""
+    end = board.time + seconds
+    until(lambda state: board.time > end, worker)
 
 
 JOB = [f"G1 X{i} Y{i * i} F1000" for i in range(1, 400)]
@@ -63,7 +68,7 @@ def test_hold_stops_at_once_and_go_on_goes_on(worker, board):
     until(lambda state: state.holds and not state.moves, worker)
     x, done = board.x, worker.state.program.done
     assert 0 < x < 60
-    time.sleep(0.05)
+    look_on(worker, board)
     assert (board.x, worker.state.program.done) == (x, done)
     assert worker.state.phase == "busy"
     worker.go_on()
@@ -112,7 +117,7 @@ def test_after_go_on_and_stop_together_the_next_program_comes_to_its_end(worker,
     worker.go_on()
     until(lambda state: STOP in board.written, worker)
     until(lambda state: state.phase == "ready" and not board.waiting, worker)
-    time.sleep(0.05)
+    look_on(worker, board)
     assert not is_at_work or GO_ON not in board.written
     worker.send("again", JOB[:50])
     until(lambda state: state.program.outcome == "done", worker)
@@ -183,7 +188,7 @@ def test_a_hold_that_the_machine_ignores_is_forgotten(worker, board, monkeypatch
 def test_what_halted_the_machine_is_not_covered_by_that_it_has_halted(worker, board):
     board.greeting, board.state = b"ALARM: a chain is stuck. Press Stop.\r\n", "Stop"
     until(lambda state: state.trouble, worker)
-    time.sleep(0.05)
+    look_on(worker, board)
     assert worker.state.trouble == "ALARM: a chain is stuck. Press Stop."
 
 

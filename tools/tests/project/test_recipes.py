@@ -80,6 +80,8 @@ def test_a_row_is_all_that_a_setting_needs(tmp_path):
     table = tmp_path / "src/settings_table.h"
     text = table.read_text(encoding="utf-8")
     assert text.count("\n\n#define PLUMB_KEPT_SETTINGS") == 1
+    taken = {int(number) for number in re.findall(r"ROW\(k\w+, (\d+),", text)}
+    assert int(re.search(r"ROW\(k\w+, (\d+),", row)[1]) not in taken
     text = text.replace(
         "\n\n#define PLUMB_KEPT_SETTINGS", f" \\\n{row}\n\n#define PLUMB_KEPT_SETTINGS"
     )
@@ -94,7 +96,7 @@ def test_a_row_is_all_that_a_setting_needs(tmp_path):
     command = ["g++", "-std=c++17", "-O0", *includes, *sources, "-o", "ask"]
     subprocess.run(command, cwd=tmp_path, check=True)
     said = subprocess.run([tmp_path / "ask"], capture_output=True, text=True)
-    assert (said.stdout, said.returncode) == ("beep_length, ms\n", 77)
+    assert (said.stdout, said.returncode) == ("beep_length, ms\n", 79)
 
 
 def test_a_file_and_a_line_are_all_that_a_command_needs(monkeypatch, capsys):

@@ -1,205 +1,118 @@
-"""What tools/test runs, shows and counts, and what its short run touches."""
+"""What tools/test runs, shows and counts, tried on small commands in place of the tests."""
 
-import io
+import os
+import signal
 import subprocess
 import sys
-import threading
-import time
 from pathlib import Path
 
 import pytest
-from rich.console import Console
 
 ROOT = Path(__file__).resolve().parents[3]
 sys.path.insert(0, str(ROOT / "tools/test_steps"))
-import part as part_module  # noqa: E402
-import quick  # noqa: E402
 import run  # noqa: E402
-from part import Part  # noqa: E402
+from run import Part  # noqa: E402
 
-ENDING = 30.0  # [s] after which what has not happened will not happen
+GOOD, SKIPPED = "<testcase name='a'/>", "<testcase name='b'><skipped/></testcase>"
+FAILED, BROKEN = SKIPPED.replace("skipped", "failure"), SKIPPED.replace("skipped", "error")
+EXIT_CODE = "<testcase name='native:test_a'><error/></testcase>"
 
 
 @pytest.fixture(autouse=True)
 def results(tmp_path, monkeypatch):
-    """The logs of these parts lie in a folder for them."""
-    for module in (part_module, run):
-        monkeypatch.setattr(module, "RESULTS", tmp_path)
-        monkeypatch.setattr(module, "ROOT", tmp_path)
+    """These parts leave their logs in a folder of their own."""
+    monkeypatch.setattr(run, "RESULTS", tmp_path)
     return tmp_path
 
 
-def awaited(condition) -> None:
-    """Wait until it holds."""
-    end = time.monotonic() + ENDING
-    while not condition():
-        assert time.monotonic() < end
-        time.sleep(0.01)
+def summed(capsys, *lanes: list[Part]) -> tuple[int, list[str]]:
+    run.run(lanes)
+    code = run.sum_up([part for lane in lanes for part in lane])
+    return code, capsys.readouterr().out.splitlines()
 
 
-def ended(*lanes, first=()) -> list[Part]:
-    """The parts of lanes that have been run."""
-    run.run(first, lanes)
-    return [*first, *(part for lane in lanes for part in lane)]
+def test_a_failure_is_named_at_once_shown_at_the_end_and_leaves_the_other_parts_running(capsys):
+    lane = [Part("a", [["sh", "-c", "echo why; exit 3"]]), Part("b", [["true"], ["true"]])]
+    code, shown = summed(capsys, lane, [Part("c", [["echo", "fine"]])])
+    assert code == 1 and shown[0] == "FAILED a: echo why; exit 3"
+    assert "why" in shown and "fine" not in shown
+    assert shown[-2].split()[:3] == ["c", "0:00", "1"] and shown[-1] == "3 passed, 1 failed"
 
 
-def test_parts_that_passed_are_summed_with_their_times(capsys):
-    parts = ended([Part("a", [["echo", "it is done"]])], [Part("b", [["true"], ["true"]])])
-    assert run.sum_up(parts) == 0
-    shown = capsys.readouterr().out
-    *_, row_a, row_b, slowest, last = shown.splitlines()
-    assert row_a.split()[:6] == ["a", "0:00", "1", "passed", "0", "failed"]
-    assert row_b.split()[:3] == ["b", "0:00", "2"] and row_b.endswith("s of CPU")
-    assert slowest.startswith("Slowest: ") and last == "3 passed, 0 failed"
-    assert (parts[0].log).read_text() == "it is done\n" and "it is done" not in shown
-
-
-def test_a_part_that_fails_is_named_at_once_and_its_end_is_shown(capsys):
-    parts = ended([Part("a", [["sh", "-c", "echo why; exit 3"]])], [Part("b", [["true"]])])
-    assert run.sum_up(parts) == 1
-    shown = capsys.readouterr().out
-    assert shown.startswith("FAILED a: a\n") and "\nwhy\n" in shown
-    assert shown.splitlines()[-1] == "1 passed, 1 failed"
-
-
-@pytest.mark.parametrize("script", ["true", "kill -KILL $$"])
-def test_a_part_that_counts_nothing_or_dies_has_failed(results, script):
-    parts = ended([Part("a", [["sh", "-c", script]], junit=results / "absent.xml")])
-    assert run.sum_up(parts) == 1 and (parts[0].passed, parts[0].failed) == (0, 1)
-
-
-def test_what_comes_first_and_fails_ends_the_run(capsys):
-    parts = ended([Part("b", [["true"]])], first=[Part("a", [["false"]])])
-    assert run.sum_up(parts) == 1
-    shown = capsys.readouterr().out.splitlines()
-    assert shown[-3].split() == ["b", "was", "not", "reached"] and shown[-1] == "0 passed, 2 failed"
-
-
-def test_a_run_of_nothing_does_not_pass(capsys):
-    assert run.sum_up([]) == 1
-    assert capsys.readouterr().out.endswith("0 passed, 0 failed\n")
-
-
-LINES = (
-    "[gw1] [ 12%] PASSED tools/tests/x/test_x.py::test_a \n"
-    "[gw0] [ 25%] FAILED tools/tests/x/test_x.py::test_b[1 2] \n"
-    "Machines/Tile.Law/Wide\t[PASSED]\nMachines/Tile.Law/Soft\t[FAILED]\n[gw9] no test\n"
-)
-
-
-def test_a_part_shows_how_far_it_is_and_names_failures_as_they_come(results):
-    release = results / "release"
-    script = f"printf %b '{LINES}'; until [ -e {release} ]; do sleep 0.01; done"
-    part = Part("tests", [["sh", "-c", script]], junit=results / "none.xml")
-    worker = threading.Thread(target=part.run)
-    worker.start()
-    awaited(lambda: len(part.failures) == 2)
-    (row,) = run.rows([part, Part("waits", [["true"]])])
-    assert row.split()[2:] == ["2", "passed", "2", "failed", "...", "25", "%"]
-    shown = io.StringIO()
-    run.show_failures([part], Console(file=shown, soft_wrap=True))
-    names = ["tools/tests/x/test_x.py::test_b[1 2]", "Machines/Tile.Law/Soft"]
-    assert shown.getvalue() == "".join(f"FAILED tests: {name}\n" for name in names)
-    release.touch()
-    worker.join(ENDING)
-    # The file of the counts has the last word.
-    assert (part.passed, part.failed) == (0, 1)
-
-
-def test_a_part_that_is_stopped_ends_with_all_that_it_started():
-    part = Part("long", [["sh", "-c", "sleep 1000 & wait"], ["true"]])
-    worker = threading.Thread(target=part.run)
-    worker.start()
-    awaited(lambda: part.process)
-    part.stop()
-    worker.join(ENDING)
-    assert not worker.is_alive() and (part.passed, part.failed) == (0, 1)
-
-
-def test_the_usual_run_leaves_out_what_is_slow_by_nature_and_nothing_else():
-    def names_and_words(slow):
-        first, lanes = run.everything(slow=slow)
-        parts = [*first, *(part for lane in lanes for part in lane)]
-        return [part.name for part in parts], parts[-1].commands[0]
-
-    usual, words = names_and_words(False)
-    all_of_it, all_words = names_and_words(True)
-    assert (
-        usual == all_of_it == ["firmware", "host tests", "fuzz", "bench", "checks", "Python tests"]
+def test_tests_are_counted_by_the_file_of_results_and_named_as_they_fail(capsys, results):
+    junit = results / "some.xml"
+    lines = (
+        "[gw0] [ 25%] FAILED tools/tests/x.py::test_b[1 2] \\nTile.Law/Soft\\t[FAILED]\\nother\\n"
     )
-    left_out = ["-m", "not slow"]
-    assert [word for word in words if word not in left_out] == [
-        word for word in all_words if word != "-m" or word not in left_out
+    junit.write_text(f"<testsuite name='x' timestamp='0'>{GOOD}{GOOD}{FAILED}</testsuite>")
+    code, shown = summed(capsys, [Part("x", [["printf", "%b", lines]], junit)])
+    assert shown[:2] == ["FAILED x: tools/tests/x.py::test_b[1 2]", "FAILED x: Tile.Law/Soft"]
+    assert code == 1 and shown[-1] == "2 passed, 1 failed"
+
+
+@pytest.mark.parametrize(
+    ("cases", "status", "expected"),
+    [
+        (GOOD * 2, 0, (2, 0)),
+        (GOOD + FAILED, 1, (1, 1)),
+        (BROKEN, 1, (0, 1)),
+        (GOOD + SKIPPED, 0, (1, 1)),
+        (GOOD, 139, (1, 1)),
+        (GOOD + FAILED + EXIT_CODE, 1, (1, 1)),
+        (GOOD + EXIT_CODE, 1, (1, 1)),
+        ("", 0, (0, 1)),
+        (None, 0, (0, 1)),
+    ],
+)
+def test_nothing_that_failed_or_did_not_run_counts_as_passed(results, cases, status, expected):
+    junit = results / "some.xml"
+    if cases is not None:
+        junit.write_text(f"<testsuite name='native:test_a' timestamp='0'>{cases}</testsuite>")
+    assert run.counts(junit, status) == expected
+
+
+def test_a_run_of_nothing_does_not_pass():
+    assert run.sum_up([]) == 1
+
+
+def test_the_usual_run_leaves_out_only_what_is_slow_and_a_word_it_does_not_know_is_refused():
+    usual, everything = (
+        [part for lane in run.lanes(what) for part in lane] for what in ("fast", "all")
+    )
+    assert [part.name for part in usual] == [part.name for part in everything]
+    changed = [
+        part.name
+        for part, other in zip(usual, everything, strict=True)
+        if part.commands != other.commands
     ]
-    assert words[-3:-1] == left_out and "not slow" not in all_words
-    checks = {path.stem for path in (ROOT / "tools/checks").glob("*.py")}
-    library = {"calls", "tree"}
-    assert {*quick.QUICK_CHECKS, *quick.SLOW_CHECKS} == checks - library
-
-
-def test_an_unknown_word_is_refused():
+    assert changed == ["Python tests"]
     done = subprocess.run([ROOT / "tools/test", "fats"], capture_output=True, text=True)
-    assert (done.returncode, done.stdout) == (2, "")
-    assert "use tools/test, tools/test all or tools/test quick" in done.stderr
+    assert (
+        done.returncode == 2 and "use tools/test, tools/test all or tools/test busy" in done.stderr
+    )
 
 
-def touched(*files: str) -> quick.Touched:
-    asked = quick.Touched()
-    for file in files:
-        asked.add(file)
-    return asked
-
-
-@pytest.fixture
-def project(monkeypatch):
-    monkeypatch.setattr(quick, "ROOT", ROOT)
-
-
-@pytest.mark.parametrize(
-    ("file", "slow"),
-    [
-        ("tools/plumb/fit/fit.py", {"annotations", "generated"}),
-        ("lib/Kinematics/src/frame.h", {"generated"}),
-        ("src/settings_table.h", {"generated"}),
-        ("docs/effects.md", {"generated"}),
-        ("lib/Motion/src/corner.h", set()),
-    ],
-)
-def test_the_short_run_asks_a_slow_check_where_an_edit_could_fail_it(project, file, slow):
-    asked = touched(file, file)
-    assert asked.checks[: len(quick.QUICK_CHECKS)] == list(quick.QUICK_CHECKS)
-    assert sorted(asked.checks[len(quick.QUICK_CHECKS) :]) == sorted(slow)
-    for check in quick.SLOW_CHECKS:
-        assert (f"check {check}," in asked.left_out()) == (check not in slow)
-
-
-@pytest.mark.parametrize(
-    ("file", "suites", "rooms", "firmware"),
-    [
-        ("src/machine/pause.cpp", "test_machine test_dialogues", "tools/tests/settings", True),
-        ("lib/GCode/src/Words.cpp", "test_gcode test_dialogues", "", True),
-        ("lib/Motion/src/Motion.h", "test_motion test_control", "", True),
-        ("test/test_motion/test_mover.cpp", "test_motion", "", False),
-        ("tools/plumb/fit/fit.py", "", "tools/tests/fit", False),
-        # An edited test alone asks for itself, and a tool or a page for the tests of its room.
-        ("tools/tests/fit/test_fit.py", "", "tools/tests/fit/test_fit.py", False),
-        ("tools/tests/lab/screens.py", "", "tools/tests/lab", False),
-        ("tools/setup_steps/debian.sh", "", "tools/tests/project/test_setup.py", False),
-        ("tools/demo", "", "tools/tests/project", False),
-        ("tools/plumb/effects/new/gone.py", "", "", False),
-    ],
-)
-def test_the_short_run_runs_what_belongs_to_an_edited_file(project, file, suites, rooms, firmware):
-    asked = touched(file)
-    assert asked.suites == {*suites.split()} and asked.rooms == {*rooms.split()}
-    assert asked.builds_firmware == firmware
-    _, (checks, builds) = asked.parts()
-    names = ["firmware"] * firmware + ["host tests"] * bool(suites)
-    assert [part.name for part in checks] == ["checks"]
-    assert [part.name for part in builds] == names + ["setup", "Python tests"] * bool(rooms)
-
-
-def test_every_suite_and_room_that_the_short_run_names_is_there():
-    for _, suites, rooms in quick.ROWS:
-        assert all((ROOT / "test" / suite).is_dir() for suite in suites)
-        assert all((ROOT / room).exists() for room in rooms)
+def test_a_run_that_is_interrupted_ends_all_that_it_started(results):
+    """Also the busy loops: none of its children is left when it has ended."""
+    script = (
+        f"import sys; sys.path[:0] = [{str(ROOT / 'tools/test_steps')!r}]; import run\n"
+        "from pathlib import Path\n"
+        f"run.RESULTS = Path({str(results / 'r')!r})\n"
+        "run.PIO = 'true'\n"
+        "run.lanes = lambda what: [[run.Part('x', [['sh', '-c', 'echo begun; sleep 100']])]]\n"
+        "sys.argv[1:] = ['busy']; sys.exit(run.main())\n"
+    )
+    work = subprocess.Popen([sys.executable, "-c", script], start_new_session=True)
+    log = results / "r/x.log"
+    while not (log.is_file() and log.read_text()):
+        assert work.poll() is None
+    group = subprocess.run(
+        ["ps", "-o", "pid=", "--sid", str(work.pid)], capture_output=True, text=True
+    )
+    assert len(group.stdout.split()) == 1 + run.CORES
+    os.kill(work.pid, signal.SIGINT)
+    assert work.wait() == 130
+    left = subprocess.run(
+        ["ps", "-o", "pid=", "--sid", str(work.pid)], capture_output=True, text=True
+    )
+    assert left.stdout.split() == []

@@ -2,11 +2,17 @@
 
 import os
 import re
+import signal
+import subprocess
+import sys
+from pathlib import Path
 
 import pytest
 from plumb.text import files as text_files
 from plumb.text.errors import InputError
 from plumb.text.files import read_text, write_all, write_whole
+
+EXAMPLE = Path(__file__).resolve().parents[3] / "docs/example"
 
 
 def test_unreadable_files_are_refused_by_name(tmp_path):
@@ -35,11 +41,34 @@ def test_unusable_content_is_refused(tmp_path, content, hint):
     assert "\n" not in str(caught.value)
 
 
-def test_a_huge_file_is_refused(tmp_path):
+def test_a_huge_file_and_a_device_without_an_end_are_refused(tmp_path):
     path = tmp_path / "film.csv"
-    path.write_bytes(b"x" * (text_files.LARGEST_FILE_BYTES + 1))
-    with pytest.raises(InputError, match="larger than 5 MB"):
-        read_text(path)
+    path.write_bytes(b"x" * (text_files.LARGEST_FILE + 1))
+    for source in (path, "/dev/zero"):
+        with pytest.raises(InputError, match="larger than 5 MB"):
+            read_text(source)
+
+
+@pytest.mark.parametrize(
+    ("name", "text"), [("marks.toml", "a = " + 3000 * "["), ("webcontrol.json", 100_000 * '{"a":')]
+)
+def test_brackets_without_end_are_refused_in_one_line(tmp_path, run, name, text):
+    (tmp_path / name).write_text(text)
+    given = {"webcontrol.json": EXAMPLE / "machine.toml", "marks.toml": EXAMPLE / "marks.toml"}
+    settings, marks = {**given, name: tmp_path / name}.values()
+    code, said, complaint = run("compare", settings, marks)
+    assert (code, said, complaint.count("\n")) == (2, "", 1) and "is not valid" in complaint
+
+
+def test_a_command_that_is_killed_while_it_writes_leaves_no_file(tmp_path):
+    script = (
+        "import os, signal\n"
+        "os.fsync = lambda handle: os.kill(os.getpid(), signal.SIGKILL)\n"
+        "from plumb.cli.main import main\n"
+        f"main(['grid', '--output', {str(tmp_path / 'grid.nc')!r}])\n"
+    )
+    assert subprocess.run([sys.executable, "-c", script]).returncode == -signal.SIGKILL
+    assert list(tmp_path.iterdir()) == []
 
 
 def test_byte_order_mark_is_dropped(tmp_path):

@@ -87,21 +87,8 @@ bool isSkip(uint16_t code) {
   return (code & 0xfc08) == 0xfc00 || (code & 0xfc00) == 0x1000 || top == 0x9900 || top == 0x9b00;
 }
 
-/// simavr takes some ADIW and SBIW for a call of two words, and skips the word behind them too. A
-/// program that has such a place behind a skip would run otherwise than on a Mega.
-void refuseWhatIsSkippedTooFar(const avr_t* avr, uint32_t size) {
-  const auto word = [&](uint32_t at) { return uint16_t(avr->flash[at] | avr->flash[at + 1] << 8); };
-  const uint16_t kJump = 0x940c;
-  // Before the code that a reset jumps to there are vectors and tables.
-  for (uint32_t at = word(0) == kJump ? 2u * word(2) : 0; at + 4 <= size; at += 2) {
-    const uint16_t next = word(at + 2);
-    const bool adds = (next & 0xfe00) == 0x9600, taken_for_call = (next & 0x000c) == 0x000c;
-    if (!isSkip(word(at)) || !adds || !taken_for_call) continue;
-    char place[80];
-    std::snprintf(place, sizeof place, "simavr would skip two words at 0x%x: write that line", at);
-    throw std::runtime_error(std::string(place) + " so that no ADIW or SBIW is behind the skip");
-  }
-}
+// A register that the Mega does not have, and OUT to it.
+const uint16_t kNoRegister = 0x59, kOutToIt = 0xbe09;
 
 /// simavr prints what it loads and what it lacks on standard output.
 void logNothing(avr_t*, const int, const char*, va_list) {}
@@ -123,7 +110,7 @@ VirtualBoard::VirtualBoard(const std::string& elf) {
   avr_->frequency = kClock;
   setSupply(5);
   avr_load_firmware(avr_, &firmware);
-  refuseWhatIsSkippedTooFar(avr_, firmware.flashsize);
+  markWideSkips(firmware.flashsize);
   for (uint16_t mask = kFirstTimerMask; mask <= kLastTimerMask; ++mask)
     avr_register_io_write(avr_, mask, onTimerMask, this);
   avr_->custom.data = this;
@@ -136,6 +123,43 @@ VirtualBoard::VirtualBoard(const std::string& elf) {
   line_ = serialLineOf(avr_);
   wire_in_ = avr_io_getirq(avr_, port, UART_IRQ_INPUT);
   avr_irq_register_notify(avr_io_getirq(avr_, port, UART_IRQ_OUTPUT), onCharacter, this);
+}
+
+void VirtualBoard::markWideSkips(uint32_t size) {
+  const uint16_t kJump = 0x940c;
+  // Before the code that a reset jumps to there are vectors and tables.
+  for (uint32_t at = word(0) == kJump ? 2u * word(2) : 0; at + 4 <= size; at += 2) {
+    const uint16_t next = word(at + 2);
+    const bool adds = (next & 0xfe00) == 0x9600, taken_for_call = (next & 0x000c) == 0x000c;
+    if (!isSkip(word(at)) || !adds || !taken_for_call) continue;
+    wide_skips_[at] = word(at);
+    setWord(at, kOutToIt);
+  }
+  avr_register_io_write(avr_, kNoRegister, onWideSkip, this);
+}
+
+void VirtualBoard::onWideSkip(avr_t* avr, avr_io_addr_t, uint8_t, void* parameter) {
+  // OUT takes no time, ends the burst, and no interrupt comes behind it.
+  avr->cycle -= 1;
+  avr->run_cycle_count = 0;
+  avr->interrupt_state = -2;
+  static_cast<VirtualBoard*>(parameter)->is_at_wide_skip_ = true;
+}
+
+int VirtualBoard::runWideSkip() {
+  is_at_wide_skip_ = false;
+  const auto marked = wide_skips_.find(avr_->pc - 2);
+  if (marked == wide_skips_.end()) return avr_->state;  // a reset came
+  const avr_flashaddr_t at = marked->first;
+  const uint16_t behind = word(at + 2), kNothing = 0;
+  setWord(at, marked->second);
+  setWord(at + 2, kNothing);
+  avr_->pc = at;
+  avr_->run_cycle_limit = avr_->run_cycle_count = 1;
+  const int state = avr_run(avr_);
+  setWord(at, kOutToIt);
+  setWord(at + 2, behind);
+  return state;
 }
 
 void VirtualBoard::onCharacter(avr_irq_t*, uint32_t value, void* parameter) {
@@ -189,7 +213,8 @@ void VirtualBoard::step(avr_cycle_count_t most_cycles) {
   if (avr_->run_cycle_limit != most_cycles) avr_->run_cycle_limit = avr_->run_cycle_count = 1;
   // Below zero simavr waits. The program's interrupt flag stays: the program saves and restores it.
   if (are_interrupts_held_) avr_->interrupt_state = -10;
-  const int state = avr_run(avr_);
+  int state = avr_run(avr_);
+  if (is_at_wide_skip_) state = runWideSkip();
   avr_->run_cycle_limit = most_cycles;
   noteTick();
   if (is_stack_followed_) noteStack();

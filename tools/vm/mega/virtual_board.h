@@ -124,6 +124,17 @@ class VirtualBoard {
   /// Time passes without waiting for real time.
   static void onSleep(avr_t*, avr_cycle_count_t cycles);
   static void onCharacter(avr_irq_t*, uint32_t value, void* board);
+  /// simavr takes some ADIW and SBIW for a call of two words, so a skip over such a word would skip
+  /// the next one too. Each such skip is replaced by an OUT that ends a burst; runWideSkip() then
+  /// runs the skip itself, with a NOP behind it.
+  void markWideSkips(uint32_t size);
+  static void onWideSkip(avr_t*, avr_io_addr_t, uint8_t, void* board);
+  int runWideSkip();
+  uint16_t word(uint32_t at) const { return uint16_t(avr_->flash[at] | avr_->flash[at + 1] << 8); }
+  void setWord(uint32_t at, uint16_t code) {
+    avr_->flash[at] = uint8_t(code);
+    avr_->flash[at + 1] = uint8_t(code >> 8);
+  }
   void awaitNextCharacter();
   static avr_cycle_count_t onNextCharacter(avr_t*, avr_cycle_count_t, void* board);
   static avr_cycle_count_t onEndOfRun(avr_t*, avr_cycle_count_t, void*);
@@ -152,6 +163,8 @@ class VirtualBoard {
   int ticks_ = 0, resets_ = 0;
   int main_stack_ = 0, interrupt_stack_ = 0;
   uint16_t main_pointer_ = 0;  ///< the stack's pointer when the main program ran last
+  std::map<avr_flashaddr_t, uint16_t> wide_skips_;  ///< what stood where an OUT is now
+  bool is_at_wide_skip_ = false;
   bool is_stack_followed_ = false;
   bool are_interrupts_held_ = false;
   bool was_ticking_ = false, is_tick_masked_ = false;

@@ -1,5 +1,6 @@
 // Asks the server, with the types of its schema. A refusal becomes an error whose message is its line.
 import { inTime, READ_MS, SAVE_MS, WORK_MS } from "./patience";
+import { begin } from "./rest";
 import type { components } from "./schema";
 import { tab } from "./tab";
 import { token } from "./token";
@@ -34,6 +35,7 @@ async function asked<Answer>(path: string, asking: Asking): Promise<Answer> {
 
 /** The whole answer. A refusal becomes an error. */
 async function answered(path: string, { patienceMs, ...request }: Asking): Promise<Blob> {
+  const end = begin();
   let response: Response;
   let content: Blob;
   try {
@@ -47,6 +49,8 @@ async function answered(path: string, { patienceMs, ...request }: Asking): Promi
     });
   } catch {
     throw new Refusal("The lab does not answer. Is plumb lab still running in its terminal?", 0);
+  } finally {
+    end();
   }
   if (response.ok) return content;
   const reason = reasonIn(await content.text());

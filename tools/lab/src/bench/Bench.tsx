@@ -37,7 +37,7 @@ function OpenBench({ bench }: { bench: Board }) {
   // A slider moves more often than a fit comes: what has not changed is not drawn again.
   const stage = useMemo(() => {
     const states = [bench.as_set, ...(frame ? [frame] : [])];
-    const hasEffects = !!now && now.choice.effects.length > 0;
+    const hasEffects = frame && !!now && now.choice.effects.length > 0;
     if (hasEffects) states.push(now.fit);
     return (
       <Residuals

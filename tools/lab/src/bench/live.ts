@@ -1,6 +1,7 @@
 // The bench's questions to the server: the fit of a choice, the stairs to it, and what an effect would draw.
 import { useEffect, useRef, useState } from "preact/hooks";
 import { type Schemas, send } from "../api/client";
+import { later } from "../api/rest";
 
 export type Bench = Schemas["BenchAnswer"];
 export type Effect = Schemas["BenchEffect"];
@@ -94,7 +95,7 @@ export function useStairs(kept: Choice, board: string): Stairs | undefined {
   const key = JSON.stringify(kept);
   useEffect(() => {
     let stale = false;
-    const timer = setTimeout(() => {
+    const giveUp = later(() => {
       send<Stairs>("POST", "bench/stairs", kept).then(
         (answer) => stale || setStairs(answer),
         () => undefined, // the fit of the same choice says why
@@ -102,7 +103,7 @@ export function useStairs(kept: Choice, board: string): Stairs | undefined {
     }, REST_MS);
     return () => {
       stale = true;
-      clearTimeout(timer);
+      giveUp();
     };
   }, [key, board]);
   return stairs;

@@ -2,6 +2,7 @@
 import { useState } from "preact/hooks";
 import { get, type Project, send } from "../api/client";
 import { LOOK_MS } from "../api/patience";
+import { later } from "../api/rest";
 import { useDo } from "../shell/doing";
 import { type Machine, subject, useMachine } from "../shell/machine";
 import { Ports } from "../shell/Ports";
@@ -92,7 +93,7 @@ async function ready(): Promise<void> {
   for (;;) {
     const machine = await get<Machine>("machine", LOOK_MS);
     if (machine.phase !== "connecting") return;
-    await new Promise((done) => setTimeout(done, 100));
+    await new Promise((done) => later(() => done(undefined), 100));
   }
 }
 

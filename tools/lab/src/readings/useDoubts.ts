@@ -1,6 +1,7 @@
 // Asks which readings disagree, a moment after each change.
 import { useEffect, useState } from "preact/hooks";
 import { get, isSilence, type Schemas } from "../api/client";
+import { later } from "../api/rest";
 import type { Form } from "./useReadings";
 
 export type Doubt = Schemas["Doubted"];
@@ -21,7 +22,7 @@ export function useDoubts(form: Form | undefined): Doubts {
   useEffect(() => {
     if (!file || empty) return;
     let over = false;
-    const timer = setTimeout(async () => {
+    const giveUp = later(async () => {
       const asked = get<Schemas["DoubtsAnswer"]>(`doubts?file=${encodeURIComponent(file)}`);
       let line = "";
       const doubts = await asked.catch((error: Error) => {
@@ -34,7 +35,7 @@ export function useDoubts(form: Form | undefined): Doubts {
     }, PAUSE_MS);
     return () => {
       over = true;
-      clearTimeout(timer);
+      giveUp();
     };
   }, [file, digest, empty]);
   const current = answer?.file === file && answer.digest === digest;

@@ -39,7 +39,7 @@ export function Residuals(parts: ResidualsParts) {
   const laid = shown === FRAME ? drawn : undefined;
   // A slider moves the arrows; the plots follow a few times a second.
   const plotted = useRested(state);
-  const frame = states[Math.min(FRAME, states.length - 1)];
+  const frame = states[FRAME];
   const plots = useMemo(
     () =>
       covariates &&

@@ -1,5 +1,6 @@
 // A value that changes many times a second, taken over now and then: for what is slow to draw.
 import { useEffect, useRef, useState } from "preact/hooks";
+import { later } from "../api/rest";
 
 const PAUSE_MS = 200;
 
@@ -9,11 +10,10 @@ export function useRested<Value>(value: Value): Value {
   const last = useRef(0);
   useEffect(() => {
     const wait = Math.max(0, last.current + PAUSE_MS - performance.now());
-    const timer = setTimeout(() => {
+    return later(() => {
       last.current = performance.now();
       setShown(value);
     }, wait);
-    return () => clearTimeout(timer);
   }, [value]);
   return shown;
 }

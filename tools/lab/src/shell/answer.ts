@@ -1,6 +1,7 @@
 // An answer that takes seconds: asked again until it is whole, and again when the folder has changed.
 import { useEffect, useRef, useState } from "preact/hooks";
 import { get, isSilence } from "../api/client";
+import { later } from "../api/rest";
 import { useProject } from "./project";
 
 const AGAIN_MS = 400;
@@ -34,6 +35,7 @@ export function useAnswer<Answer extends Slow>(
   useEffect(() => {
     if (!wanted) return;
     let over = false;
+    let giveUp = () => {};
     const ask = async () => {
       try {
         const now = await get<Answer>(path);
@@ -41,16 +43,17 @@ export function useAnswer<Answer extends Slow>(
         if (now.share === 1) whole.current = { files: held, answer: now };
         setAnswer(now);
         setRefused("");
-        if (now.share < 1) setTimeout(() => void (over || ask()), AGAIN_MS);
+        if (now.share < 1) giveUp = later(() => void ask(), AGAIN_MS);
       } catch (error) {
         if (over) return;
-        if (isSilence(error)) setTimeout(() => void (over || ask()), 5 * AGAIN_MS);
+        if (isSilence(error)) giveUp = later(() => void ask(), 5 * AGAIN_MS);
         else setRefused(error instanceof Error ? error.message : String(error));
       }
     };
     void ask();
     return () => {
       over = true;
+      giveUp();
     };
   }, [path, state, wanted]);
   const stays = whole.current?.files === held ? whole.current.answer : undefined;

@@ -1,5 +1,6 @@
 // The live line to the lab: it says how the machine is, each second at least, and takes Stop and Hold.
 import { Refusal, type Schemas, send } from "../api/client";
+import { begin } from "../api/rest";
 import { tab } from "../api/tab";
 import { token } from "../api/token";
 import { setEditor } from "./editor";
@@ -14,6 +15,7 @@ export class Live {
   private socket: WebSocket | undefined;
   private timer = 0;
   private over = false;
+  private greeted = () => {};
   private heardAt = Date.now();
   private count = 0;
   private readonly waiting = new Map<number, (error: string) => void>();
@@ -28,8 +30,10 @@ export class Live {
     this.over = false;
     const socket = new WebSocket(address, ["plumb", token()]);
     this.socket = socket;
+    this.greeted = begin();
     socket.onmessage = (message) => this.take(JSON.parse(message.data));
     socket.onclose = () => {
+      this.greeted();
       if (!this.over) this.timer = window.setTimeout(() => this.open(), TRY_AGAIN_MS);
     };
   }
@@ -76,6 +80,7 @@ export class Live {
 
   private take(said: Answer | { press: number; error: string } | { editor: string }): void {
     this.heardAt = Date.now();
+    this.greeted();
     if ("editor" in said) setEditor(said.editor);
     else if ("press" in said) {
       this.waiting.get(said.press)?.(said.error);

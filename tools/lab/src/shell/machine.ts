@@ -14,6 +14,7 @@ const NONE: Machine = {
   phase: "none",
   place: null,
   knows_place: true,
+  kept_lengths: null,
   holds: false,
   moves: false,
   trouble: "",

@@ -2,6 +2,7 @@
 // screen closes. What the server refuses is not sent again before somebody changes it.
 import { useEffect, useReducer, useRef } from "preact/hooks";
 import { Refusal } from "../api/client";
+import { later } from "../api/rest";
 import type { KeptParts } from "./kept";
 import { editOf, forget, isUnderWay, keep, setUnderWay } from "./outbox";
 import { rebased, same } from "./rebase";
@@ -36,8 +37,7 @@ export function useSending<Value>(sending: Sending<Value>): void {
   useEffect(() => {
     if (!ready || underWay) return;
     const pause = failed.current ? AGAIN_MS : (newest.current.pause ?? PAUSE_MS);
-    const timer = setTimeout(() => void send.current(), pause);
-    return () => clearTimeout(timer);
+    return later(() => void send.current(), pause);
   }, [place, ready, underWay, text, tries]);
   const shown = useRef(sending);
   // What waits goes out when another place is shown, and when the screen closes.

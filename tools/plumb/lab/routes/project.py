@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import os
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
-from tempfile import TemporaryDirectory
+from tempfile import NamedTemporaryFile
 from typing import Annotated
 
 from fastapi import APIRouter, Depends, Header, Request, UploadFile
@@ -16,6 +19,7 @@ from plumb.lab.guard import TheEditor
 from plumb.lab.known import refuse_absurd_known, stated
 from plumb.lab.project import (
     FILE,
+    NAME,
     Choices,
     Project,
     choices_text,
@@ -28,6 +32,7 @@ from plumb.marks.form import read_form
 from plumb.marks.plausible import from_edges
 from plumb.model.predict import known_effects
 from plumb.settings.machine import MachineSettings
+from plumb.text.errors import InputError
 from plumb.text.values import shown_in
 from plumb.vm.practice import score, secret_in
 
@@ -113,11 +118,12 @@ def open_settings(file: UploadFile, project: TheProject) -> ProjectAnswer:
     go by them. A file that cannot be read changes nothing."""
     content = file.file.read()
     usual = Path(ENDINGS.get(Path(file.filename or "").suffix.lower(), "groundcontrol.ini"))
-    with TemporaryDirectory() as scratch:
-        copy = Path(scratch) / usual
-        copy.write_bytes(content)
+    with laid_down(project, file, usual.suffix) as copy:
         settings_in(copy)
-    name = project.place_for(content, usual.stem, usual.suffix)
+    # Forms name the ini file that their marks were cut with.
+    has_name = usual.suffix == ".ini" and NAME.fullmatch(file.filename or "")
+    stem = Path(file.filename or "").stem if has_name else usual.stem
+    name = project.place_for(content, stem, usual.suffix)
     save_choices(
         project,
         lambda choices: choices.model_copy(update={"settings": name}),
@@ -125,6 +131,22 @@ def open_settings(file: UploadFile, project: TheProject) -> ProjectAnswer:
         read={name: project.digest(name)},
     )
     return show(project)
+
+
+@contextmanager
+def laid_down(project: Project, file: UploadFile, ending: str) -> Iterator[Path]:
+    """Lay a file that somebody picked into the folder for a moment, next to those that it names;
+    a refusal names it as its owner does.
+    """
+    file.file.seek(0)
+    with NamedTemporaryFile(dir=project.folder, prefix=".", suffix=ending) as copy:
+        copy.write(file.file.read())
+        copy.flush()
+        try:
+            yield Path(copy.name)
+        except InputError as error:
+            said = str(error).replace(copy.name, file.filename or f"the file{ending}")
+            raise InputError(said.replace(f"{project.folder}{os.sep}", "")) from None
 
 
 def machine_of(settings: MachineSettings, file: str) -> Machine:

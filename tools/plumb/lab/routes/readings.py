@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from tempfile import TemporaryDirectory
 from typing import Any
 
 from fastapi import APIRouter, UploadFile
@@ -14,7 +13,7 @@ from plumb.fit.inputs import settings_in
 from plumb.grid import spans_in
 from plumb.lab.project import Choices, Edges, Project, save_choices, with_marks
 from plumb.lab.rounds import command, is_read_again, known_words, opened, unit_words
-from plumb.lab.routes.project import TheProject
+from plumb.lab.routes.project import TheProject, laid_down
 from plumb.marks.form import (
     Form,
     head_of,
@@ -196,9 +195,7 @@ def open_marks(file: UploadFile, project: TheProject) -> ReadingsAnswer:
     sheet = opened(project).sheet
     content = file.file.read()
     ending = Path(file.filename or "").suffix.lower()
-    with TemporaryDirectory() as scratch:
-        copy = Path(scratch) / f"marks{ending if ending in ('.csv', '.ini') else ENDING}"
-        copy.write_bytes(content)
+    with laid_down(project, file, ending if ending in (".csv", ".ini") else ENDING) as copy:
         content = _as_toml(copy, content, sheet)
     name = project.free_name("marks", ENDING)
     save_choices(project, lambda now: with_marks(now, name), files={name: content}, read={name: ""})

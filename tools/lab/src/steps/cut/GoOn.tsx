@@ -73,7 +73,7 @@ export function useGoOn(parts: GoOnParts): [question: ComponentChild, act: Compo
 
 /** How far a cut came that broke off, as the folder knows it: after a restart of the lab too. */
 export function brokenWords(surely: number, perhaps: number, names: readonly string[]): string {
-  if (surely === names.length) return "All marks are cut; the sled was on its way back.";
+  if (surely === names.length) return "All marks are cut.";
   const more = names.slice(surely, surely + perhaps);
   const listed = more.join(", ").replace(/, ([^,]*)$/, " and $1");
   const may =

@@ -16,11 +16,10 @@ export function Outcome({ grid, isRead }: OutcomeParts) {
   const machine = useMachine();
   const { program } = machine;
   const isThis = program?.title === grid.program;
-  const isRound = program && /^(grid|more)/.test(program.title) && (isThis || !grid.is_proposed);
-  const outcome = isRound ? program.outcome : undefined;
+  const outcome = isThis ? program.outcome : undefined;
   if (outcome === "running") return null;
   const ended = outcome && ENDED[outcome];
-  const broke = broken(grid, machine);
+  const broke = outcome === "done" ? "" : broken(grid, machine);
   const isCut = outcome === "done" || grid.broke_off === grid.marks.length;
   if (!ended && !broke) return null;
   return (
@@ -28,9 +27,7 @@ export function Outcome({ grid, isRead }: OutcomeParts) {
       <p>
         {ended} {broke}
       </p>
-      {isCut && !(isRead && !hasTape(grid, machine)) && (
-        <ToReadings waits={isThis || broke ? grid.waits : 0} />
-      )}
+      {isCut && !(isRead && !hasTape(grid, machine)) && <ToReadings waits={grid.waits} />}
     </section>
   );
 }

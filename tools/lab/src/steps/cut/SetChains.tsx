@@ -1,25 +1,32 @@
-// Where the sled is, is not known: the machine is given the lengths of its chains.
+// Where the sled is, is not known: the machine is given the lengths of its chains, and the height of its bit.
 import type { ComponentChild } from "preact";
 import { useState } from "preact/hooks";
 import { send } from "../../api/client";
 import { shownLength, typedLength } from "../../controls/lengths";
 import { useDo } from "../../shell/doing";
+import { useMachine } from "../../shell/machine";
 import { useProject } from "../../shell/project";
 
-const USUAL = 1651; // [mm] of both chains at their marks
 const FORM = "set-chains";
+const FIELDS = ["Left chain", "Right chain", "Bit above the wood"];
 
-/** The form for both lengths, and the button that sends it. */
+/** The form for both lengths and the height, and the button that sends them. */
 export function useSetChains(): [form: ComponentChild, act: ComponentChild] {
   const { project } = useProject();
+  const { kept_lengths, place } = useMachine();
   const [busy, run, refusal] = useDo();
   const unit = project.choices.units ?? "mm";
-  const [left, setLeft] = useState(shownLength(USUAL, unit));
-  const [right, setRight] = useState(shownLength(USUAL, unit));
-  const lengths = [typedLength(left, unit), typedLength(right, unit)];
-  const known = lengths.every((length) => length !== undefined && length > 0);
+  const [typed, setTyped] = useState(["", "", ""]);
+  const [left, right, z] = typed.map((text) => typedLength(text, unit));
+  const known = !!left && left > 0 && !!right && right > 0 && z !== undefined;
   const tell = () =>
-    run(() => send("POST", "machine/line", { text: `B06 L${lengths[0]} R${lengths[1]}` }));
+    run(async () => {
+      for (const text of [`B06 L${left} R${right}`, `G10 Z${z}`])
+        await send("POST", "machine/line", { text });
+    });
+  const kept = kept_lengths?.every((length) => length > 0)
+    ? [...kept_lengths, place?.[2] ?? 0].map((mm) => shownLength(mm, unit))
+    : undefined;
   const form = (
     <form
       id={FORM}
@@ -32,24 +39,29 @@ export function useSetChains(): [form: ComponentChild, act: ComponentChild] {
       <h2>Where is the sled?</h2>
       <p>
         The machine lost count of its chains. Hang them at the marks that you made, and type how
-        long each is then.
+        long each is then, and how high the bit is.
       </p>
-      <label>
-        Left chain, {unit}{" "}
-        <input
-          inputMode="decimal"
-          value={left}
-          onInput={(event) => setLeft(event.currentTarget.value)}
-        />
-      </label>
-      <label>
-        Right chain, {unit}{" "}
-        <input
-          inputMode="decimal"
-          value={right}
-          onInput={(event) => setRight(event.currentTarget.value)}
-        />
-      </label>
+      {FIELDS.map((name, i) => (
+        <label key={name}>
+          {name}, {unit}{" "}
+          <input
+            inputMode="decimal"
+            value={typed[i]}
+            onInput={({ currentTarget }) =>
+              setTyped(typed.map((text, j) => (i === j ? currentTarget.value : text)))
+            }
+          />
+        </label>
+      ))}
+      {kept && (
+        <p>
+          When it last stood still, the machine had {kept.join(", ")} {unit}. That holds only if
+          nothing has moved since.{" "}
+          <button type="button" onClick={() => setTyped(kept)}>
+            Type these in
+          </button>
+        </p>
+      )}
     </form>
   );
   const act = (

@@ -1,6 +1,7 @@
 // Asks what a plan could tell a moment after it was changed; an answer to an older plan is ignored.
 import { useEffect, useRef, useState } from "preact/hooks";
 import { send } from "../../api/client";
+import { later } from "../../api/rest";
 import type { Layout, Place } from "./plan";
 
 const MOMENT_MS = 250;
@@ -15,7 +16,7 @@ export function usePreview(layout: Layout.Id, places: Place[], settings: string)
     newest.current += 1;
     const mine = newest.current;
     setLooking(true);
-    const timer = setTimeout(() => {
+    return later(() => {
       send<Layout.Plan>("POST", "preview", JSON.parse(asked))
         .then(
           (answer) => {
@@ -27,7 +28,6 @@ export function usePreview(layout: Layout.Id, places: Place[], settings: string)
         )
         .finally(() => mine === newest.current && setLooking(false));
     }, MOMENT_MS);
-    return () => clearTimeout(timer);
   }, [asked, settings]);
   return { plan, trouble, looking };
 }

@@ -1,0 +1,26 @@
+// Takes an override and hands it on.
+#include "overrides.h"
+
+namespace machine {
+
+void LiveOverrides::take(gcode::Quick quick) {
+  // A Maslow client knows the feed's only.
+  if (quick > gcode::Quick::kFeedDownOne && !base_.out.speaksGrbl()) return;
+  if (now_.take(quick)) apply();
+}
+
+void LiveOverrides::reset() {
+  if (now_.reset()) apply();
+}
+
+void LiveOverrides::apply() {
+  base_.axes.goAt(uint16_t(now_.shareOfPlan() * float(motion::Playback::kAllOfIt)));
+  base_.planner.boost(now_.boost(), float(now_.rapid()) * 0.01f);
+  base_.cutter.override(now_.spindle());
+  // A sender of Grbl reads them from the status.
+  if (base_.out.speaksGrbl()) return;
+  base_.out << FLASH("[Feed: ") << int32_t(now_.feed());
+  base_.out.line(FLASH(" %]"));
+}
+
+}  // namespace machine
