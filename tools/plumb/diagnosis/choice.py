@@ -163,8 +163,8 @@ def _truths(readings: CleanReadings, listed: Listed, smooth: Other | None) -> li
 def _truth(fit: Explanation, chance: float, smooth: Other | None) -> Truth:
     """Return the machine of an account by its slopes, what is smooth besides as it is likeliest."""
     board, problem = fit.board, fit.board.problem
-    columns = [i for i, name in enumerate(problem.names) if name in NAMES]
-    where, moved, apart = moved_on_sheet(fit, columns)
+    columns = np.array([i for i, name in enumerate(problem.names) if name in NAMES])
+    where, moved, apart = moved_on_sheet(fit, columns.tolist())
     free = fit.free
     rows, known = fit.slopes[:, free], np.zeros(len(free))
     of_effects = np.isin(free, board.columns(fit.effects))
@@ -191,7 +191,7 @@ def _truth(fit: Explanation, chance: float, smooth: Other | None) -> Truth:
     return Truth(
         chance=chance,
         moved=moved,
-        columns=np.array(columns),
+        columns=columns,
         off=moved @ unknowns[columns] + whole[:, len(free) :] @ step[len(free) :],
         variance=float(2 * np.einsum("ij,jk,ik->", whole, inverse, whole) / len(whole)),
     )

@@ -299,14 +299,15 @@ def _accounts(
         asked += asked_for(board, accounts, each, order)
         several += [(place, each.total[i], i) for i in order]
     weights = np.full((len(several), 2), -np.inf)
-    for row, (place, weight, _) in zip(weights, several, strict=True):
-        row[place] = weight
+    for row, (column, weight, _) in zip(weights, several, strict=True):
+        row[column] = weight
     likeliest: dict[Effects, int] = {}
     for k in ascending(-weights.max(axis=1)).tolist():
         likeliest.setdefault(asked[k], several[k][2])
+    names, whole = together(asked, weights)
     merged = [
         Account(effects, accounts.effects[likeliest[effects]], *both)
-        for effects, both in zip(*together(asked, weights), strict=True)
+        for effects, both in zip(names, whole.tolist(), strict=True)
     ]
     return tuple(ranked(merged, lambda account: -account.weight))
 
