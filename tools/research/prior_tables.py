@@ -39,6 +39,7 @@ def priors_table() -> str:
         ("`ACTS`", f"{priors.ACTS:g}", "chance that an effect acts", "a guess"),
         ("`UNUSUAL`", f"{priors.UNUSUAL:g}", "that stretch, sag or pitch is far from usual",
          "a guess"),
+        ("`ALL`", f"{priors.ALL:g}", "odds of all effects at once against none", "a guess"),
         ("`FIELD`", f"{priors.FIELD:g}", "odds of a field against none", "a guess"),
         ("`FIELD_SPREADS`", f"{_list(priors.FIELD_SPREADS)} mm", "a of the field", "a guess"),
         ("`FIELD_WIDTHS`", _list(priors.FIELD_WIDTHS), "w of the field, in halves of what the "

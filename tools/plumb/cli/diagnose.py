@@ -74,8 +74,6 @@ def _next(diagnosis: Diagnosis, arguments: argparse.Namespace) -> str:
     if diagnosis.verdict == "nothing_provable":
         return next_step("Fit the frame:", auto_words(arguments))
     first = diagnosis.explanations[0] if diagnosis.explanations else None
-    if diagnosis.is_finding:
-        return next_step("Add what is known:", auto_words(arguments))
     if diagnosis.verdict == "one_suspect" and first and first.possible:
         return next_step("Add it:", auto_words(arguments))
     return next_step("What to measure next:", ["next", *same_inputs(arguments)])
@@ -87,8 +85,6 @@ HEADER = ["cause", "odds", "leaves", "noise"]
 
 def likeliest(diagnosis: Diagnosis) -> list[str]:
     """Return the likeliest accounts in a few rows, the sizes of the first, and what is odd."""
-    if diagnosis.is_finding:
-        return [falls_table(diagnosis), sentences(diagnosis.warnings[:NOTES])]
     parts = []
     if diagnosis.explanations:
         first, *_ = shown = diagnosis.explanations[:FEW]
@@ -108,16 +104,9 @@ def likeliest(diagnosis: Diagnosis) -> list[str]:
     return [*parts, sentences(odd)] if odd else parts
 
 
-def falls_table(diagnosis: Diagnosis) -> str:
-    """Return how the error falls, effect by effect."""
-    rows = [["the frame alone", worded(diagnosis.rms_before)]]
-    rows += [[f"+ {noun_of(each.effect)}", worded(each.rms)] for each in diagnosis.falls]
-    return table(["wrong at once", "leaves"], rows)
-
-
 def details(diagnosis: Diagnosis) -> list[str]:
     """Return all that the marks say."""
-    parts = [falls_table(diagnosis)] if diagnosis.is_finding else []
+    parts = []
     if diagnosis.outliers:
         parts.append(sentences([slip.sentence for slip in diagnosis.outliers]))
     if diagnosis.disagreements:

@@ -245,7 +245,6 @@ def add_to(board: LiveBoard, raw: Comparison, chosen: Chosen, *, patch: bool = F
         warnings=(
             *_unsettled(after_fit),
             *(_impossible(each) for each in parameters if not each.possible),
-            *_far_from_marks(board),
             *raw.warnings,
             *board.said,
             *_unfelt(after_fit),
@@ -257,16 +256,6 @@ def add_to(board: LiveBoard, raw: Comparison, chosen: Chosen, *, patch: bool = F
         sigma_from=noise.source,
         benchmark_after=score_of(board.inputs.measurements, after_fit.distance_errors.tolist()),
     )
-
-
-def _far_from_marks(board: LiveBoard) -> list[str]:
-    """Return a sentence where the marks say little of most of the sheet."""
-    if not board.left_open.is_too_much:
-        return []
-    return [
-        "these errors hold next to the marks only: all over the sheet holes may be off by "
-        f"{worded(board.left_open.now, 1)} among each other; measure marks all over it"
-    ]
 
 
 def quality_of(fitted: Fit, rows: Observations) -> Quality:

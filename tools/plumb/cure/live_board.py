@@ -15,7 +15,6 @@ from typing import Protocol
 
 import numpy as np
 
-from plumb.diagnosis.expected_error import LeftOpen, left_open
 from plumb.diagnosis.explanation import Board, Explanation, explain
 from plumb.diagnosis.noise import Noise
 from plumb.diagnosis.outliers import described
@@ -86,15 +85,9 @@ class LiveBoard:
         frame = [check for check in inputs.checked if "." not in check.name]
         board = Board.of(model, rows, sigma=sigma, priors=inputs.priors, checked=frame)
         self.noise, self.said = (noise, noise.notes) if noise else noise_of(inputs, board)
-        self._measured = board
         self._fits: dict[object, Fit] = {}
         self._last: Fit | None = None
         self._fitting = Lock()
-
-    @cached_property
-    def left_open(self) -> LeftOpen:
-        """What the marks leave open of the machine's errors all over the sheet."""
-        return left_open(self._measured.fitted)
 
     def refuse(self, chosen: Chosen) -> None:
         """Raise InputError for what these marks cannot settle, and for what nobody knows."""

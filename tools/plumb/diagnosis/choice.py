@@ -164,7 +164,7 @@ def _truth(fit: Explanation, chance: float, smooth: Other | None) -> Truth:
     """Return the machine of an account by its slopes, what is smooth besides as it is likeliest."""
     board, problem = fit.board, fit.board.problem
     columns = np.array([i for i, name in enumerate(problem.names) if name in NAMES])
-    where, moved, apart = moved_on_sheet(fit, columns.tolist())
+    where, moved, apart = moved_on_sheet(fit, columns)
     free = fit.free
     rows, known = fit.slopes[:, free], np.zeros(len(free))
     of_effects = np.isin(free, board.columns(fit.effects))

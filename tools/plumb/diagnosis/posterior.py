@@ -293,21 +293,20 @@ def _accounts(
 ) -> tuple[Account, ...]:
     """Put sets together that ask for the same effects, with nothing else and with a field."""
     asked: list[Effects] = []
-    several: list[tuple[int, float, int]] = []
+    several: list[tuple[float, float, int]] = []
     for place, each in enumerate(weighed):
         order = [i for i in ascending(-each.total).tolist() if np.isfinite(each.total[i])]
         asked += asked_for(board, accounts, each, order)
         several += [(place, each.total[i], i) for i in order]
     weights = np.full((len(several), 2), -np.inf)
-    for row, (column, weight, _) in zip(weights, several, strict=True):
-        row[column] = weight
+    for row, (place, weight, _) in zip(weights, several, strict=True):
+        row[place] = weight
     likeliest: dict[Effects, int] = {}
     for k in ascending(-weights.max(axis=1)).tolist():
         likeliest.setdefault(asked[k], several[k][2])
-    names, whole = together(asked, weights)
     merged = [
         Account(effects, accounts.effects[likeliest[effects]], *both)
-        for effects, both in zip(names, whole.tolist(), strict=True)
+        for effects, both in zip(*map(list, together(asked, weights)), strict=True)
     ]
     return tuple(ranked(merged, lambda account: -account.weight))
 

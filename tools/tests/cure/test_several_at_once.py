@@ -4,10 +4,8 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
-from hidden_boards import board
 from plumb.bench.boards import plan
 from plumb.bench.causes import MAKER
-from plumb.cure.add import add
 from plumb.cure.auto import add_auto
 from plumb.fit.inputs import Inputs, read_inputs
 from plumb.marks.read import Measurements
@@ -69,11 +67,3 @@ def test_a_machine_that_is_off_by_more_than_noise_is_not_called_good():
     for seed in range(4):
         answer = add_auto(marks_of(off, seed))
         assert not answer.is_good and answer.expected_mm < answer.diagnosis.choice.as_set
-
-
-def test_marks_in_one_row_promise_nothing_for_the_rest_of_the_sheet():
-    row = plan(5, 1)
-    said = add(Inputs(MAKER, board({}, row, seed=3)), effects=("chain_stretch",)).warnings
-    assert said[0].startswith("these errors hold next to the marks only")
-    whole = add(Inputs(MAKER, board({}, plan(5, 3), seed=3)), effects=("chain_stretch",)).warnings
-    assert not any("next to the marks only" in each for each in whole)
