@@ -34,20 +34,15 @@ def verdict_of(result: Addition) -> str:
 def auto_verdict(result: AutoAddition) -> str:
     """Return what was added and how likely it is right, in at most forty words."""
     addition, diagnosis = result.addition, result.diagnosis
-    if result.is_good:
-        return headline(f"{result.said[0]}", GOOD)
     if addition is None:
         return headline(diagnosis.sentence, BAD if diagnosis.outliers else OPEN)
     fall = _fall(addition)
-    if diagnosis.is_finding and result.chosen:
-        return headline(f"{diagnosis.sentence} {_fall(addition)}", GOOD)
     if diagnosis.verdict == "not_in_library":
         return headline(f"No cause explains all that the marks show. {fall}", BAD)
     named = result.named if len(result.named) <= MOST_NAMED else ()
     what = plainly(named) if named or not result.named else f"{len(result.named)} causes at once"
     if result.rivals:
-        shares = {each.effects: each.share for each in diagnosis.explanations}
-        share = odds_words(shares.get(diagnosis.likely, 0.0))
+        share = odds_words(diagnosis.explanations[0].share)
         return headline(f"Added untested: {what}, right with odds of {share}. {fall}", OPEN)
     return headline(f"Fitted: {what}. {fall}", GOOD)
 

@@ -73,15 +73,13 @@ class Round:
     @property
     def done(self) -> bool:
         """Whether new settings can be written: nothing is left that the marks could decide."""
-        return self.result.done and not self.result.rivals
+        return self.result.addition is not None and self.result.done and not self.result.rivals
 
     @computed_field
     @property
     def sentence(self) -> str:
         """The end of the round in one sentence."""
         diagnosis, addition = self.result.diagnosis, self.result.addition
-        if self.result.is_good:
-            return self.result.said[0].replace(": nothing", ". Nothing")
         if self.done and addition:
             added, chosen = addition.effects_added, self.result.chosen
             again = f"with {plainly(chosen)} fitted again" if chosen else "with the frame fitted"
@@ -89,7 +87,7 @@ class Round:
             return (
                 f"Done: {what}, the error falls from {bare(addition.raw.rms)} to "
                 f"{worded(addition.after.fit_rms)} RMS, {worded(addition.after.left_out_rms)} "
-                f"checked on marks not used{self._expected}."
+                "checked on marks not used."
             )
         if diagnosis.outliers:
             names = ", ".join(dict.fromkeys(slip.called for slip in diagnosis.outliers))
@@ -101,12 +99,6 @@ class Round:
             f"Not yet: first measure {best.option.title}, about {best.option.minutes:.0f} minutes; "
             "nothing was written."
         )
-
-    @property
-    def _expected(self) -> str:
-        """What is expected over the sheet."""
-        error = self.result.expected_mm
-        return f"; expect {worded(error)} over the sheet" if error is not None else ""
 
     @property
     def best(self) -> Proposal | None:
@@ -207,10 +199,6 @@ def size_now(this: Round) -> list[str]:
     if this.done and this.result.addition:
         notes = first_notes(this.result.addition)
         return [sentences(notes)] if notes else []
-    if this.result.is_good:
-        choice = diagnosis.choice
-        error = f"Over the sheet expect {worded(choice.as_set)} RMS." if choice else ""
-        return [sentences([error], mark="")]
     if this.result.addition is None:
         return [sentences(this.result.said[:1], mark="")]
     best = diagnosis.explanations[0] if diagnosis.explanations else None
@@ -268,8 +256,6 @@ def _ending(
     """Return the verdict, and what the owner does now."""
     slips, best = this.result.diagnosis.outliers, this.best
     verdict = headline(this.sentence, GOOD if this.done else BAD if slips else OPEN)
-    if this.result.is_good:
-        return [verdict]
     if this.done:
         now = [_written_text(files, client)]
         if client is None and arguments.firmware == "plumb":

@@ -68,40 +68,19 @@ class AutoAddition:
     @property
     def done(self) -> bool:
         """Whether the marks ask for nothing more once the chosen effects are there."""
-        is_known = self.diagnosis.verdict != "not_in_library" or self.diagnosis.is_finding
-        return self.is_good or (self.addition is not None and is_known)
-
-    @computed_field
-    @property
-    def is_good(self) -> bool:
-        """Whether the settings are as good as these marks can show, so that nothing is written."""
-        choice = self.diagnosis.choice
-        return self.addition is None and bool(choice and choice.is_good)
-
-    @computed_field
-    @property
-    def expected_mm(self) -> float | None:
-        """The error that is expected over the sheet with the new settings [mm RMS]; null where
-        none are.
-        """
-        choice = self.diagnosis.choice
-        if self.addition is None or choice is None:
-            return None
-        fitted = [each for each in choice.candidates if each.account.effects == self.named]
-        return fitted[0].expected if fitted else None
+        return self.addition is not None and self.diagnosis.verdict != "not_in_library"
 
 
 def add_auto(
     inputs: Inputs, *, patch: bool = False, diagnosis: Diagnosis | None = None
 ) -> AutoAddition:
-    """Diagnose the marks and add what is expected to leave the least error on the sheet, with what
-    every machine has and the settings leave out; nothing where noise alone may feign all that is
-    wrong. `diagnosis` is that of these inputs, if it is known.
+    """Diagnose the marks and add the likeliest account, with what every machine has and the
+    settings leave out. `diagnosis` is that of these inputs, if it is known.
 
-    Where the machine does something that nobody draws, the effects are added if marks left out are
-    predicted better with them: to leave out a large effect because a small effect is unknown would
-    help nobody. A residual patch is offered then, and added only if `patch` asks for it. Raises
-    InputError as diagnose() and add() do.
+    Where the library has no account, the nearest is added if marks left out are predicted better
+    with it: to leave out a large effect because a small effect is unknown would help nobody. A
+    residual patch is offered then, and added only if `patch` asks for it. Raises InputError as
+    diagnose() and add() do.
     """
     diagnosis = diagnosis or diagnose(inputs)
     inputs = replace(inputs, checked=(*inputs.checked, *diagnosis.usual))
@@ -109,9 +88,6 @@ def add_auto(
         return AutoAddition(diagnosis, inputs, (), (), None, _slip_reason(diagnosis))
     if diagnosis.left_open.is_too_much:
         return AutoAddition(diagnosis, inputs, (), (), None, _open_reason(diagnosis.left_open))
-    choice = diagnosis.choice
-    if choice and choice.is_good:
-        return AutoAddition(diagnosis, inputs, (), (), None, GOOD)
     is_known = diagnosis.verdict != "not_in_library"
     try:
         # The noise is that of the diagnosis: what is usual would count twice in another posterior.
@@ -125,8 +101,7 @@ def add_auto(
         patched = add(inputs, effects=chosen, patch=True, noise=diagnosis.noise)
         offer = addition.after.left_out_rms, patched.after.left_out_rms
         addition = patched if patch else addition
-    several = (each.effects for each in diagnosis.explanations)
-    rivals = tuple(each for each in several if each != diagnosis.likely) if is_known else ()
+    rivals = tuple(each.effects for each in diagnosis.explanations[1:]) if is_known else ()
     return AutoAddition(
         diagnosis=diagnosis,
         inputs=inputs,
@@ -140,12 +115,9 @@ def add_auto(
     )
 
 
-GOOD = "your machine is as good as these marks can show: nothing to change"
-
-
 def _settled_by(diagnosis: Diagnosis) -> tuple[str, ...]:
     """Return how to look directly at each effect that is in some explanations only."""
-    explanations = [diagnosis.likely, *(each.effects for each in diagnosis.explanations)]
+    explanations = [each.effects for each in diagnosis.explanations]
     names = dict.fromkeys(name for explanation in explanations for name in explanation)
     remedies = {effect["name"]: effect["remedy"] for effect in every_effect()}
     undecided = (
@@ -186,8 +158,6 @@ def _reason(
     if diagnosis.verdict == "not_in_library":
         added = [name for name in chosen if name in named]
         part = f"only {plainly(added)} was added, as far as it goes" if added else "none was added"
-        if diagnosis.is_finding and added:
-            return f"{plainly(added)} takes most of the error, so that was added{usual}"
         return (
             f"no effects of the library explain all that the marks show, so {part}; read the worst "
             f"marks again, and see {to_do('plumb next', page='Verdict')} for what to measure{usual}"

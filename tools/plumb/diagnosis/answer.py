@@ -7,15 +7,13 @@ from dataclasses import dataclass
 from math import inf
 from typing import Annotated
 
-import numpy as np
 from pydantic import computed_field
 
-from plumb.diagnosis.choice import Choice
 from plumb.diagnosis.expected_error import LeftOpen
 from plumb.diagnosis.explanation import Explanation
-from plumb.diagnosis.noise import ORIGINS, Noise, left_by_noise, misfit_chance
+from plumb.diagnosis.noise import ORIGINS, Noise, misfit_chance
 from plumb.diagnosis.outliers import Outlier
-from plumb.diagnosis.posterior import Account, Listed
+from plumb.diagnosis.posterior import Account, Listed, Posterior
 from plumb.diagnosis.priors import LIKELIER
 from plumb.diagnosis.readings import CleanReadings
 from plumb.diagnosis.sizes import Room, Size
@@ -92,14 +90,6 @@ class Together:
 
 
 @dataclass(frozen=True)
-class Fall:
-    """What is left once another effect is fitted too."""
-
-    effect: str
-    rms: Annotated[float, key("rms_mm")]
-
-
-@dataclass(frozen=True)
 class Diagnosis:
     """What the marks prove, and what they do not."""
 
@@ -108,14 +98,13 @@ class Diagnosis:
     fits: Internal[tuple[Explanation, ...]]  # of the explanations, in their order
     best: Internal[Explanation]  # with the effects to go on with
     likely: Internal[tuple[str, ...]]  # those of the account behind it, without what was left out
-    choice: Internal[Choice | None]  # what to write; None while a reading is off
     rms_before: Annotated[float, key("rms_mm", "With the frame fitted.")]
     noise_rms: Annotated[float, key("noise_rms_mm", "What noise alone leaves of that fit.")]
     explanations: tuple[Together, ...]  # likeliest first
     # [mm] RMS between two explanations' marks
     differences: Internal[Mapping[tuple[int, int], float]]
     ranking: tuple[Ranked, ...]
-    nothing_chance: Annotated[float, meant("That no effect acts, if no reading is off.")]
+    nothing_chance: Annotated[float, meant("That no effect acts, if nothing else is wrong.")]
     field_chance: Annotated[float, meant("That it also does what no effect of the library does.")]
     # the likeliest account, with what every machine has and the settings leave out
     to_add: Annotated[tuple[str, ...], meant("Effects to go on with.")]
@@ -123,9 +112,6 @@ class Diagnosis:
     outliers: Annotated[tuple[Outlier, ...], key("slips")]
     could_hide: tuple[Room, ...]
     left_open: Internal[LeftOpen]  # of the machine's errors all over the sheet
-    falls: Annotated[
-        tuple[Fall, ...], meant("How the error falls, effect by effect, with what to go on with.")
-    ]
     warnings: tuple[str, ...]
     disagreements: tuple[str, ...] = ()  # rounds that do not go together
 
@@ -144,28 +130,6 @@ class Diagnosis:
         """The verdict for people."""
         return verdict_sentence(self)
 
-    @property
-    def is_finding(self) -> bool:
-        """Whether causes are named although the machine does something that nobody draws."""
-        known = self.verdict == "not_in_library" and not self.disagreements
-        takes_most = bool(self.likely) and self.left_mm < TAKES_MOST * self.rms_before
-        return bool(known and takes_most and self.choice and self.choice.is_better)
-
-    @property
-    def pattern_mm(self) -> float:
-        """What is left with the effects to go on with, beyond noise [mm RMS]."""
-        return float(np.sqrt(max(self.left_mm**2 - self.left_by_noise_mm**2, 0.0)))
-
-    @property
-    def left_mm(self) -> float:
-        """What is left with the effects to go on with [mm RMS]."""
-        return self.best.rms
-
-    @property
-    def left_by_noise_mm(self) -> float:
-        """What noise alone leaves of that fit [mm RMS]."""
-        return left_by_noise(self.best, self.noise)
-
     @computed_field
     @property
     def suspects(self) -> tuple[str, ...]:
@@ -176,7 +140,6 @@ class Diagnosis:
 
 # The last step of a diagnosis: its verdict in at most forty words for people.
 
-TAKES_MOST = 0.6  # share of the error that is left where causes take most of its square
 SHOWN = 8  # explanations that a screen names; a Diagnosis holds all
 MOST_WORDS = 40
 MOST_NAMED = 2  # causes in a sentence
@@ -209,28 +172,15 @@ def _nothing_provable(diagnosis: Diagnosis) -> str:
 
 
 def _not_in_library(diagnosis: Diagnosis) -> str:
-    if diagnosis.is_finding:
-        return _finding(diagnosis)
-    left = _left(diagnosis.left_mm, diagnosis.left_by_noise_mm)
+    nearest = diagnosis.explanations[0] if diagnosis.explanations else None
+    left = _left(
+        nearest.rms_after if nearest else diagnosis.rms_before,
+        nearest.noise_rms if nearest else diagnosis.noise_rms,
+    )
     what = _unknown(diagnosis)
-    if not diagnosis.likely:
+    if nearest is None or not nearest.effects:
         return f"{what}. With the frame fitted {left}."
-    return f"{what}. What comes nearest is {_named(diagnosis.likely)}: with that {left}."
-
-
-WORDS = ("", "One thing is wrong", "Two things are", "Three things are", "Four things are")
-
-
-def _finding(diagnosis: Diagnosis) -> str:
-    """Return how the error falls, and what stays that nobody draws."""
-    falls = diagnosis.falls
-    which = f"{WORDS[len(falls)]} wrong at once" if 1 < len(falls) < len(WORDS) else ""
-    which = which or f"{_named(diagnosis.likely).capitalize()} is wrong"
-    steps = ", ".join([bare(diagnosis.rms_before), *(bare(each.rms) for each in falls[:-1])])
-    said = f"{which}: the error falls from {steps} to {worded(falls[-1].rms)} RMS."
-    if diagnosis.field_chance < UNKNOWN:
-        return f"{said} Even so that is more than noise leaves."
-    return f"{said} A pattern of {worded(diagnosis.pattern_mm)} is left that no effect draws."
+    return f"{what}. What comes nearest is {_named(nearest.effects)}: with that {left}."
 
 
 def _unknown(diagnosis: Diagnosis) -> str:
@@ -342,8 +292,7 @@ class Judgement:
 
     verdict: str  # one of answer.VERDICTS
     listed: tuple[Listed, ...]  # likeliest first
-    best: Account  # the likeliest
-    weighed: tuple[Listed, ...] = ()  # all that may be true
+    best: Account  # to go on with
 
 
 def judge(readings: CleanReadings, stated: Stated | None) -> Judgement:
@@ -352,14 +301,24 @@ def judge(readings: CleanReadings, stated: Stated | None) -> Judgement:
     best = posterior.accounts[0]
     if readings.outliers:
         return Judgement("slip", (), best)
-    listed = tuple(posterior.listed())
-    best = listed[0].account
     unknown = posterior.field_chance + sum(posterior.moved_chances.values())
     if unknown > UNKNOWN or _misfits(readings, best, stated):
-        return Judgement("not_in_library", listed, best, listed)
+        nearest = tuple(posterior.listed_with_field())
+        return Judgement("not_in_library", nearest, nearest[0].account)
+    listed = tuple(posterior.listed())
     if is_silent(posterior.nothing_chance):
-        return Judgement("nothing_provable", (), best, listed)
-    return Judgement("one_suspect" if len(listed) == 1 else "cannot_tell", listed, best, listed)
+        return Judgement("nothing_provable", (), _likelier(posterior, listed[0]))
+    verdict = "one_suspect" if len(listed) == 1 else "cannot_tell"
+    return Judgement(verdict, listed, listed[0].account)
+
+
+def _likelier(posterior: Posterior, first: Listed) -> Account:
+    """Return the account to go on with where none is named: the first if it is likelier than all
+    others together, for to leave it out would mostly be wrong; else that of nothing.
+    """
+    if first.share > LIKELIER:
+        return first.account
+    return next(account for account in posterior.accounts if not account.effects)
 
 
 def is_silent(nothing_chance: float) -> bool:

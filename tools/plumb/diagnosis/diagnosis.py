@@ -7,10 +7,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from plumb.diagnosis.answer import Diagnosis, Fall, Ranked, Together, judge
-from plumb.diagnosis.choice import choose
+from plumb.diagnosis.answer import Diagnosis, Ranked, Together, judge
 from plumb.diagnosis.expected_error import left_open
-from plumb.diagnosis.explanation import Explanation, explain, measured_board
+from plumb.diagnosis.explanation import Explanation, measured_board
 from plumb.diagnosis.noise import Noise, left_by_noise
 from plumb.diagnosis.posterior import Listed
 from plumb.diagnosis.priors import LIKELIER
@@ -33,24 +32,14 @@ def diagnose(inputs: Inputs) -> Diagnosis:
     judgement = judge(readings, inputs.stated)
     frame, noise = readings.frame, readings.noise
     explanations = tuple(readings.explained(each.account) for each in judgement.listed)
-    choice = None
-    if not readings.outliers:
-        choice = choose(
-            readings,
-            judgement.weighed,
-            unknown=judgement.verdict == "not_in_library",
-            silent=judgement.verdict == "nothing_provable",
-        )
-    chosen = choice.best.account if choice else judgement.best
-    best = readings.explained(chosen)
+    best = readings.explained(judgement.best)
     doubts = doubts_of(readings, judgement.verdict, best, inputs.measurements.rounds)
     return Diagnosis(
         verdict=judgement.verdict,
         readings=readings,
         fits=explanations,
         best=best,
-        likely=chosen.effects,
-        choice=choice,
+        likely=judgement.best.effects,
         rms_before=frame.rms,
         noise_rms=left_by_noise(frame, noise),
         explanations=tuple(
@@ -66,26 +55,9 @@ def diagnose(inputs: Inputs) -> Diagnosis:
         outliers=readings.outliers,
         could_hide=tuple(room_for(name, explanations or (best,), noise) for name in effect_names()),
         left_open=left_open(frame),
-        falls=_falls(frame, best, chosen.effects),
         warnings=doubts.warnings,
         disagreements=doubts.disagreements,
     )
-
-
-def _falls(frame: Explanation, best: Explanation, effects: Sequence[str]) -> tuple[Fall, ...]:
-    """Return how the error falls, that effect first which takes most; what is usual comes last."""
-    so_far: tuple[str, ...] = ()
-    falls: list[Fall] = []
-    while len(so_far) < len(effects):
-        several = [(*so_far, name) for name in effects if name not in so_far]
-        if len(several) == 1:
-            falls.append(Fall(several[0][-1], best.rms))
-            break
-        fits = [explain(best.board, each, start=frame) for each in several]
-        fitted = ranked(fits, lambda each: each.rms)[0]
-        so_far = fitted.effects
-        falls.append(Fall(so_far[-1], fitted.rms))
-    return tuple(falls)
 
 
 def _together(listed: Listed, explanation: Explanation, noise: Noise) -> Together:

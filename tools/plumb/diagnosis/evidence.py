@@ -1,6 +1,6 @@
 """The evidence of accounts: how likely the readings are by each set of effects, over all sizes.
 
-An account says which effects act (none, or sets of a few), and whether a reading
+An account says which effects act (none, sets of a few, or all), and whether a reading
 is off, a round was moved, or a smooth field acts that no effect draws. Its evidence is the density
 of the readings over all sizes, frames and noises that its priors allow. Sizes are normals whose
 densities Laplace's method gives in closed form, because the board is linear; what cannot be
@@ -19,6 +19,7 @@ import scipy
 
 from plumb.diagnosis.linear import LinearBoard, Metric, Other, rows_in_metric
 from plumb.diagnosis.priors import (
+    ALL,
     NOISE_DEGREES,
     OUTLIER_SPREADS,
     TOGETHER,
@@ -29,7 +30,7 @@ from plumb.fit.inputs import Stated
 
 Array = np.ndarray
 Effects = tuple[str, ...]
-FEWER = 150  # measured numbers beyond which plans leave sets of three out, for time
+FEWER = 150  # measured numbers beyond which sets of three are left out, for time
 
 
 @dataclass(frozen=True)
@@ -80,29 +81,22 @@ class Accounts:
 ABSENT, TYPICAL, LARGEST = range(3)  # how an effect is spread in a variant
 
 
-def sets_of(names: Iterable[str], most: int) -> list[Effects]:
-    """Return all sets of up to `most` of these effects, the smallest first."""
-    known = tuple(names)
-    sizes = range(min(most, len(known)) + 1)
-    return [chosen for size in sizes for chosen in combinations(known, size)]
-
-
 def accounts_of(board: LinearBoard, most: int = TOGETHER) -> Accounts:
-    """Return all accounts of a board with up to `most` effects."""
-    return accounts_with(board, sets_of(board.columns, most))
-
-
-def accounts_with(
-    board: LinearBoard, sets: Sequence[Effects], ways: Sequence[int] = (TYPICAL, LARGEST)
-) -> Accounts:
-    """Return the accounts of some sets: each effect of a set is of a typical size or as large as
-    any that was met, or spread in one of these ways alone.
+    """Return all accounts of a board: sets of up to `most` effects, and all effects at once. Each
+    effect of a set is of a typical size or as large as any that was met; all at once are large.
     """
     names, sizes = tuple(board.columns), board.sizes
-    spreads = np.vstack([_spreads(chosen, names, ways) for chosen in sets])
-    numbers = np.repeat(np.arange(len(sets)), [len(ways) ** len(chosen) for chosen in sets])
-    odds = np.log([chance_of(name) / (1 - chance_of(name)) / len(ways) for name in names])
+    sets = [
+        chosen for size in range(min(most, len(names)) + 1) for chosen in combinations(names, size)
+    ]
+    spreads = np.vstack([_spreads(chosen, names) for chosen in sets])
+    numbers = np.repeat(np.arange(len(sets)), [2 ** len(chosen) for chosen in sets])
+    odds = np.log([chance_of(name) / (1 - chance_of(name)) / 2 for name in names])
     log_prior = (spreads != ABSENT) @ odds
+    if len(names) > most:
+        spreads = np.vstack([spreads, np.full(len(names), LARGEST)])
+        numbers, log_prior = np.r_[numbers, len(sets)], np.r_[log_prior, np.log(ALL)]
+        sets.append(names)
     of_column = np.repeat(spreads, [len(columns) for columns in board.columns.values()], axis=1)
     more = np.stack([np.zeros(of_column.shape[1]), sizes.typical**2, sizes.largest**2])
     variance = sizes.usual**2 + np.take_along_axis(more, of_column, axis=0)
@@ -117,11 +111,11 @@ def accounts_with(
     return Accounts(tuple(sets), tuple(parts))
 
 
-def _spreads(chosen: Effects, names: Effects, ways: Sequence[int]) -> Array:
+def _spreads(chosen: Effects, names: Effects) -> Array:
     """Return in all ways how each effect is spread (ways, effects) in a set."""
-    each = np.array(list(product(ways, repeat=len(chosen))), dtype=int)
-    spreads = np.full((len(each), len(names)), ABSENT)
-    spreads[:, [names.index(name) for name in chosen]] = each
+    ways = np.array(list(product((TYPICAL, LARGEST), repeat=len(chosen))), dtype=int)
+    spreads = np.full((len(ways), len(names)), ABSENT)
+    spreads[:, [names.index(name) for name in chosen]] = ways
     return spreads
 
 
@@ -244,10 +238,6 @@ def log_orthant(mean: Array, covariance: Array, each: Array | None = None) -> Ar
 NOISE_STEP = 0.3  # of the logarithm of the noise, at most
 NOISE_REACH = 5.0  # spreads of its prior to both sides
 NEGLIGIBLE = 6.0  # nats below the best: what is less likely is not looked at
-WEIGHED = 8.0  # nats below the best by single sizes: sets that are less likely are not weighed
-MOST_WEIGHED = 60  # sets with nothing else, or with a field
-MOST_TOGETHER = 4  # effects of the largest sets
-EXTENDED = {2: 20, 3: 4, 4: 0}  # how many sets of so many effects are tried with another
 
 
 @dataclass(frozen=True)
@@ -258,8 +248,12 @@ class Noises:
     log_prior: Array  # (m,)
 
 
-def noises_before(board: LinearBoard, stated: Stated | None) -> Noises:
-    """Return all noises that readings may have before the marks are looked at."""
+def noises_of(
+    board: LinearBoard, accounts: Accounts, stated: Stated | None, fields: Sequence[Other] = ()
+) -> Noises:
+    """Return the noises that some account finds likely, by single effects and all at once; with
+    one of these fields too, for what a field draws is no noise.
+    """
     middle, spread = noise_prior(stated)
     if not spread:
         return Noises(np.array([middle]), np.zeros(1))
@@ -269,79 +263,18 @@ def noises_before(board: LinearBoard, stated: Stated | None) -> Noises:
     off = np.arange(-NOISE_REACH * spread, NOISE_REACH * spread + step, step)
     half = (NOISE_DEGREES + 1) / 2
     log_prior = -half * np.log1p((off / spread) ** 2 / NOISE_DEGREES)
-    return Noises(middle * np.exp(off), log_prior - np.logaddexp.reduce(log_prior))
-
-
-@dataclass(frozen=True)
-class Search:
-    """The sets of effects that are worth weighing, and the noises at which they are."""
-
-    sets: tuple[Effects, ...]
-    clean: Array  # (sets,) which are with nothing else
-    field: Array  # (sets,) which are with a smooth field too
-    noises: Noises
-
-
-def search(board: LinearBoard, stated: Stated | None, fields: Sequence[Other]) -> Search:
-    """Find them by single sizes of the effects, with nothing else and with each of these fields.
-
-    All pairs are tried, and of larger sets those that add an effect to the best of one less.
-    What takes the place of noise or of a field is so found next to each of the two: a set that
-    leaves much more than noise may leave little more than a field.
-    """
-    names = tuple(board.columns)
-    every = noises_before(board, stated)
-    metrics = [Metric.of(board, every.sigmas, other) for other in (None, *fields)]
-    best = np.full((len(metrics), len(every.sigmas)), -np.inf)
-    scored: dict[Effects, Array] = {}
-    sets = sets_of(names, 2)
-    for size in range(2, MOST_TOGETHER + 1):
-        accounts = accounts_with(board, sets, (LARGEST,))
-        weights = np.stack([weights_of(accounts, metric, every) for metric in metrics])
-        best = np.maximum(best, weights.max(axis=1))
-        scores = weights.max(axis=2)
-        scored.update(zip(sets, scores.T, strict=True))
-        if size == 2:
-            # Where the noise is hardly known, what no set makes likely is not looked at again.
-            likely = (best > best.max(axis=1, keepdims=True) - 3 * NEGLIGIBLE).any(axis=0)
-            every = Noises(every.sigmas[likely], every.log_prior[likely])
-            metrics = [Metric.of(board, every.sigmas, other) for other in (None, *fields)]
-            best = best[:, likely]
-        largest = [i for i, chosen in enumerate(sets) if len(chosen) == size]
-        sets = _larger(names, sets, scores[:, largest], largest, EXTENDED[size])
-        if not sets:
-            break
-    score = np.stack(list(scored.values()))
-    order = np.argsort(np.argsort(-score, axis=0, kind="stable"), axis=0)
-    near = (score > score.max(axis=0) - WEIGHED) & (order < MOST_WEIGHED)
-    small = np.array([len(chosen) < 2 for chosen in scored])
-    clean, field = near[:, 0] | small, near[:, 1:].any(axis=1) | small
-    kept = clean | field
-    # With nothing else, and with whichever field.
-    best = np.stack([best[0], best.max(axis=0)])
-    likely = (best > best.max(axis=1, keepdims=True) - NEGLIGIBLE).any(axis=0)
-    return Search(
-        sets=tuple(chosen for chosen, is_kept in zip(scored, kept, strict=True) if is_kept),
-        clean=clean[kept],
-        field=field[kept],
-        noises=Noises(every.sigmas[likely], every.log_prior[likely]),
+    log_prior -= np.logaddexp.reduce(log_prior)
+    every = Noises(middle * np.exp(off), log_prior)
+    few = accounts.among(
+        np.array([len(names) < 2 or len(names) > TOGETHER for names in accounts.effects])
     )
-
-
-def _larger(
-    names: Effects, sets: Sequence[Effects], scores: Array, places: Sequence[int], most: int
-) -> list[Effects]:
-    """Return the best of some sets by each score, with another effect each."""
-    if not places:
-        return []
-    best = {places[i] for each in scores for i in np.argsort(-each, kind="stable")[:most].tolist()}
-    larger = {
-        tuple(name for name in names if name in {*sets[i], more}): None
-        for i in sorted(best)
-        for more in names
-        if more not in sets[i]
-    }
-    return list(larger)
+    best = [
+        np.max([weight.max(axis=0) for _, weight in variants(few, metric, every)], axis=0)
+        for metric in (Metric.of(board, every.sigmas, other) for other in (None, *fields))
+    ]
+    clean, others = best[0], np.max(best, axis=0)
+    likely = (clean > clean.max() - NEGLIGIBLE) | (others > others.max() - NEGLIGIBLE)
+    return Noises(every.sigmas[likely], every.log_prior[likely])
 
 
 def variants(accounts: Accounts, metric: Metric, noises: Noises) -> Iterable[tuple[Part, Array]]:

@@ -7,7 +7,7 @@ has is not counted.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -212,7 +212,7 @@ def left_open(explanation: Explanation) -> LeftOpen:
     """Return what the marks of an explanation leave open, by its slopes."""
     board = explanation.board
     machine = [i for i, name in enumerate(board.problem.names) if name in NAMES]
-    _, moved, _ = moved_on_sheet(explanation, machine)
+    moved = _among_each_other(explanation, machine)
     measured, known = np.split(explanation.slopes, [board.rows.count])
     typical = np.ones(len(board.problem.names))
     typical[board.frame] = 0.0  # its priors are among what is known
@@ -220,17 +220,15 @@ def left_open(explanation: Explanation) -> LeftOpen:
 
     def rms(precision: Array) -> float:
         covariance = np.linalg.inv(precision)[np.ix_(machine, machine)]
-        variance = np.einsum("ij,jk,ik->", moved, covariance, moved)
-        return float(np.sqrt(2 * variance / len(moved)))
+        variance = np.einsum("rij,jk,rik->", moved, covariance, moved)
+        return float(np.sqrt(variance / len(moved)))
 
     return LeftOpen(rms(before), rms(before + measured.T @ measured))
 
 
-def moved_on_sheet(
-    explanation: Explanation, columns: Sequence[int]
-) -> tuple[Array, Array, Callable[[Array], Array]]:
-    """Return places (k, 2) [mm] all over the sheet, how they move by these unknowns (2 k, u) [mm]
-    when the sheet is shifted and turned back, and what shifts and turns it back.
+def _among_each_other(explanation: Explanation, columns: list[int]) -> Array:
+    """Return how places (n, 2, u) [mm] move by these unknowns, the sheet shifted and turned
+    back.
     """
     problem = explanation.board.problem
     targets = places_over(model_by(explanation).sheet)
@@ -243,8 +241,5 @@ def moved_on_sheet(
     turned = np.stack([-where[:, 1], where[:, 0]], axis=1).reshape(-1, 1)
     shifted = np.tile(np.eye(2), (len(where), 1))
     pose, _ = np.linalg.qr(np.hstack([shifted, turned]))
-
-    def apart(motion: Array) -> Array:
-        return np.asarray(motion - pose @ (pose.T @ motion))
-
-    return where, apart(moved), apart
+    apart: Array = (moved - pose @ (pose.T @ moved)).reshape(len(where), 2, len(columns))
+    return apart

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -230,37 +230,34 @@ def _refuse_too_few(measurements: Measurements, rows: Observations) -> None:
 
 
 def gaussian_process_columns(
-    frame: Explanation, width: float, least: float, also: Array | None = None
-) -> Array:
-    """Return what independent normals move of the measured numbers (n, c) [mm], together as a
-    Gaussian process of 1 mm each way does; below them rows (2 k, c) of the other places `also`
-    (k, 2) [mm].
+    frame: Explanation, widths: Sequence[float], least: float
+) -> Iterator[Array]:
+    """Yield for each width what independent normals move of the measured numbers (n, c) [mm],
+    together as a Gaussian process of 1 mm each way does.
 
-    width: its length scale, in halves of what the marks span. least [mm^2]: what the columns may
-    leave out of its variance at any place.
+    widths: its length scales, in halves of what the marks span. least [mm^2]: what the columns
+    may leave out of its variance at any place.
     """
     rows = frame.board.rows
     sighting, _ = frame.board.problem.predict(frame.unknowns)
     places = sighting.taped.where
     half = np.maximum(np.ptp(places, axis=0) / 2, 1.0)
-    every = places if also is None else np.vstack([places, also])
-    apart = np.sum(((every[:, np.newaxis] - every[np.newaxis]) / half) ** 2, axis=2)
-    moved = _root(np.exp(-apart / (2 * width**2)), least)
-    elsewhere = np.kron(moved[len(places) :], np.eye(2))
-    return np.vstack([_measured(moved[: len(places)], places, rows), elsewhere])
+    apart = np.sum(((places[:, np.newaxis] - places[np.newaxis]) / half) ** 2, axis=2)
+    for width in widths:
+        yield _measured(_root(np.exp(-apart / (2 * width**2)), least), places, rows)
 
 
 def _measured(moved: Array, places: Array, rows: Observations) -> Array:
     """Columns (n, 2 c) of the measured numbers; each column of `moved` (visits, c) [mm] acts once
-    to the right and then once upwards."""
+    to the right and once upwards."""
     along = places[rows.distance_rows]
     along = along[:, 1] - along[:, 0]
     along = along / np.maximum(np.linalg.norm(along, axis=1, keepdims=True), 1e-9)
     stretched = moved[rows.distance_rows[:, 1]] - moved[rows.distance_rows[:, 0]]
-    columns = np.zeros((rows.count, moved.shape[1], 2))
+    columns = np.zeros((rows.count, 2, moved.shape[1]))
     for axis in (0, 1):
-        columns[axis : rows.measured.size : 2, :, axis] = moved[rows.mark_rows]
-        columns[rows.measured.size :, :, axis] = along[:, [axis]] * stretched
+        columns[axis : rows.measured.size : 2, axis] = moved[rows.mark_rows]
+        columns[rows.measured.size :, axis] = along[:, [axis]] * stretched
     return columns.reshape(rows.count, -1)
 
 

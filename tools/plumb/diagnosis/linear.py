@@ -85,19 +85,17 @@ class Other:
 
     axes: Array  # (n, r) orthonormal
     variances: Array  # (r,) [mm^2]
-    width: float = 0.0  # of a smooth field, in halves of what the marks span
-    spread: float = 1.0  # of a smooth field [mm]
 
     @staticmethod
-    def of(columns: Array, width: float = 0.0) -> Other:
+    def of(columns: Array) -> Other:
         """Return what columns (n, c) [mm] of independent normals move."""
         left, sizes, _ = np.linalg.svd(columns, full_matrices=False)
         seen = sizes > 1e-6 * max(sizes.max(initial=0.0), 1e-9)
-        return Other(left[:, seen], sizes[seen] ** 2, width)
+        return Other(left[:, seen], sizes[seen] ** 2)
 
     def times(self, length: float) -> Other:
         """Return the same, larger by a factor."""
-        return replace(self, variances=self.variances * length**2, spread=self.spread * length)
+        return replace(self, variances=self.variances * length**2)
 
 
 def fields(frame: Explanation, sigma: float) -> list[Other]:
@@ -105,8 +103,8 @@ def fields(frame: Explanation, sigma: float) -> list[Other]:
     least = LEFT_OUT * sigma**2 / max(FIELD_SPREADS) ** 2
     return [
         unit.times(spread)
-        for width in FIELD_WIDTHS
-        for unit in [Other.of(gaussian_process_columns(frame, width, least), width)]
+        for columns in gaussian_process_columns(frame, FIELD_WIDTHS, least)
+        for unit in [Other.of(columns)]
         for spread in FIELD_SPREADS
     ]
 

@@ -16,13 +16,14 @@ import numpy as np
 
 from plumb.diagnosis.every_machine import Clean, asked_for, clean_of, pitches
 from plumb.diagnosis.evidence import (
-    MOST_TOGETHER,
+    FEWER,
+    UNLIKELY,
     Accounts,
     Effects,
     Noises,
-    accounts_with,
+    accounts_of,
+    noises_of,
     outlier_weights,
-    search,
     weights_of,
 )
 from plumb.diagnosis.explanation import Board, Explanation, explain
@@ -38,9 +39,10 @@ from plumb.diagnosis.noise import Noise, noise_by
 from plumb.diagnosis.outliers import Reading, readings_of
 from plumb.diagnosis.priors import (
     FIELD,
+    FIELD_SPREADS,
     MOVED,
     OUTLIER,
-    PITCH,
+    TOGETHER,
     TURNED,
     noise_prior,
     usual_checks,
@@ -51,8 +53,7 @@ from plumb.model.catalogue import EVERY_MACHINE
 from plumb.model.plain import ascending, ranked
 
 Array = np.ndarray
-TRIED_SPREADS = (1.0, 4.0)  # [mm] of the fields beside which sets are looked for
-REFITTED = 8  # likeliest sets that are made linear about the fit of each
+REFITTED = 6  # likeliest sets that are made linear about the fit of each
 NEAR = 5.0  # nats below the best within which they are
 LISTED = 0.95  # of all weight that the listed accounts hold together
 MOST_LISTED = 8
@@ -66,11 +67,6 @@ class Account:
     acting: Effects  # effects of the likeliest set behind it, beyond what is usual
     clean: float  # log weight with nothing else
     field: float  # log weight with a smooth field too
-
-    @property
-    def weight(self) -> float:
-        """Log weight with a smooth field and without."""
-        return float(np.logaddexp(self.clean, self.field))
 
 
 @dataclass(frozen=True)
@@ -93,17 +89,17 @@ class Posterior:
     turned: float | None  # with all y errors the other way round; None without marks
     noise: Noise
     noises: Noises  # worth a look
-    smooth: Other | None = None  # the likeliest field
 
     @cached_property
-    def _of_effects(self) -> float:
-        """Log weight of all accounts with effects and perhaps a field."""
-        return float(np.logaddexp.reduce([account.weight for account in self.accounts]))
+    def clean(self) -> float:
+        """Log weight of all accounts with effects and nothing else."""
+        return float(np.logaddexp.reduce([account.clean for account in self.accounts]))
 
     @cached_property
     def _whole(self) -> float:
+        fields = [account.field for account in self.accounts]
         moved = [weight for _, weight in self.moved]
-        return float(np.logaddexp.reduce([self._of_effects, *moved, *self.outliers]))
+        return float(np.logaddexp.reduce([self.clean, *fields, *moved, *self.outliers]))
 
     @property
     def field_chance(self) -> float:
@@ -131,21 +127,18 @@ class Posterior:
 
     @property
     def nothing_chance(self) -> float:
-        """How likely it is that no effect acts, if no reading is off and no round was moved."""
-        return sum(self.chance_of(each) for each in self.accounts if not each.effects)
+        """How likely it is that no effect acts, if nothing else is wrong."""
+        nothing = [account.clean for account in self.accounts if not account.effects]
+        return float(np.exp(np.logaddexp.reduce(nothing) - self.clean)) if nothing else 0.0
 
     @property
     def effect_chances(self) -> Mapping[str, float]:
-        """How likely each felt effect is asked for, on the same condition."""
+        """How likely each felt effect is asked for, if nothing else is wrong."""
         chances = dict.fromkeys(self.felt, 0.0)
         for account in self.accounts:
             for name in account.effects:
-                chances[name] += self.chance_of(account)
+                chances[name] += float(np.exp(account.clean - self.clean))
         return chances
-
-    def chance_of(self, account: Account) -> float:
-        """How likely an account is, on the same condition."""
-        return float(np.exp(account.weight - self._of_effects))
 
     def listed(self) -> list[Listed]:
         """Return the fewest accounts that hold LISTED of the weight, likeliest first.
@@ -153,8 +146,14 @@ class Posterior:
         An account with more effects than a likelier account adds nothing that the marks ask for,
         so it counts with that one; but none counts with "nothing", which would hide it.
         """
+        return self._listed(np.array([account.clean for account in self.accounts]))
+
+    def listed_with_field(self) -> list[Listed]:
+        """Return the same where a smooth field acts too."""
+        return self._listed(np.array([account.field for account in self.accounts]))
+
+    def _listed(self, weights: Array) -> list[Listed]:
         several = [account.effects for account in self.accounts]
-        weights = np.array([account.weight for account in self.accounts])
         return [Listed(self.accounts[i], share) for i, share in listing(several, weights)]
 
 
@@ -170,7 +169,7 @@ def listing(several: Sequence[Effects], weights: Array) -> list[tuple[int, float
         base = next((j for j in kept if several[j] and {*several[j]} < effects), None)
         if base is not None:
             kept[base] += chances[i]
-        elif before < LISTED and len(effects) <= MOST_TOGETHER + len(EVERY_MACHINE):
+        elif before < LISTED and len(effects) <= TOGETHER + len(EVERY_MACHINE):
             kept[i] = chances[i]
         else:
             continue
@@ -200,40 +199,40 @@ def posterior_of(board: Board, stated: Stated | None) -> Posterior:
     frame = board.fitted
     felt = felt_effects(frame)
     linear = LinearBoard.of(frame, felt)
+    accounts = accounts_of(linear, TOGETHER if linear.measured <= FEWER else 2)
     middle, _ = noise_prior(stated)
     others = fields(frame, middle)
-    found = search(linear, stated, [each for each in others if each.spread in TRIED_SPREADS])
-    noises, accounts = found.noises, accounts_with(linear, found.sets)
-    near, with_field = accounts.among(found.clean), accounts.among(found.field)
-    weights = _by_other(linear, with_field, noises, others, FIELD)
-    for each, other in zip(weights, others, strict=True):
-        # What noise hides is nothing to look for.
-        each[:, noises.sigmas > other.spread] = -np.inf
-    by_field = np.logaddexp.reduce(weights, axis=2)
-    smooth = others[int(np.argmax(np.logaddexp.reduce(by_field, axis=1)))]
+    noises = noises_of(linear, accounts, stated, others[1 :: len(FIELD_SPREADS)])
     clean = clean_of(linear, accounts, noises).on(0)
-    smoothed = clean_of(linear, with_field, noises, smooth).on(0)
-    field = np.logaddexp.reduce(by_field, axis=0)
-    clean, field = _refitted(frame, found.sets, noises, smooth, (clean, smoothed, field))
+    clean = _refitted(frame, felt, accounts, noises, clean)
+    few = accounts.up_to(2)
+    # A field takes the place of most effects: sets that are unlikely without it stay so.
+    likely = (clean.total > clean.total.max() - UNLIKELY) | _small(accounts)
+    field, noise_of_field = _with_others(linear, few.among(likely), noises, others, FIELD)
     moves = moved_rounds(frame)
-    moved = [_by_other(linear, near, noises, [move.other], MOVED / len(moves)) for move in moves]
+    moved = [
+        _with_others(linear, few, noises, [move.other], MOVED / len(moves))[0] for move in moves
+    ]
     readings = readings_of(board.rows)
     numbers = _numbers(readings, board, len(linear.read))
-    of_field = np.logaddexp.reduce(weights, axis=(0, 1))
     return Posterior(
         frame=frame,
         felt=felt,
-        accounts=_accounts(linear, accounts, (clean, replace(smoothed, total=field))),
+        accounts=_accounts(linear, accounts, clean, field),
         moved=tuple(
-            (move, float(np.logaddexp.reduce(weight, axis=None)))
+            (move, float(np.logaddexp.reduce(weight)))
             for move, weight in zip(moves, moved, strict=True)
         ),
-        outliers=outlier_weights(linear, near.up_to(2), noises, numbers) + np.log(OUTLIER),
-        turned=_turned(frame, linear, near, noises),
-        noise=noise_by(noises.sigmas, np.logaddexp(clean.by_noise, of_field), stated),
+        outliers=outlier_weights(linear, few, noises, numbers) + np.log(OUTLIER),
+        turned=_turned(frame, linear, few, noises),
+        noise=noise_by(noises.sigmas, np.logaddexp(clean.by_noise, noise_of_field), stated),
         noises=noises,
-        smooth=smooth,
     )
+
+
+def _small(accounts: Accounts) -> Array:
+    """Return which sets hold one effect at most (sets,)."""
+    return np.array([len(names) < 2 for names in accounts.effects])
 
 
 def felt_effects(frame: Explanation) -> Effects:
@@ -244,27 +243,20 @@ def felt_effects(frame: Explanation) -> Effects:
     )
 
 
-def _by_other(
+def _with_others(
     board: LinearBoard, accounts: Accounts, noises: Noises, others: Sequence[Other], chance: float
-) -> Array:
-    """Return the log weights (others, sets, m) with each of some other things too, one of which
-    acts by `chance`.
+) -> tuple[Array, Array]:
+    """Return the log weights (sets,) with one of some other things too, and the same
+    by noises (m,).
     """
-    return np.stack(
-        [_with(board, accounts, noises, other) + np.log(chance / len(others)) for other in others]
-    )
-
-
-def _with(
-    board: LinearBoard, accounts: Accounts, noises: Noises, other: Other | None = None
-) -> Array:
-    """Return the log weights (sets, m) with another thing too, if there is one."""
     weights = [
         weights_of(accounts, Metric.of(board, noises.sigmas, other, pitch=is_drifting), noises)
-        + log
+        + (log + np.log(chance / len(others)))
+        for other in others
         for is_drifting, log in pitches(board)
     ]
-    return np.asarray(np.logaddexp.reduce(weights))
+    together = np.logaddexp.reduce(weights)
+    return np.logaddexp.reduce(together, axis=1), np.logaddexp.reduce(together, axis=0)
 
 
 def _turned(
@@ -276,8 +268,18 @@ def _turned(
         return None
     read = board.read.copy()
     read[1 : rows.measured.size : 2, 0] += 2 * (rows.targets - rows.measured)[:, 1]
-    weights = _with(replace(board, read=read), accounts, noises)
-    return float(np.logaddexp.reduce(weights, axis=None) + np.log(TURNED))
+    weights = _with_nothing(replace(board, read=read), accounts, noises)
+    return float(np.logaddexp.reduce(weights) + np.log(TURNED))
+
+
+def _with_nothing(board: LinearBoard, accounts: Accounts, noises: Noises) -> Array:
+    weights = np.logaddexp.reduce(
+        [
+            weights_of(accounts, Metric.of(board, noises.sigmas, pitch=is_drifting), noises) + log
+            for is_drifting, log in pitches(board)
+        ],
+    )
+    return np.asarray(np.logaddexp.reduce(weights, axis=1))
 
 
 def _numbers(readings: Sequence[Reading], board: Board, none: int) -> Array:
@@ -289,60 +291,40 @@ def _numbers(readings: Sequence[Reading], board: Board, none: int) -> Array:
 
 
 def _accounts(
-    board: LinearBoard, accounts: Accounts, weighed: tuple[Clean, Clean]
+    board: LinearBoard, accounts: Accounts, clean: Clean, field: Array
 ) -> tuple[Account, ...]:
-    """Put sets together that ask for the same effects, with nothing else and with a field."""
-    asked: list[Effects] = []
-    several: list[tuple[float, float, int]] = []
-    for place, each in enumerate(weighed):
-        order = [i for i in ascending(-each.total).tolist() if np.isfinite(each.total[i])]
-        asked += asked_for(board, accounts, each, order)
-        several += [(place, each.total[i], i) for i in order]
-    weights = np.full((len(several), 2), -np.inf)
-    for row, (place, weight, _) in zip(weights, several, strict=True):
-        row[place] = weight
-    likeliest: dict[Effects, int] = {}
-    for k in ascending(-weights.max(axis=1)).tolist():
-        likeliest.setdefault(asked[k], several[k][2])
+    """Put sets together that ask for the same effects."""
+    order = ascending(-clean.total)
+    asked = asked_for(board, accounts, clean, order)
+    several, weights = together(asked, np.stack([clean.total, field], axis=1)[order])
+    likeliest = dict(zip(reversed(asked), reversed(order.tolist()), strict=True))
     merged = [
         Account(effects, accounts.effects[likeliest[effects]], *both)
-        for effects, both in zip(*map(list, together(asked, weights)), strict=True)
+        for effects, both in zip(several, weights.tolist(), strict=True)
     ]
-    return tuple(ranked(merged, lambda account: -account.weight))
+    return tuple(ranked(merged, lambda account: -account.clean))
 
 
 def _refitted(
-    frame: Explanation,
-    sets: Sequence[Effects],
-    noises: Noises,
-    smooth: Other,
-    weighed: tuple[Clean, Clean, Array],
-) -> tuple[Clean, Array]:
+    frame: Explanation, felt: Effects, accounts: Accounts, noises: Noises, clean: Clean
+) -> Clean:
     """Return the weights with the likeliest sets made linear about the fit of each.
 
     Slopes at the frame's fit are good to a part of a nat for most sets; where the sled sticks, or
     an error is large, they are not.
     """
-    clean, smoothed, field = weighed
-    total, with_field = clean.total.copy(), field.copy()
-    both = np.logaddexp(total, field)
-    for i in ascending(-both)[:REFITTED].tolist():
-        acting = sets[i]
-        if not acting or both[i] < both.max() - NEAR:
+    total = clean.total.copy()
+    order = [i for i in ascending(-total)[:REFITTED] if total[i] > total.max() - NEAR]
+    for i in order:
+        acting = accounts.effects[i]
+        if not acting or len(acting) > TOGETHER:
             continue
         at = explain_account(frame, acting, acting)
-        usual = (*EVERY_MACHINE, PITCH)
-        felt = [name for name in felt_effects(frame) if name in acting or name in usual]
         linear = LinearBoard.of(at, felt)
-        only = accounts_with(linear, [acting])
-        total[i], of_smooth = (
-            float(np.logaddexp.reduce(_with(linear, only, noises, other), axis=None))
-            for other in (None, smooth)
-        )
-        if np.isfinite(field[i]):
-            with_field[i] += of_smooth - smoothed.total[i]
+        only = accounts.among(np.arange(len(total)) == i)
+        total[i] = _with_nothing(linear, only, noises)[i]
     shift = total - clean.total
-    return replace(clean, total=total, nominal=clean.nominal + shift), with_field
+    return replace(clean, total=total, nominal=clean.nominal + shift)
 
 
 def explain_account(frame: Explanation, asked: Effects, acting: Effects) -> Explanation:

@@ -24,6 +24,7 @@ LIKELIER = 0.5  # chance from which on something is likelier than not
 # these are guesses; docs/diagnosis.md says which answers hang on them, and by how much.
 ACTS = 0.1  # an effect
 UNUSUAL = 0.05  # that what every machine has is far from usual
+ALL = 0.01  # that every effect of the library acts at once
 TOGETHER = 3  # effects at once in an account; the marks of one sheet hardly carry more
 FIELD = 0.15  # that the machine also does what no effect of the library does
 OUTLIER = 0.1  # that some reading is off
@@ -33,7 +34,7 @@ TURNED = 0.01  # that all y errors have the wrong sign
 # [mm] Readings that are off: a misread tick, a wrong hook, exchanged digits. All as likely.
 OUTLIER_SPREADS = (4.0, 20.0, 200.0)
 # [mm] and halves of what the marks span: what a smooth field of no effect does. All as likely.
-FIELD_SPREADS = (0.25, 0.5, 1.0, 2.0, 4.0)
+FIELD_SPREADS = (1.0, 2.0, 4.0)
 FIELD_WIDTHS = (0.35, 0.7, 1.4)
 ROUND_SPREAD = 6.0  # [mm] of a sheet laid elsewhere, and of a chain hung by a link less
 
@@ -52,15 +53,6 @@ class Usual:
     spread: float  # from machine to machine, where the settings do not know it
     known: float  # the same about the value that the settings have
 
-    def near(self, size: float) -> float:
-        """Return the spread about what the settings have, 0 where they do not know it. A size that
-        hardly any machine has was fitted by eye, and is no knowledge.
-        """
-        off = abs(size - self.mean)
-        return self.spread if not size else self.known if off <= ODD * self.spread else off
-
-
-ODD = 2.0  # spreads from the usual beyond which settings have what hardly any machine has
 
 # Stretch: makers and owners state 4.1e-6 to 8.1e-6 1/N for this chain; WebControl takes 5.17e-6.
 # Sag goes with the square of the chain's weight, which differs by a tenth from maker to maker.
@@ -113,8 +105,8 @@ def size_priors(board: Board, columns: Array) -> SizePriors:
         mean=np.array([each.mean if each else 0.0 for each in usual]) * ~is_set,
         usual=np.array(
             [
-                each.near(size) if each else 0.0
-                for each, size in zip(usual, start.tolist(), strict=True)
+                (each.known if known else each.spread) if each else 0.0
+                for each, known in zip(usual, is_set, strict=True)
             ]
         ),
         typical=alike,
@@ -156,8 +148,8 @@ def usual_checks(board: Board, effects: Iterable[str]) -> tuple[Checked, ...]:
         name, scale, start = problem.names[column], problem.scale[column], problem.start[column]
         known = USUAL.get(name)
         if known:
-            spread = known.near(float(start / scale)) * scale
-            checks.append(Checked(name, float(start or known.mean * scale), float(spread)))
+            share = known.known if start else known.spread
+            checks.append(Checked(name, float(start or known.mean * scale), float(share * scale)))
         elif name.startswith(f"{PITCH}."):
             checks.append(Checked(name, float(start), PITCH_SPREAD))
     return tuple(checks)

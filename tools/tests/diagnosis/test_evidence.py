@@ -4,19 +4,19 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from linear_boards import covariance_of, in_full, log_density, made_up
+from linear_boards import NAMES, covariance_of, in_full, log_density, made_up
 from plumb.diagnosis.evidence import (
     Noises,
     accounts_of,
     add_by_set,
     fitted,
     log_orthant,
+    noises_of,
     outlier_weights,
-    search,
     weights_of,
 )
 from plumb.diagnosis.linear import Metric, Other
-from plumb.diagnosis.priors import ACTS, OUTLIER_SPREADS, UNUSUAL
+from plumb.diagnosis.priors import ACTS, ALL, OUTLIER_SPREADS, UNUSUAL
 from plumb.fit.inputs import Stated
 from scipy import special, stats
 
@@ -139,9 +139,9 @@ def test_what_has_either_sign_changes_no_mass():
 
 def test_accounts_are_all_sets_of_a_few_effects_with_small_and_large_sizes():
     accounts = accounts_of(made_up(), 2)
-    assert len(accounts.effects) == 1 + 4 + 6
+    assert len(accounts.effects) == 1 + 4 + 6 + 1 and accounts.effects[-1] == NAMES
     counts = np.bincount(np.concatenate([part.sets for part in accounts.parts]))
-    assert counts.tolist() == [1, *[2] * 4, *[4] * 6]
+    assert counts.tolist() == [1, *[2] * 4, *[4] * 6, 1]
     part, small = variant(accounts, "frame_flex")
     # Stretch is there in every account, as usual; an effect has all its numbers of one kind.
     assert part.index[small].tolist() == [0, 3, 4]
@@ -159,6 +159,7 @@ def test_an_account_is_as_likely_before_the_marks_as_its_effects():
         (("chain_plane",), ACTS / (1 - ACTS) / 2),
         (("chain_stretch",), UNUSUAL / (1 - UNUSUAL) / 2),
         (("chain_plane", "frame_flex"), (ACTS / (1 - ACTS) / 2) ** 2),
+        (NAMES, ALL),
     ):
         part, a = variant(accounts, *names)
         assert part.log_prior[a] == pytest.approx(np.log(odds))
@@ -169,7 +170,7 @@ def test_sets_keep_their_weights_when_others_are_left_out():
     metric, accounts = Metric.of(board, SIGMAS), accounts_of(board, 2)
     whole = weights_of(accounts, metric, noises)
     few = weights_of(accounts.up_to(1), metric, noises)
-    assert few[:5] == pytest.approx(whole[:5]) and np.all(few[5:] == -np.inf)
+    assert few[:5] == pytest.approx(whole[:5]) and np.all(few[5:-1] == -np.inf)
     wanted = np.arange(len(whole)) % 3 == 1
     some = weights_of(accounts.among(wanted), metric, noises)
     assert some[wanted] == pytest.approx(whole[wanted]) and np.all(some[~wanted] == -np.inf)
@@ -180,7 +181,7 @@ def test_variants_of_a_set_are_added_to_their_set():
     total = np.full((len(accounts.effects), 1), -np.inf)
     for part in accounts.parts:
         add_by_set(total, part, np.zeros((len(part.sets), 1)))
-    assert np.exp(total[:, 0]) == pytest.approx([1, *[2] * 4, *[4] * 6])
+    assert np.exp(total[:, 0]) == pytest.approx([1, *[2] * 4, *[4] * 6, 1])
 
 
 # Readings that are off: an added column for each.
@@ -214,7 +215,7 @@ def test_a_reading_that_is_off_is_a_shift_of_its_own_numbers(count, pull):
 
 def test_a_noise_that_is_final_is_one_point():
     board = made_up()
-    noises = search(board, Stated(0.7, is_final=True), ()).noises
+    noises = noises_of(board, accounts_of(board), Stated(0.7, is_final=True))
     assert noises.sigmas.tolist() == [0.7] and noises.log_prior.tolist() == [0.0]
 
 
@@ -224,7 +225,7 @@ def test_noises_are_looked_at_as_far_as_the_marks_allow_them(stated):
     for true in (0.3, 1.5):
         source = np.random.default_rng(3)
         read = np.r_[true * source.standard_normal(60), source.standard_normal(2)]
-        noises = search(replace(board, read=read[:, np.newaxis]), stated, ()).noises
+        noises = noises_of(replace(board, read=read[:, np.newaxis]), accounts_of(board), stated)
         assert noises.sigmas[0] < true < noises.sigmas[-1]
         assert np.all(np.diff(np.log(noises.sigmas)) < 0.3)
         assert noises.sigmas[-1] / noises.sigmas[0] < 4

@@ -18,6 +18,7 @@ from plumb.diagnosis.posterior import (
 from plumb.diagnosis.priors import size_priors, usual_checks
 from plumb.fit.inputs import Inputs, Stated
 from plumb.model.catalogue import EVERY_MACHINE, parameter_words
+from scipy import special
 
 NINE = plan(3, 3)
 FINAL = Stated(0.5, is_final=True)
@@ -112,19 +113,19 @@ def test_all_that_may_be_holds_the_whole(clean):
         np.exp(clean.turned) / (np.exp(clean.turned) + whole)
     )
     for name, chance in clean.effect_chances.items():
-        with_it = sum(clean.chance_of(each) for each in clean.accounts if name in each.effects)
-        assert chance == pytest.approx(with_it)
+        with_it = [each.clean for each in clean.accounts if name in each.effects]
+        assert chance == pytest.approx(np.exp(special.logsumexp(with_it) - clean.clean))
     assert clean.nothing_chance < 0.01 < clean.effect_chances["tape_scale"]
 
 
 def test_accounts_come_once_each_and_the_likeliest_first(clean):
     effects = [frozenset(each.effects) for each in clean.accounts]
     assert len({*effects}) == len(effects)
-    weights = [each.weight for each in clean.accounts]
+    weights = [each.clean for each in clean.accounts]
     assert weights == sorted(weights, reverse=True)
     listed = clean.listed()
     assert listed[0].account is clean.accounts[0] and "tape_scale" in listed[0].account.effects
-    assert listed[0].share >= clean.chance_of(clean.accounts[0])
+    assert listed[0].share >= np.exp(weights[0] - clean.clean)
 
 
 def bare_posterior(layout, noise):

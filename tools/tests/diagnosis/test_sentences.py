@@ -24,10 +24,6 @@ def said_of(verdict, *explanations, nothing=0.7, field=0.0, disagreements=()):
             nothing_chance=nothing,
             field_chance=field,
             disagreements=disagreements,
-            is_finding=False,
-            likely=explanations[0].effects if explanations else (),
-            left_mm=explanations[0].rms_after if explanations else 2.0,
-            left_by_noise_mm=explanations[0].noise_rms if explanations else 0.42,
         )
     )
     assert len(said.split()) <= 40, said

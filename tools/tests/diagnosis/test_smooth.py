@@ -14,7 +14,7 @@ def columns_on(layout, width):
     """The targets of a plan, and what a field of this width moves there."""
     rows = observe(MAKER, cut(Hidden(), layout, seed=1).measurements)
     frame = explain(Board.of(MAKER, rows, sigma=0.5))
-    columns = gaussian_process_columns(frame, width, 1e-8)
+    (columns,) = gaussian_process_columns(frame, (width,), 1e-8)
     assert len(columns) == rows.count
     return layout.targets, columns
 
@@ -47,7 +47,7 @@ def test_columns_leave_out_no_more_than_they_may():
     rows = observe(MAKER, cut(Hidden(), plan(5, 5), seed=1).measurements)
     frame = explain(Board.of(MAKER, rows, sigma=0.5))
     for least in (1e-2, 1e-6):
-        columns = gaussian_process_columns(frame, 1.4, least)
+        (columns,) = gaussian_process_columns(frame, (1.4,), least)
         missing = 1 - np.sum(columns**2, axis=1)
         assert missing.max() < least and missing.min() > -1e-9
     assert columns.shape[1] < 2 * len(targets)

@@ -25,7 +25,7 @@ def judged(shares, monkeypatch, *, field=TINY, moved=TINY, misfit=0.5, outliers=
             effects,
             effects,
             clean=np.log(share * (1 - unknown)),
-            field=np.log(field * share),
+            field=np.log(field / len(shares)),
         )
         for effects, share in sorted(shares.items(), key=lambda each: -each[1])
     )
@@ -97,7 +97,7 @@ def test_what_is_likelier_than_not_is_gone_on_with_though_it_is_not_named(
 ):
     said = judged({("a",): chance, (): 1 - chance}, monkeypatch)
     assert (said.verdict, said.listed) == ("nothing_provable", ())
-    assert said.weighed[0].account.effects == (("a",) if is_beyond else ())
+    assert said.best.effects == (("a",) if is_beyond else ())
 
 
 @pytest.mark.parametrize(("share", "is_beyond"), both(LISTED))
