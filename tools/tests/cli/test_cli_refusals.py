@@ -111,7 +111,7 @@ def test_points_may_have_a_header_comments_and_spaces(ask, file):
 def test_if_one_result_cannot_be_written_none_is(outputs, run, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     before = SETTINGS.read_bytes(), MARKS.read_bytes()
-    code, said, complaint = run("add", *BOARD, *EFFECTS, *outputs)
+    code, said, complaint = run("add", *BOARD, "--effect", "none", *outputs)
     assert code == 2 and said == "" and complaint.count("\n") == 1
     assert list(tmp_path.iterdir()) == []
     assert (SETTINGS.read_bytes(), MARKS.read_bytes()) == before
@@ -121,10 +121,10 @@ def test_a_groundcontrol_ini_needs_an_old_one(run, tmp_path):
     machine, out = tmp_path / "machine.toml", tmp_path / "new.toml"
     write_machine_toml(machine, BELIEVED)
     options = ("-o", out, "--client", "groundcontrol")
-    code, _, complaint = run("add", machine, MARKS, *EFFECTS, *options)
+    code, _, complaint = run("add", machine, MARKS, "--effect", "none", *options)
     assert code == 2 and "needs your groundcontrol.ini" in complaint and not out.exists()
     for given in ("--cut-with", "--original"):
-        assert run("add", machine, MARKS, *EFFECTS, *options, given, SETTINGS)[0] == 0
+        assert run("add", machine, MARKS, "--effect", "none", *options, given, SETTINGS)[0] == 0
         assert (tmp_path / "new-groundcontrol.ini").exists()
         (tmp_path / "new-groundcontrol.ini").unlink()
 

@@ -131,7 +131,7 @@ def test_a_full_disk_is_a_line():
 
 
 def test_a_full_disk_is_an_object_with_json(run, capsys):
-    full = ["add", SETTINGS, MARKS, "--effect", "chain_sag", "-o", "/dev/full", "--json"]
+    full = ["add", SETTINGS, MARKS, "--effect", "none", "-o", "/dev/full", "--json"]
     code, said, complaint = run(*full)
     assert code == 2 and complaint.count("\n") == 1
     assert json.loads(said) == {"error": complaint.removeprefix("plumb: ").rstrip()}

@@ -82,7 +82,9 @@ def test_nothing_is_saved_through_a_link(lab, name):
     target = lab.folder.parent / "secret.ini"
     (lab.folder / name).unlink(missing_ok=True)
     (lab.folder / name).symlink_to(target)
-    form = b'--x\r\nContent-Disposition: form-data; name="file"; filename="x.ini"\r\n\r\n'
+    form = (
+        b'--x\r\nContent-Disposition: form-data; name="file"; filename="groundcontrol.ini"\r\n\r\n'
+    )
     body = form + SETTINGS.read_bytes() + b"\r\n--x--\r\n"
     kind = (("Content-Type", "multipart/form-data; boundary=x"),)
     try:

@@ -93,7 +93,6 @@ COMMANDS = {
     "reach": ("groundcontrol.ini",),
     "home": ("machine.toml", "--keep=left=-900,250"),
     "slip": ("machine.toml", "--touch=-900,250:-895,253"),
-    "gap": ("machine.toml", "--length", "2989.3", "--drop", "18.3"),
     "vm": ("--seconds", "1"),
     "practice": ("start", "game", "--seconds", "1"),
 }
