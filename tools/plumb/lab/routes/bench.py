@@ -195,7 +195,9 @@ def refit(choice: BenchChoice, project: TheProject, warm: Warm) -> BenchFit:
         sizes=sizes,
         intervals=intervals,
         settled=fitted.settled,
-        command=_command(project.choices, chosen, warm),
+        # The page shows what speaks against the numbers before it writes them; a terminal is asked.
+        command=_command(project.choices, chosen, warm)
+        + ("" if fitted.settled and all(size.possible for size in sizes.values()) else " --force"),
     )
 
 
