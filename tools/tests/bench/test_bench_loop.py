@@ -1,10 +1,7 @@
 """The owner of a board of the bench, and the loop: proposals carried out on the same machine."""
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
-from bench_page import page
 from plumb.bench.boards import cut, plan
 from plumb.bench.causes import MAKER, SLED, Hidden, causes_of
 from plumb.bench.judged_board import BoardOwner, followed
@@ -84,6 +81,4 @@ def test_the_report_says_what_a_loop_cost():
     assert not report.cures and report.loop_judged
     (cured,) = report.loops
     assert cured.readings + cured.checks > 0 and cured.known > 0
-    assert "After two rounds of proposals" in page(report) and "1 boards of each" in page(report)
-    assert "(1 of each loop)" in page(replace(report, boards=5))
     assert loop_cells([cured])[0][-2:] == [f"{cured.readings:.1f}", f"{cured.checks:.1f}"]

@@ -5,12 +5,10 @@ numbers: on each set of them a method without one of its parts (search correctio
 slips first, degrees of freedom) says something else.
 """
 
-import json
 from dataclasses import replace
 
 import numpy as np
 import pytest
-from bench_page import page
 from plumb.bench import judge
 from plumb.bench.boards import chains_for, cut, plan, raw_field, size_for
 from plumb.bench.causes import CAUSES, MAKER, OUTSIDE, Hidden, causes_of
@@ -19,6 +17,7 @@ from plumb.bench.judged_board import judge_board, shape_error
 from plumb.bench.outcome import Line, Outcome, Rate, look_alikes, rate_of
 from plumb.bench.report import run as run_bench
 from plumb.bench.scenarios import NAMES, SCENARIOS, Scenario
+from plumb.cli.bench import as_text
 from plumb.diagnosis import diagnose
 from plumb.fit.inputs import Inputs
 from plumb.model.catalogue import effect_names
@@ -247,7 +246,7 @@ def test_the_same_seed_gives_the_same_rates_however_many_programs_run():
         for jobs in (1, 2)
     )
     assert [row.value for row in alone.rows] == [row.value for row in together.rows]
-    assert json.dumps(page(alone)) == json.dumps(page(together))
+    assert as_text(alone) == as_text(together)
 
 
 def test_a_missed_line_is_said_and_the_bench_still_ran(run, monkeypatch):

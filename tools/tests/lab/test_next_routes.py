@@ -8,7 +8,8 @@ from contextlib import contextmanager
 import pytest
 from folder import asked, finished, got, type_in, until
 from plumb.cli.main import main
-from plumb.lab.project import CUT, digest_of
+from plumb.lab.broken_cut import digest_of_sent
+from plumb.lab.project import CUT
 from plumb.marks.form import head_of, read_form, toml_text
 from plumb.marks.read import Measurements
 from plumb.settings.toml import write_machine_toml
@@ -277,7 +278,7 @@ def test_a_proposal_goes_on_where_its_pauses_are_before_all_its_marks(
     head, mark, rest = (folder / taking["program"]).read_text().rpartition("(mark ")
     text = f"{head}{more}{mark}{rest}"
     (folder / taking["program"]).write_text(text)
-    note = {"digest": digest_of(text.encode()), "marks": 1, "begun": 1, "is_virtual": False}
+    note = {"digest": digest_of_sent(text), "marks": 1, "begun": 1, "is_virtual": False}
     (folder / CUT).write_text(json.dumps({taking["program"]: note}))
     shown = got(client.get("/api/grid"))
     assert shown["broke_off"] == 1 and shown["goes_on"] == goes_on
