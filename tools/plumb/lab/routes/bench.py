@@ -195,9 +195,12 @@ def refit(choice: BenchChoice, project: TheProject, warm: Warm) -> BenchFit:
         sizes=sizes,
         intervals=intervals,
         settled=fitted.settled,
-        # The page shows what speaks against the numbers before it writes them; a terminal is asked.
-        command=_command(project.choices, chosen, warm)
-        + ("" if fitted.settled and all(size.possible for size in sizes.values()) else " --force"),
+        command=_command(
+            project.choices,
+            chosen,
+            warm,
+            can_be=fitted.settled and all(size.possible for size in sizes.values()),
+        ),
     )
 
 
@@ -332,12 +335,15 @@ def _sizes(fitted: Fit, chosen: Chosen) -> dict[str, BenchSize]:
     return sizes
 
 
-def _command(choices: Choices, chosen: Chosen, warm: WarmBoard) -> str:
-    """Return the same in a terminal. No file is read: a slider asks for it many times a second."""
+def _command(choices: Choices, chosen: Chosen, warm: WarmBoard, *, can_be: bool) -> str:
+    """Return the same in a terminal, which writes sizes that cannot be only by force. No file is
+    read: a slider asks for it many times a second.
+    """
     held = [word for item in chosen.held.items() for word in ("--hold", "{}={:.12g}".format(*item))]
     known = known_words(choices, effects=chosen.effects, held=chosen.held)
     return command(
         *("add", *warm.words, *known),
         *unit_words(choices, warm.live.inputs.measurements.typed.unit),
         *("--effect", *(chosen.effects or ["none"]), *held, "-o", NEW_MACHINE),
+        *([] if can_be else ["--force"]),
     )
