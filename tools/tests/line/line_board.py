@@ -51,10 +51,15 @@ class Board:
 
 
 class SlowBoard:
-    """A board that moves a millimetre a line, answers each when it is there, and can be pulled."""
+    """A board that moves a millimetre a line, answers each when it is there, and can be pulled.
+
+    at: what somebody does when the sled is at an x. The line's thread does it, so that it comes
+    at that line however busy the computer is.
+    """
 
     def __init__(self):
         self.x, self.time = 0.0, 0.0
+        self.at = {}
         self.waiting, self.written = [], b""
         self.holds = self.is_pulled = self.is_closed = self.is_silent = False
         self.greeting, self.state = b"", "Idle"
@@ -78,6 +83,7 @@ class SlowBoard:
         if self.is_pulled:
             raise LostError("USB: the line was lost; check the cable")
         self.time += 0.2
+        self.at.pop(self.x, lambda: None)()
         if self.is_silent:
             return b""
         said, self.greeting = self.greeting, b""

@@ -105,13 +105,12 @@ def test_each_line_is_noted_before_it_leaves_and_is_surely_done_a_while_after_it
 
 
 def test_of_a_stopped_program_only_the_line_under_way_is_perhaps_done(slow):
-    _, worker = slow
+    board, worker = slow
     heard = []
+    board.at[40] = worker.stop
     worker.send(
         "grid.nc", [f"G1 X{i}" for i in range(1, 400)], came=lambda *lines: heard.append(lines)
     )
-    until(lambda state: state.program and state.program.done > 30, worker)
-    worker.stop()
     until(lambda state: state.phase == "ready", worker)
     answered = worker.state.program.done
     surely, perhaps = heard[-1]
