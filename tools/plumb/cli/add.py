@@ -148,6 +148,8 @@ def _run_auto(arguments: argparse.Namespace, inputs: Inputs) -> int:
         same = same_inputs(arguments)
         if result.addition:
             _print_written(files, client, arguments)
+        elif result.is_good:
+            pass  # there is nothing to do
         elif result.diagnosis.outliers:
             corrected = ["add", *same, "--effect", AUTO]
             print(f"\n{next_step('When the file is corrected:', corrected)}")

@@ -34,9 +34,13 @@ def verdict_of(result: Addition) -> str:
 def auto_verdict(result: AutoAddition) -> str:
     """Return what was added and how likely it is right, in at most forty words."""
     addition, diagnosis = result.addition, result.diagnosis
+    if result.is_good:
+        return headline(result.said[0], GOOD)
     if addition is None:
         return headline(diagnosis.sentence, BAD if diagnosis.outliers else OPEN)
     fall = _fall(addition)
+    if diagnosis.is_finding and result.chosen:
+        return headline(diagnosis.sentence, GOOD)
     if diagnosis.verdict == "not_in_library":
         return headline(f"No cause explains all that the marks show. {fall}", BAD)
     named = result.named if len(result.named) <= MOST_NAMED else ()

@@ -61,6 +61,7 @@ class Round:
     advice: Internal[Next | None] = None  # if something has to be measured first
 
     diagnosis = part("result.diagnosis", Diagnosis)
+    expected_mm = part("result.expected_mm", float | None, "RMS error over the sheet, once done.")
     addition = part("result.addition", Addition | None)
 
     @computed_field
@@ -72,14 +73,18 @@ class Round:
     @computed_field
     @property
     def done(self) -> bool:
-        """Whether new settings can be written: nothing is left that the marks could decide."""
-        return self.result.addition is not None and self.result.done and not self.result.rivals
+        """Whether nothing is left that the marks could decide: new settings can be written, or
+        those that are there are good.
+        """
+        return self.result.done and not self.result.rivals
 
     @computed_field
     @property
     def sentence(self) -> str:
         """The end of the round in one sentence."""
         diagnosis, addition = self.result.diagnosis, self.result.addition
+        if self.result.is_good:
+            return self.result.said[0].replace(": nothing", ". Nothing")
         if self.done and addition:
             added, chosen = addition.effects_added, self.result.chosen
             again = f"with {plainly(chosen)} fitted again" if chosen else "with the frame fitted"
@@ -87,7 +92,7 @@ class Round:
             return (
                 f"Done: {what}, the error falls from {bare(addition.raw.rms)} to "
                 f"{worded(addition.after.fit_rms)} RMS, {worded(addition.after.left_out_rms)} "
-                "checked on marks not used."
+                f"checked on marks not used.{_unexplained(diagnosis)}"
             )
         if diagnosis.outliers:
             names = ", ".join(dict.fromkeys(slip.called for slip in diagnosis.outliers))
@@ -107,6 +112,13 @@ class Round:
         if self.result.diagnosis.left_open.is_too_much:
             proposals = tuple(each for each in proposals if each.option.is_cut) or proposals
         return proposals[0] if proposals else None
+
+
+def _unexplained(diagnosis: Diagnosis) -> str:
+    """Return what stays where a cause is named though the machine does something unknown too."""
+    if not diagnosis.is_finding:
+        return ""
+    return f" A pattern of {worded(diagnosis.pattern_mm)} stays that no effect draws."
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -198,7 +210,9 @@ def size_now(this: Round) -> list[str]:
         return [sentences([slip.sentence for slip in diagnosis.outliers][:SLIPS])]
     if this.done and this.result.addition:
         notes = first_notes(this.result.addition)
-        return [sentences(notes)] if notes else []
+        return [sentences([*notes, _expected(this)])]
+    if this.result.is_good:
+        return [sentences([_expected(this)], mark="")]
     if this.result.addition is None:
         return [sentences(this.result.said[:1], mark="")]
     best = diagnosis.explanations[0] if diagnosis.explanations else None
@@ -213,6 +227,10 @@ def size_now(this: Round) -> list[str]:
     )
     outside = outside_sentence(this.comparison.promised) if this.comparison.promised else ""
     return [sentences([f"{said} {outside}".strip()], mark="")]
+
+
+def _expected(this: Round) -> str:
+    return f"Over the sheet expect errors of {worded(this.expected_mm or 0.0)} RMS."
 
 
 SLIPS = 2  # sentences of a short answer
@@ -256,6 +274,8 @@ def _ending(
     """Return the verdict, and what the owner does now."""
     slips, best = this.result.diagnosis.outliers, this.best
     verdict = headline(this.sentence, GOOD if this.done else BAD if slips else OPEN)
+    if this.result.is_good:
+        return [verdict]
     if this.done:
         now = [_written_text(files, client)]
         if client is None and arguments.firmware == "plumb":

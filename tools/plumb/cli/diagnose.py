@@ -73,6 +73,8 @@ def _next(diagnosis: Diagnosis, arguments: argparse.Namespace) -> str:
         return next_step("What to measure next:", ["next", *same_inputs(arguments)])
     if diagnosis.verdict == "nothing_provable":
         return next_step("Fit the frame:", auto_words(arguments))
+    if diagnosis.is_finding:
+        return next_step("Add what is known:", auto_words(arguments))
     first = diagnosis.explanations[0] if diagnosis.explanations else None
     if diagnosis.verdict == "one_suspect" and first and first.possible:
         return next_step("Add it:", auto_words(arguments))
@@ -85,6 +87,8 @@ HEADER = ["cause", "odds", "leaves", "noise"]
 
 def likeliest(diagnosis: Diagnosis) -> list[str]:
     """Return the likeliest accounts in a few rows, the sizes of the first, and what is odd."""
+    if diagnosis.is_finding:
+        return [falls_table(diagnosis), sentences(diagnosis.warnings[:NOTES])]
     parts = []
     if diagnosis.explanations:
         first, *_ = shown = diagnosis.explanations[:FEW]
@@ -104,9 +108,16 @@ def likeliest(diagnosis: Diagnosis) -> list[str]:
     return [*parts, sentences(odd)] if odd else parts
 
 
+def falls_table(diagnosis: Diagnosis) -> str:
+    """Return how the error falls, effect by effect."""
+    rows = [["the frame alone", worded(diagnosis.rms_before)]]
+    rows += [[f"+ {noun_of(each.effect)}", worded(each.rms)] for each in diagnosis.falls]
+    return table(["wrong at once", "leaves"], rows)
+
+
 def details(diagnosis: Diagnosis) -> list[str]:
     """Return all that the marks say."""
-    parts = []
+    parts = [falls_table(diagnosis)] if diagnosis.is_finding else []
     if diagnosis.outliers:
         parts.append(sentences([slip.sentence for slip in diagnosis.outliers]))
     if diagnosis.disagreements:
@@ -129,7 +140,10 @@ def explanation_table(diagnosis: Diagnosis) -> str:
     """Return the accounts of the marks, the likeliest first, with the sizes of their effects."""
     rows: list[list[str]] = []
     for number, explanation in enumerate(diagnosis.explanations[:SHOWN], 1):
-        rows.append([f"{number}. {plainly(explanation.effects)}", *_numbers_of(explanation)])
+        numbers = _numbers_of(explanation)
+        if diagnosis.is_finding:
+            numbers[0] = "-"  # they are named by what they predict, not by odds
+        rows.append([f"{number}. {plainly(explanation.effects)}", *numbers])
         for name in explanation.effects:
             rows += _size_rows(explanation, name)
     return table(["cause, with its 95 % interval", *HEADER[1:]], rows)

@@ -12,7 +12,7 @@ from plumb.cure.add import Addition, add
 from plumb.cure.live_board import TooFewError
 from plumb.diagnosis.answer import MOST_NAMED, Diagnosis, Verdict
 from plumb.diagnosis.diagnosis import diagnose
-from plumb.diagnosis.expected_error import LeftOpen, RivalError, rival_error
+from plumb.diagnosis.expected_error import LeftOpen, RivalError, expected_error, rival_error
 from plumb.fit.inputs import Inputs
 from plumb.model.catalogue import every_effect
 from plumb.model.plain import noun_of, plainly
@@ -68,14 +68,32 @@ class AutoAddition:
     @property
     def done(self) -> bool:
         """Whether the marks ask for nothing more once the chosen effects are there."""
-        return self.addition is not None and self.diagnosis.verdict != "not_in_library"
+        is_known = self.diagnosis.verdict != "not_in_library" or self.diagnosis.is_finding
+        return self.is_good or (self.addition is not None and is_known)
+
+    @property
+    def is_good(self) -> bool:
+        """Whether nothing is written, as the settings are as good as these marks can show."""
+        return self.reason == GOOD
+
+    @property
+    def expected_mm(self) -> float | None:
+        """The error to expect over the sheet [mm RMS] of the settings to go on with; None where
+        nothing is to be cut yet.
+        """
+        if not self.done:
+            return None
+        both = zip(self.diagnosis.fits, self.diagnosis.explanations, strict=True)
+        rivals = [(fit, each.share) for fit, each in both if fit is not self.diagnosis.best]
+        return expected_error(self.diagnosis.best, rivals).rms
 
 
 def add_auto(
     inputs: Inputs, *, patch: bool = False, diagnosis: Diagnosis | None = None
 ) -> AutoAddition:
     """Diagnose the marks and add the likeliest account, with what every machine has and the
-    settings leave out. `diagnosis` is that of these inputs, if it is known.
+    settings leave out; nothing where the settings are as good as the marks can show. `diagnosis` is
+    that of these inputs, if it is known.
 
     Where the library has no account, the nearest is added if marks left out are predicted better
     with it: to leave out a large effect because a small effect is unknown would help nobody. A
@@ -88,6 +106,8 @@ def add_auto(
         return AutoAddition(diagnosis, inputs, (), (), None, _slip_reason(diagnosis))
     if diagnosis.left_open.is_too_much:
         return AutoAddition(diagnosis, inputs, (), (), None, _open_reason(diagnosis.left_open))
+    if diagnosis.is_good:
+        return AutoAddition(diagnosis, inputs, (), (), None, GOOD)
     is_known = diagnosis.verdict != "not_in_library"
     try:
         # The noise is that of the diagnosis: what is usual would count twice in another posterior.
@@ -113,6 +133,9 @@ def add_auto(
         settled_by=_settled_by(diagnosis),
         apart=rival_error(diagnosis.fits, diagnosis.noise.sigma) if rivals else None,
     )
+
+
+GOOD = "your machine is as good as these marks can show: nothing to change"
 
 
 def _settled_by(diagnosis: Diagnosis) -> tuple[str, ...]:
@@ -157,6 +180,8 @@ def _reason(
         return f"the marks show no cause, so only the frame was fitted{usual}"
     if diagnosis.verdict == "not_in_library":
         added = [name for name in chosen if name in named]
+        if diagnosis.is_finding and added:
+            return f"{plainly(added)} takes most of the error, so that was added{usual}"
         part = f"only {plainly(added)} was added, as far as it goes" if added else "none was added"
         return (
             f"no effects of the library explain all that the marks show, so {part}; read the worst "

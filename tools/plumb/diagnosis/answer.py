@@ -7,11 +7,13 @@ from dataclasses import dataclass
 from math import inf
 from typing import Annotated
 
+import numpy as np
 from pydantic import computed_field
 
 from plumb.diagnosis.expected_error import LeftOpen
 from plumb.diagnosis.explanation import Explanation
-from plumb.diagnosis.noise import ORIGINS, Noise, misfit_chance
+from plumb.diagnosis.nearest import nearest
+from plumb.diagnosis.noise import ORIGINS, Noise, left_by_noise, misfit_chance
 from plumb.diagnosis.outliers import Outlier
 from plumb.diagnosis.posterior import Account, Listed, Posterior
 from plumb.diagnosis.priors import LIKELIER
@@ -90,6 +92,14 @@ class Together:
 
 
 @dataclass(frozen=True)
+class Fall:
+    """What is left once another effect is fitted too."""
+
+    effect: str
+    rms: Annotated[float, key("rms_mm")]
+
+
+@dataclass(frozen=True)
 class Diagnosis:
     """What the marks prove, and what they do not."""
 
@@ -104,7 +114,7 @@ class Diagnosis:
     # [mm] RMS between two explanations' marks
     differences: Internal[Mapping[tuple[int, int], float]]
     ranking: tuple[Ranked, ...]
-    nothing_chance: Annotated[float, meant("That no effect acts, if nothing else is wrong.")]
+    nothing_chance: Annotated[float, meant("That no effect acts, by the same weights.")]
     field_chance: Annotated[float, meant("That it also does what no effect of the library does.")]
     # the likeliest account, with what every machine has and the settings leave out
     to_add: Annotated[tuple[str, ...], meant("Effects to go on with.")]
@@ -112,6 +122,12 @@ class Diagnosis:
     outliers: Annotated[tuple[Outlier, ...], key("slips")]
     could_hide: tuple[Room, ...]
     left_open: Internal[LeftOpen]  # of the machine's errors all over the sheet
+    is_good: Annotated[
+        bool, meant("Whether noise alone may feign all that is wrong with the settings.")
+    ]
+    falls: Annotated[
+        tuple[Fall, ...], meant("How the error falls, effect by effect, with what to go on with.")
+    ]
     warnings: tuple[str, ...]
     disagreements: tuple[str, ...] = ()  # rounds that do not go together
 
@@ -130,6 +146,20 @@ class Diagnosis:
         """The verdict for people."""
         return verdict_sentence(self)
 
+    @property
+    def is_finding(self) -> bool:
+        """Whether causes are named although the machine does something that nobody draws: they
+        take most of the error, and predict readings that a fit did not see.
+        """
+        is_unknown = self.verdict == "not_in_library" and not self.disagreements
+        return is_unknown and bool(self.likely) and _takes_most(self.best, self.readings.frame)
+
+    @property
+    def pattern_mm(self) -> float:
+        """What is left with the effects to go on with, beyond noise [mm RMS]."""
+        by_noise = left_by_noise(self.best, self.noise)
+        return float(np.sqrt(max(self.best.rms**2 - by_noise**2, 0.0)))
+
     @computed_field
     @property
     def suspects(self) -> tuple[str, ...]:
@@ -140,9 +170,14 @@ class Diagnosis:
 
 # The last step of a diagnosis: its verdict in at most forty words for people.
 
+TAKES_MOST = 0.75  # share of the error that is left where causes take nearly half of its square
 SHOWN = 8  # explanations that a screen names; a Diagnosis holds all
 MOST_WORDS = 40
 MOST_NAMED = 2  # causes in a sentence
+
+
+def _takes_most(explained: Explanation, frame: Explanation) -> bool:
+    return explained.rms < TAKES_MOST * frame.rms
 
 
 def verdict_sentence(diagnosis: Diagnosis) -> str:
@@ -172,6 +207,8 @@ def _nothing_provable(diagnosis: Diagnosis) -> str:
 
 
 def _not_in_library(diagnosis: Diagnosis) -> str:
+    if diagnosis.is_finding:
+        return _finding(diagnosis)
     nearest = diagnosis.explanations[0] if diagnosis.explanations else None
     left = _left(
         nearest.rms_after if nearest else diagnosis.rms_before,
@@ -181,6 +218,20 @@ def _not_in_library(diagnosis: Diagnosis) -> str:
     if nearest is None or not nearest.effects:
         return f"{what}. With the frame fitted {left}."
     return f"{what}. What comes nearest is {_named(nearest.effects)}: with that {left}."
+
+
+COUNTS = ("Two", "Three", "Four")
+
+
+def _finding(diagnosis: Diagnosis) -> str:
+    """Return how the error falls, and what stays that nobody draws."""
+    falls = diagnosis.falls
+    which = f"Most of it is {plainly(diagnosis.likely)}"
+    if len(falls) > 1:
+        which = f"{COUNTS[len(falls) - 2]} things are wrong at once"
+    steps = ", ".join(bare(each) for each in [diagnosis.rms_before, *(f.rms for f in falls[:-1])])
+    said = f"{which}. The error falls from {steps} to {worded(falls[-1].rms)} RMS"
+    return f"{said}; a pattern of {worded(diagnosis.pattern_mm)} stays that no effect draws."
 
 
 def _unknown(diagnosis: Diagnosis) -> str:
@@ -291,6 +342,7 @@ class Judgement:
     """The verdict, and the accounts that it names."""
 
     verdict: str  # one of answer.VERDICTS
+    posterior: Posterior  # with all that is named
     listed: tuple[Listed, ...]  # likeliest first
     best: Account  # to go on with
 
@@ -300,16 +352,22 @@ def judge(readings: CleanReadings, stated: Stated | None) -> Judgement:
     posterior = readings.posterior
     best = posterior.accounts[0]
     if readings.outliers:
-        return Judgement("slip", (), best)
+        return Judgement("slip", posterior, (), best)
     unknown = posterior.field_chance + sum(posterior.moved_chances.values())
     if unknown > UNKNOWN or _misfits(readings, best, stated):
-        nearest = tuple(posterior.listed_with_field())
-        return Judgement("not_in_library", nearest, nearest[0].account)
+        first = nearest(readings.frame, posterior)
+        posterior = posterior.weighing(first)
+        listed = tuple(posterior.listed_nearest_first(first))
+        best = listed[0].account
+        disagrees = any(chance > LIKELIER for chance in posterior.moved_chances.values())
+        if first and not disagrees and _takes_most(readings.explained(best), readings.frame):
+            listed = listed[:1]
+        return Judgement("not_in_library", posterior, listed, best)
     listed = tuple(posterior.listed())
-    if is_silent(posterior.nothing_chance):
-        return Judgement("nothing_provable", (), _likelier(posterior, listed[0]))
+    if is_silent(posterior.nothing_chance()):
+        return Judgement("nothing_provable", posterior, (), _likelier(posterior, listed[0]))
     verdict = "one_suspect" if len(listed) == 1 else "cannot_tell"
-    return Judgement(verdict, listed, listed[0].account)
+    return Judgement(verdict, posterior, listed, listed[0].account)
 
 
 def _likelier(posterior: Posterior, first: Listed) -> Account:

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
-from plumb.diagnosis.answer import Diagnosis, Ranked, Together, judge
+from plumb.diagnosis.answer import Diagnosis, Fall, Ranked, Together, judge
+from plumb.diagnosis.as_set import is_good
 from plumb.diagnosis.expected_error import left_open
-from plumb.diagnosis.explanation import Explanation, measured_board
+from plumb.diagnosis.explanation import Explanation, explain, measured_board
 from plumb.diagnosis.noise import Noise, left_by_noise
 from plumb.diagnosis.posterior import Listed
 from plumb.diagnosis.priors import LIKELIER
@@ -31,6 +32,8 @@ def diagnose(inputs: Inputs) -> Diagnosis:
     readings = clean_readings(board, inputs)
     judgement = judge(readings, inputs.stated)
     frame, noise = readings.frame, readings.noise
+    # Where a field acts, all chances are on that condition; else that nothing else is wrong.
+    is_unknown = judgement.verdict == "not_in_library"
     explanations = tuple(readings.explained(each.account) for each in judgement.listed)
     best = readings.explained(judgement.best)
     doubts = doubts_of(readings, judgement.verdict, best, inputs.measurements.rounds)
@@ -47,17 +50,33 @@ def diagnose(inputs: Inputs) -> Diagnosis:
             for each, explanation in zip(judgement.listed, explanations, strict=True)
         ),
         differences=_differences(explanations),
-        ranking=_ranking(readings),
-        nothing_chance=readings.posterior.nothing_chance,
+        ranking=_ranking(readings, judgement.posterior.effect_chances(with_field=is_unknown)),
+        nothing_chance=judgement.posterior.nothing_chance(with_field=is_unknown),
         field_chance=readings.posterior.field_chance,
         to_add=() if readings.outliers else best.effects,
         usual=best.board.usual_checks,
         outliers=readings.outliers,
         could_hide=tuple(room_for(name, explanations or (best,), noise) for name in effect_names()),
         left_open=left_open(frame),
+        is_good=judgement.verdict == "nothing_provable" and is_good(frame, [best]),
+        falls=_falls(frame, best, judgement.best.effects),
         warnings=doubts.warnings,
         disagreements=doubts.disagreements,
     )
+
+
+def _falls(frame: Explanation, best: Explanation, effects: Sequence[str]) -> tuple[Fall, ...]:
+    """Return how the error falls, that effect first which takes most."""
+    falls: list[Fall] = []
+    so_far: tuple[str, ...] = ()
+    while len(so_far) + 1 < len(effects):
+        several = [(*so_far, name) for name in effects if name not in so_far]
+        fits = [explain(best.board, each, start=frame) for each in several]
+        fitted = ranked(fits, lambda each: each.rms)[0]
+        so_far = fitted.effects
+        falls.append(Fall(so_far[-1], fitted.rms))
+    last = [name for name in effects if name not in so_far]
+    return (*falls, *(Fall(name, best.rms) for name in last))
 
 
 def _together(listed: Listed, explanation: Explanation, noise: Noise) -> Together:
@@ -80,12 +99,11 @@ def _differences(explanations: Sequence[Explanation]) -> dict[tuple[int, int], f
     }
 
 
-def _ranking(readings: CleanReadings) -> tuple[Ranked, ...]:
+def _ranking(readings: CleanReadings, chances: Mapping[str, float]) -> tuple[Ranked, ...]:
     """Return every effect of the library by itself, the likeliest first; sizes by the slopes at the
     frame's fit.
     """
     frame, noise = readings.frame, readings.noise
-    chances = readings.posterior.effect_chances
     effects = []
     for name in effect_names():
         single = frame.with_effects((name,))

@@ -42,6 +42,7 @@ from plumb.diagnosis.priors import (
     FIELD_SPREADS,
     MOVED,
     OUTLIER,
+    PITCH,
     TOGETHER,
     TURNED,
     noise_prior,
@@ -89,6 +90,7 @@ class Posterior:
     turned: float | None  # with all y errors the other way round; None without marks
     noise: Noise
     noises: Noises  # worth a look
+    fields: Sequence[Other] = ()  # smooth, of each spread and width
 
     @cached_property
     def clean(self) -> float:
@@ -125,36 +127,62 @@ class Posterior:
             return 0.0
         return float(np.exp(self.turned - np.logaddexp(self.turned, self._whole)))
 
-    @property
-    def nothing_chance(self) -> float:
-        """How likely it is that no effect acts, if nothing else is wrong."""
-        nothing = [account.clean for account in self.accounts if not account.effects]
-        return float(np.exp(np.logaddexp.reduce(nothing) - self.clean)) if nothing else 0.0
+    def nothing_chance(self, *, with_field: bool = False) -> float:
+        """How likely it is that no effect acts, if nothing else is wrong, or if a field acts."""
+        chances = self._chances(with_field)
+        return sum(
+            chance
+            for account, chance in zip(self.accounts, chances, strict=True)
+            if not account.effects
+        )
 
-    @property
-    def effect_chances(self) -> Mapping[str, float]:
-        """How likely each felt effect is asked for, if nothing else is wrong."""
+    def effect_chances(self, *, with_field: bool = False) -> Mapping[str, float]:
+        """How likely each felt effect is asked for, on the same condition."""
         chances = dict.fromkeys(self.felt, 0.0)
-        for account in self.accounts:
+        for account, chance in zip(self.accounts, self._chances(with_field), strict=True):
             for name in account.effects:
-                chances[name] += float(np.exp(account.clean - self.clean))
+                chances[name] += chance
         return chances
 
-    def listed(self) -> list[Listed]:
-        """Return the fewest accounts that hold LISTED of the weight, likeliest first.
+    def listed(self, *, with_field: bool = False) -> list[Listed]:
+        """Return the fewest accounts that hold LISTED of the weight, likeliest first, on the same
+        condition.
 
         An account with more effects than a likelier account adds nothing that the marks ask for,
         so it counts with that one; but none counts with "nothing", which would hide it.
         """
-        return self._listed(np.array([account.clean for account in self.accounts]))
-
-    def listed_with_field(self) -> list[Listed]:
-        """Return the same where a smooth field acts too."""
-        return self._listed(np.array([account.field for account in self.accounts]))
-
-    def _listed(self, weights: Array) -> list[Listed]:
         several = [account.effects for account in self.accounts]
+        weights = self._weights(with_field)
         return [Listed(self.accounts[i], share) for i, share in listing(several, weights)]
+
+    def listed_nearest_first(self, nearest: Effects) -> list[Listed]:
+        """Return the same where a smooth field acts, the account of some effects before all."""
+        place = next(i for i, each in enumerate(self.accounts) if each.effects == nearest)
+        first = Listed(self.accounts[place], self._chances(True)[place])
+        others = self.listed(with_field=True)
+        return [first, *(each for each in others if each.account != first.account)]
+
+    def _weights(self, with_field: bool) -> Array:
+        return np.array([each.field if with_field else each.clean for each in self.accounts])
+
+    def _chances(self, with_field: bool) -> list[float]:
+        weights = self._weights(with_field)
+        chances: list[float] = np.exp(weights - np.logaddexp.reduce(weights)).tolist()
+        return chances
+
+    def weighing(self, effects: Effects) -> Posterior:
+        """Return the same with the account of some effects weighed with a field too, as of large
+        sets only few are.
+        """
+        known = (each for each in self.accounts if each.effects == effects)
+        account = next(known, Account(effects, effects, -np.inf, -np.inf))
+        if np.isfinite(account.field):
+            return self
+        linear, only = _about(explain_account(self.frame, effects, effects), effects)
+        field, _ = _with_others(linear, only, self.noises, self.fields, FIELD)
+        weighed = replace(account, field=float(np.logaddexp.reduce(field)))
+        others = [each for each in self.accounts if each.effects != effects]
+        return replace(self, accounts=(*others, weighed))
 
 
 def listing(several: Sequence[Effects], weights: Array) -> list[tuple[int, float]]:
@@ -227,7 +255,17 @@ def posterior_of(board: Board, stated: Stated | None) -> Posterior:
         turned=_turned(frame, linear, few, noises),
         noise=noise_by(noises.sigmas, np.logaddexp(clean.by_noise, noise_of_field), stated),
         noises=noises,
+        fields=others,
     )
+
+
+def _about(at: Explanation, effects: Effects) -> tuple[LinearBoard, Accounts]:
+    """Return the board made linear about a fit, and the account of its effects."""
+    names = [name for name in felt_effects(at) if name in (*effects, *EVERY_MACHINE, PITCH)]
+    linear = LinearBoard.of(at, names)
+    accounts = accounts_of(linear, len(effects))
+    wanted = [{*names} == {*effects} for names in accounts.effects]
+    return linear, accounts.among(np.array(wanted))
 
 
 def _small(accounts: Accounts) -> Array:

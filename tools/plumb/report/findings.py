@@ -128,10 +128,11 @@ Wording = Callable[[str, Sequence[str], Sequence[str]], str]
 
 def asked_for(findings: Findings, command: Wording) -> list[Command]:
     """Return the commands that the verdict asks for."""
-    verdict = findings.diagnosis.verdict
+    verdict, is_finding = findings.diagnosis.verdict, findings.diagnosis.is_finding
     if verdict == "slip":
         return [Command("When the file is corrected:", command("calibrate", (), ()))]
-    if verdict in ("one_suspect", "nothing_provable") and findings.auto.addition:
+    is_settled = verdict in ("one_suspect", "nothing_provable") or is_finding
+    if is_settled and findings.auto.addition:
         return [Command("Write the new settings:", command("calibrate", (), ()))]
     best = findings.advice.proposals[0] if findings.advice.proposals else None
     checks = best.option.checks if best else ()
@@ -194,7 +195,7 @@ def _headline(findings: Findings, best: Proposal | None) -> str:
     if diagnosis.verdict == "slip":
         names = ", ".join(dict.fromkeys(slip.called for slip in diagnosis.outliers))
         return f"read {names} again, and correct the file."
-    if diagnosis.verdict == "one_suspect" and chosen:
+    if chosen and (diagnosis.verdict == "one_suspect" or diagnosis.is_finding):
         return f"add {plainly(chosen)}, then cut new marks to see that it holds."
     if diagnosis.verdict == "nothing_provable" and findings.auto.addition:
         return "use the fitted frame, then cut new marks to see that it holds."

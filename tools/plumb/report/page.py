@@ -231,10 +231,11 @@ def _subtitle(findings: Findings) -> str:
 
 def _verdict(findings: Findings) -> Verdict:
     diagnosis = findings.diagnosis
-    sign, label = VERDICTS[diagnosis.verdict]
+    kind = "one_suspect" if diagnosis.is_finding else diagnosis.verdict
+    sign, label = VERDICTS[kind]
     notes = [] if diagnosis.outliers else [*diagnosis.disagreements, *diagnosis.warnings]
     return Verdict(
-        kind=diagnosis.verdict,
+        kind=kind,
         sign=sign,
         label=label,
         sentence=diagnosis.sentence,

@@ -112,10 +112,10 @@ def test_all_that_may_be_holds_the_whole(clean):
     assert clean.turned_chance == pytest.approx(
         np.exp(clean.turned) / (np.exp(clean.turned) + whole)
     )
-    for name, chance in clean.effect_chances.items():
+    for name, chance in clean.effect_chances().items():
         with_it = [each.clean for each in clean.accounts if name in each.effects]
         assert chance == pytest.approx(np.exp(special.logsumexp(with_it) - clean.clean))
-    assert clean.nothing_chance < 0.01 < clean.effect_chances["tape_scale"]
+    assert clean.nothing_chance() < 0.01 < clean.effect_chances()["tape_scale"]
 
 
 def test_accounts_come_once_each_and_the_likeliest_first(clean):

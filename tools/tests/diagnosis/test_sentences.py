@@ -24,6 +24,7 @@ def said_of(verdict, *explanations, nothing=0.7, field=0.0, disagreements=()):
             nothing_chance=nothing,
             field_chance=field,
             disagreements=disagreements,
+            is_finding=False,
         )
     )
     assert len(said.split()) <= 40, said

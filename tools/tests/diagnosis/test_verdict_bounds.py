@@ -40,8 +40,10 @@ def judged(shares, monkeypatch, *, field=TINY, moved=TINY, misfit=0.5, outliers=
         noises=None,
     )
     monkeypatch.setattr("plumb.diagnosis.answer.misfit_chance", lambda fitted, stated: misfit)
+    monkeypatch.setattr("plumb.diagnosis.answer.nearest", lambda frame, posterior: ("a",))
+    fit = SimpleNamespace(rms=1.0)  # takes nothing of the error
     readings = SimpleNamespace(
-        posterior=posterior, outliers=outliers, explained=lambda account: account
+        posterior=posterior, frame=fit, outliers=outliers, explained=lambda account: fit
     )
     return judge(readings, None)
 

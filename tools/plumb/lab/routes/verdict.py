@@ -169,6 +169,8 @@ def _title(auto: AutoAddition) -> str:
     if diagnosis.verdict == "nothing_provable":
         may_act = diagnosis.nothing_chance <= LIKELIER
         return "Something may act" if may_act else "The frame may be all of it"
+    if diagnosis.is_finding:
+        return diagnosis.sentence.partition(".")[0]
     if diagnosis.verdict == "not_in_library":
         known = diagnosis.field_chance <= LIKELIER
         return "Something is left over" if known else "No known effect draws this"
@@ -193,7 +195,7 @@ def _card(diagnosis: Diagnosis, index: int, together: Together) -> Card:
     return Card(
         title=plainly(together.effects),
         effects=[_effect(diagnosis, name, together) for name in together.effects],
-        odds=odds_words(together.share),
+        odds="" if diagnosis.is_finding else f"Odds {odds_words(together.share)}",
         rms_after=together.rms_after,
         noise_after=together.noise_rms,
         share=together.explained_share(diagnosis.rms_before),
