@@ -197,6 +197,9 @@ def _outlier(diagnosis: Diagnosis) -> str:
 
 
 def _nothing_provable(diagnosis: Diagnosis) -> str:
+    if diagnosis.is_good:
+        left = _left(diagnosis.rms_before, diagnosis.noise_rms)
+        return f"The machine is as good as these marks can show. With the frame fitted {left}."
     said = (
         "The marks show no cause: all that is wrong may be the frame's numbers."
         if diagnosis.nothing_chance > LIKELIER

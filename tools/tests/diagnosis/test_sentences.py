@@ -25,6 +25,7 @@ def said_of(verdict, *explanations, nothing=0.7, field=0.0, disagreements=()):
             field_chance=field,
             disagreements=disagreements,
             is_finding=False,
+            is_good=False,
         )
     )
     assert len(said.split()) <= 40, said

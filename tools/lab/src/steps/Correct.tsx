@@ -19,6 +19,13 @@ import "./correct/correct.css";
 
 type Made = Schemas["CorrectionParts"];
 
+/** Where to go if no number is to be changed. */
+const WAYS: Record<string, string> = {
+  measure: "Choose marks",
+  readings: "Look at the readings",
+  verdict: "Back to the verdict",
+};
+
 export function Correct() {
   const { project } = useProject();
   const { answer, refused } = useAnswer<CorrectionAnswer>("correction");
@@ -36,10 +43,10 @@ export function Correct() {
       </Screen>
     );
   }
-  if (made.is_slip) {
+  if (made.nothing) {
     return (
-      <Screen title="First look at a reading again" say={made.reasons.join(" ")}>
-        <a href="#/readings">Look at the readings</a>
+      <Screen title={made.nothing} say={made.reasons.join(" ")}>
+        <a href={`#/${made.instead}`}>{WAYS[made.instead]}</a>
       </Screen>
     );
   }

@@ -62,7 +62,8 @@ class CorrectionParts(BaseModel):
     model_config = ConfigDict(json_schema_serialization_defaults_required=True)
     reasons: list[str]  # why these effects, in sentences
     add: list[str]  # what plumb add is given for what is accepted
-    is_slip: bool = False  # nothing is fitted to a wrong reading
+    nothing: str = ""  # a heading where no number is to be changed
+    instead: str = ""  # and the screen to go to then
     numbers: list[ChangedNumber] = []
     with_accepted: list[ChangedNumber] = []  # fitted with all others held as they are
     cures: list[str] = []  # for what no setting holds
@@ -123,8 +124,13 @@ def show_correction(project: TheProject, background: TheBackground) -> Correctio
         progress(0.6)
         with shown_in(choices.units):
             if auto.addition is None:
-                why = list(auto.said)
-                return CorrectionParts(reasons=why, is_slip=True, add=_auto_words(choices))
+                nothing, instead = _nothing_to_change(auto)
+                return CorrectionParts(
+                    reasons=list(auto.said),
+                    nothing=nothing,
+                    instead=instead,
+                    add=_auto_words(choices),
+                )
             made = correct(auto.inputs, auto.chosen, choices.accepted, noise=auto.diagnosis.noise)
             return _parts(made, auto, choices, is_written=_is_fit_of(inputs))
 
@@ -139,6 +145,15 @@ def show_correction(project: TheProject, background: TheBackground) -> Correctio
         file=file,
         command=command("add", *board_words(project), *unit, *add, *client, "-o", file),
     )
+
+
+def _nothing_to_change(auto: AutoAddition) -> tuple[str, str]:
+    """Return a heading, and the screen that comes next."""
+    if auto.is_good:
+        return "Nothing to change", "verdict"
+    if auto.diagnosis.outliers:
+        return "First look at a reading again", "readings"
+    return "First measure more marks", "measure"
 
 
 @router.post("/correction")

@@ -166,6 +166,8 @@ def _title(auto: AutoAddition) -> str:
         return "A reading disagrees: look at it first"
     if diagnosis.disagreements:
         return "The rounds do not go together"
+    if diagnosis.is_good:
+        return "As good as these marks can show"
     if diagnosis.verdict == "nothing_provable":
         may_act = diagnosis.nothing_chance <= LIKELIER
         return "Something may act" if may_act else "The frame may be all of it"
