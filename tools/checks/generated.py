@@ -9,7 +9,6 @@ import tree
 
 # Commands for the .venv's Python; with --check each exits 1 when its page is stale.
 GENERATORS = [
-    ["tools/research/diagnosis_page.py"],
     ["tools/research/effects_page.py"],
     ["tools/research/real_data_page.py"],
     ["tools/research/settings_page.py"],

@@ -88,7 +88,8 @@ HEADER = ["cause", "odds", "leaves", "noise"]
 def likeliest(diagnosis: Diagnosis) -> list[str]:
     """Return the likeliest accounts in a few rows, the sizes of the first, and what is odd."""
     if diagnosis.is_finding:
-        return [falls_table(diagnosis), sentences(diagnosis.warnings[:NOTES])]
+        notes = diagnosis.warnings[:NOTES]
+        return [falls_table(diagnosis), *([sentences(notes)] if notes else [])]
     parts = []
     if diagnosis.explanations:
         first, *_ = shown = diagnosis.explanations[:FEW]

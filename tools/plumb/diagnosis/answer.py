@@ -170,7 +170,7 @@ class Diagnosis:
 
 # The last step of a diagnosis: its verdict in at most forty words for people.
 
-TAKES_MOST = 0.75  # share of the error that is left where causes take nearly half of its square
+TAKES_MOST = 0.6  # share of the error that is left where causes take most of its square
 SHOWN = 8  # explanations that a screen names; a Diagnosis holds all
 MOST_WORDS = 40
 MOST_NAMED = 2  # causes in a sentence
