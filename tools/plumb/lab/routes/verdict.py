@@ -197,7 +197,7 @@ def _card(diagnosis: Diagnosis, index: int, together: Together) -> Card:
     return Card(
         title=plainly(together.effects),
         effects=[_effect(diagnosis, name, together) for name in together.effects],
-        odds="" if diagnosis.is_finding else f"Odds {odds_words(together.share)}",
+        odds="" if diagnosis.is_finding else odds_words(together.share),
         rms_after=together.rms_after,
         noise_after=together.noise_rms,
         share=together.explained_share(diagnosis.rms_before),

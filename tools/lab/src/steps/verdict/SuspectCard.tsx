@@ -15,7 +15,7 @@ export function SuspectCard({ card, units, isLaid, lay }: CardParts) {
   return (
     <article class="card" aria-label={card.title}>
       <h3>{card.title}</h3>
-      {card.odds && <p class="odds">{card.odds}</p>}
+      {card.odds && <p class="odds">Odds {card.odds}</p>}
       <button type="button" aria-pressed={isLaid} onClick={lay}>
         {isLaid ? "Laid over the marks" : "Lay it over the marks"}
       </button>
