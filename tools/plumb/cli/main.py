@@ -106,9 +106,6 @@ def build_parser(arguments: Sequence[str] = ("--completion",)) -> Parser:
     parser.add_argument("--version", action=Version, help="show the version and exit")
     completion = "print what lets a shell complete commands; see docs/README.md"
     parser.add_argument("--completion", action=Completion, help=completion)
-    parser.add_argument(
-        "--man", action=Manual, help="print the manual page: plumb --man | man -l -"
-    )
     commands = parser.add_subparsers(metavar="COMMAND", required=True, dest="command")
     for name, said in COMMANDS.items():
         subparser = commands.add_parser(
@@ -118,7 +115,7 @@ def build_parser(arguments: Sequence[str] = ("--completion",)) -> Parser:
             allow_abbrev=False,
             formatter_class=argparse.RawDescriptionHelpFormatter,
         )
-        if name in arguments or WHOLE & {*arguments}:
+        if name in arguments or "--completion" in arguments:
             command = loaded(f"plumb.cli.{name}")
             subparser.epilog = "\n".join(
                 [
@@ -132,7 +129,6 @@ def build_parser(arguments: Sequence[str] = ("--completion",)) -> Parser:
     return parser
 
 
-WHOLE = {"--completion", "--man"}  # options that need the parsers of all commands
 # How the help calls arguments that are names of files.
 FILES = ("SETTINGS", "JOB", "MARKS", "PLAN", "FILE", "INI", "LOG")
 
@@ -257,18 +253,6 @@ class Completion(argparse.Action):
         shtab = import_module("shtab")
         _complete_files(parser, shtab.FILE)
         print(shtab.complete(parser, values))
-        parser.exit()
-
-
-class Manual(argparse.Action):
-    """Prints the manual page."""
-
-    def __init__(self, option_strings: Sequence[str], dest: str, help: str) -> None:
-        super().__init__(option_strings, dest=argparse.SUPPRESS, nargs=0, help=help)
-
-    def __call__(self, parser: argparse.ArgumentParser, *_: object) -> None:
-        """Print it and stop."""
-        print(loaded("plumb.cli.man").manual(parser))
         parser.exit()
 
 

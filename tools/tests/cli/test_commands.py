@@ -25,7 +25,6 @@ SHARED = {
     "followed",
     "inputs",
     "main",
-    "man",
     "output",
     "screen",
 }

@@ -4,7 +4,6 @@ import codecs
 from pathlib import Path
 
 import pytest
-from plumb.cli.main import COMMANDS
 from plumb.settings.files import read_settings
 from plumb.text.files import read_text
 
@@ -77,17 +76,6 @@ def test_places_stand_on_the_command_line(ask, tmp_path):
     _, in_file = ask("inverse", SETTINGS, "--points", points)
     code, on_line = ask("inverse", SETTINGS, "100,-50", "-300,20")
     assert code == 0 and on_line == in_file
-
-
-def test_the_manual_has_each_command_with_its_options(run, capsys):
-    with pytest.raises(SystemExit) as end:
-        run("--man")
-    page = capsys.readouterr().out
-    assert end.value.code == 0 and page.startswith(".TH PLUMB 1\n.SH NAME\nplumb \\- Find and")
-    assert all(f"\n.SS plumb {name}\n" in page for name in COMMANDS)
-    assert "\n.TP\n.B \\-\\-bit MM\ndiameter of the bit [what JOB says" in page
-    assert "\n.TP\n.B JOB\na program of G\\-code\n" in page
-    assert "\n.TP\n.B \\-o FILE, \\-\\-output FILE\n" in page and "%(" not in page
 
 
 def test_a_bare_plumb_shows_its_help_and_completion_knows_fish(run, capsys):
