@@ -16,7 +16,6 @@ from plumb.cli.add import AddAnswer
 from plumb.cli.calibrate import CalibrateAnswer
 from plumb.cli.check import CheckAnswer
 from plumb.cli.diagnose import DiagnosisAnswer
-from plumb.cli.diary import DiaryAnswer
 from plumb.cli.effects import Library
 from plumb.cli.forward import Places
 from plumb.cli.grid import PlannedGrid
@@ -58,7 +57,6 @@ ANSWERS: dict[str, Any] = {
     "check": CheckAnswer,
     "compare": Comparison,
     "diagnose": DiagnosisAnswer,
-    "diary": DiaryAnswer,
     "effects": Library,
     "forward": Places,
     "grid": PlannedGrid,

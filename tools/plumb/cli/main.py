@@ -54,7 +54,6 @@ GROUPS: Mapping[str, Mapping[str, str]] = {
         "recheck": "say from two marks whether the machine is as it was fitted, or what changed",
         "home": "keep a hole as home mark, and restore a lost position with the bit in it",
         "slip": "say from touched marks whether a chain slipped, and how to repair it",
-        "diary": "show how errors and numbers of a machine went over time",
         "telemetry": "how the machine is doing, from a client's log with an answer to B30",
     },
     "engineers": {
@@ -68,6 +67,11 @@ GROUPS: Mapping[str, Mapping[str, str]] = {
 }
 COMMANDS: Mapping[str, str] = {
     name: said for group in GROUPS.values() for name, said in group.items()
+}
+# Commands that went: a sentence that says what does it now.
+GONE: Mapping[str, str] = {
+    "diary": "plumb lab shows the diary, and diary.jsonl is plain text",
+    "gap": "measure the motor gap with a tape, and give it by --checked motor_gap=VALUE+-1mm",
 }
 
 
@@ -206,6 +210,8 @@ class Parser(argparse.ArgumentParser):
             return
         choices = [str(choice) for choice in action.choices]
         if isinstance(action, argparse._SubParsersAction):
+            if value in GONE:
+                raise InputError(f"there is no command '{value}' any more: {GONE[value]}")
             raise InputError(
                 f"there is no command '{value}'{meant(value, choices)}; see plumb --help"
             )

@@ -36,7 +36,6 @@ QUESTIONS = (
     ("diagnose", *BOARD),
     ("diagnose", *SLIPPED),
     ("diagnose", *BOARD, "--sigma", "5"),
-    ("diary", "kept"),
     ("effects",),
     ("forward", INI, "--lengths", "pairs.csv"),
     ("grid", *GRID),

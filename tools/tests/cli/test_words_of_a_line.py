@@ -1,9 +1,11 @@
 """Words of a command line: what is no option, no number, no program."""
 
 import codecs
+import re
 from pathlib import Path
 
 import pytest
+from plumb.cli.main import COMMANDS, GONE
 from plumb.settings.files import read_settings
 from plumb.text.files import read_text
 
@@ -28,6 +30,14 @@ JOB, SETTINGS, MARKS = (EXAMPLE / name for name in ("pocket.nc", "groundcontrol.
 def test_a_wrong_word_is_named_and_not_what_stands_behind_it(run, words, says):
     code, out, complaint = run(*words)
     assert code == 2 and out == "" and says in complaint
+
+
+@pytest.mark.parametrize("name", GONE)
+def test_a_command_that_went_says_what_does_it_now(run, name):
+    said = f"there is no command '{name}' any more: {GONE[name]}"
+    assert run(name, "--old-option", "1") == (2, "", f"plumb: {said}\n")
+    commands = re.findall(r"plumb (\w+)", GONE[name])
+    assert name not in COMMANDS and {*commands} <= {*COMMANDS}
 
 
 def test_what_stands_behind_two_dashes_is_no_option(run):
