@@ -32,7 +32,6 @@ from plumb.cli.resume import ResumeAnswer
 from plumb.cli.send import SendAnswer
 from plumb.cli.settings import SettingLines
 from plumb.cli.slip import SlipAnswer
-from plumb.cli.telemetry import WatchedTelemetry
 from plumb.cli.vm import VmAnswer
 from plumb.fit.compare import Comparison
 from plumb.text.answers import schema_of
@@ -74,7 +73,6 @@ ANSWERS: dict[str, Any] = {
     "send": SendAnswer,
     "settings": SettingLines,
     "slip": SlipAnswer,
-    "telemetry": WatchedTelemetry,
     "vm": VmAnswer,
 }
 

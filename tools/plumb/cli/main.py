@@ -54,7 +54,6 @@ GROUPS: Mapping[str, Mapping[str, str]] = {
         "recheck": "say from two marks whether the machine is as it was fitted, or what changed",
         "home": "keep a hole as home mark, and restore a lost position with the bit in it",
         "slip": "say from touched marks whether a chain slipped, and how to repair it",
-        "telemetry": "how the machine is doing, from a client's log with an answer to B30",
     },
     "engineers": {
         "vm": "start a virtual machine with a serial port, as if a board were plugged in",
@@ -72,6 +71,8 @@ COMMANDS: Mapping[str, str] = {
 GONE: Mapping[str, str] = {
     "diary": "plumb lab shows the diary, and diary.jsonl is plain text",
     "gap": "measure the motor gap with a tape, and give it by --checked motor_gap=VALUE+-1mm",
+    "telemetry": "plumb send says at the end of a program what deserves a look; docs/telemetry.md "
+    "explains an answer to B30",
 }
 
 

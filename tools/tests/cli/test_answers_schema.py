@@ -58,7 +58,6 @@ QUESTIONS = (
     ("settings", TOML),
     ("slip", TOML, "--touch=-900,250:-895.4,253.7", "--touch=900,-250:897.9,-246.5"),
     ("slip", TOML, "--touch=0,0:5,5"),
-    ("telemetry", EXAMPLE / "client.log"),
 )
 
 HOME = (

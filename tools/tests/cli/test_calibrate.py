@@ -30,7 +30,7 @@ COMMAND = re.compile(r"^  plumb (?:.*\\\n)*.*", re.MULTILINE)
 @pytest.fixture(autouse=True)
 def _shop(tmp_path, monkeypatch):
     """A folder with the example's files."""
-    for name in (INI, "marks.toml", "client.log"):
+    for name in (INI, "marks.toml"):
         shutil.copy(EXAMPLE / name, tmp_path)
     monkeypatch.chdir(tmp_path)
 
