@@ -19,7 +19,6 @@ from plumb.cli.diagnose import DiagnosisAnswer
 from plumb.cli.effects import Library
 from plumb.cli.forward import Places
 from plumb.cli.grid import PlannedGrid
-from plumb.cli.guide import GuideAnswer
 from plumb.cli.home import HomeAnswer
 from plumb.cli.inverse import ChainLengths
 from plumb.cli.next import NextAnswer
@@ -59,7 +58,6 @@ ANSWERS: dict[str, Any] = {
     "effects": Library,
     "forward": Places,
     "grid": PlannedGrid,
-    "guide": GuideAnswer,
     "home": HomeAnswer,
     "inverse": ChainLengths,
     "next": NextAnswer,

@@ -28,7 +28,6 @@ EPILOG = "Lengths are mm, forces N, angles rad. plumb COMMAND --help explains ea
 # In the order of `plumb --help`. To add a command, write its file and give it a line.
 GROUPS: Mapping[str, Mapping[str, str]] = {
     "first day": {
-        "guide": "go through a machine's first day: wires, numbers, reach, chains, first mark",
         "lab": "open the lab in your browser: measure, see why the machine errs, and cure it",
         "flash": "write the firmware to the Mega",
         "reach": "which part of the sheet a machine can use",
@@ -71,6 +70,7 @@ COMMANDS: Mapping[str, str] = {
 GONE: Mapping[str, str] = {
     "diary": "plumb lab shows the diary, and diary.jsonl is plain text",
     "gap": "measure the motor gap with a tape, and give it by --checked motor_gap=VALUE+-1mm",
+    "guide": "plumb lab has it",
     "telemetry": "plumb send says at the end of a program what deserves a look; docs/telemetry.md "
     "explains an answer to B30",
 }

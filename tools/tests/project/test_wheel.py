@@ -100,7 +100,6 @@ COMMANDS = {
 LACKING = {
     "recheck": ("groundcontrol.ini", "--touch=0,0:0,0", "--touch=900,0:900,0"),
     "send": ("marks.nc", "--port", "none"),
-    "guide": ("--port", "none"),
     "read": ("--port", "none"),
     "flash": ("none.hex", "--port", "none"),
 }
