@@ -22,7 +22,6 @@ from plumb.cli.grid import PlannedGrid
 from plumb.cli.home import HomeAnswer
 from plumb.cli.inverse import ChainLengths
 from plumb.cli.next import NextAnswer
-from plumb.cli.preview import PreviewAnswer
 from plumb.cli.reach import ReachAnswer
 from plumb.cli.read import MachineNumbers
 from plumb.cli.recheck import RecheckAnswer
@@ -62,7 +61,6 @@ ANSWERS: dict[str, Any] = {
     "inverse": ChainLengths,
     "next": NextAnswer,
     "practice": Score,
-    "preview": PreviewAnswer,
     "reach": ReachAnswer,
     "read": MachineNumbers,
     "recheck": RecheckAnswer,

@@ -34,7 +34,6 @@ GROUPS: Mapping[str, Mapping[str, str]] = {
     },
     "calibrate": {
         "grid": "the G-code for a grid of calibration marks",
-        "preview": "before any hole is drilled: which effects a plan of marks could tell apart",
         "calibrate": "compare, diagnose, then add what is likeliest or say what to measure next",
         "compare": "how far the marks lie from where the settings predict them",
         "diagnose": "which effects the settings miss, and how likely each is by the marks",
@@ -71,6 +70,7 @@ GONE: Mapping[str, str] = {
     "diary": "plumb lab shows the diary, and diary.jsonl is plain text",
     "gap": "measure the motor gap with a tape, and give it by --checked motor_gap=VALUE+-1mm",
     "guide": "plumb lab has it",
+    "preview": "plumb grid --settings FILE --details prints its table",
     "telemetry": "plumb send says at the end of a program what deserves a look; docs/telemetry.md "
     "explains an answer to B30",
 }

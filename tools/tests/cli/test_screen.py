@@ -22,7 +22,7 @@ def _no_screen(monkeypatch):
 @pytest.mark.parametrize(
     "command",
     [
-        ("preview", INI),
+        ("grid", "--settings", INI, "--details"),
         ("compare", INI, MARKS),
         ("diagnose", INI, MARKS),
         ("next", INI, MARKS),

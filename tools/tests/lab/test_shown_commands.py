@@ -17,7 +17,6 @@ KNOWN = {
     "rotation_radius": {"value": 141.0, "sigma": 1.0},
     "chain_pitch.left": {"value": 0.004, "sigma": 0.0002},
 }
-PLACES = [[-900, 400], [900, 400], [0, -400]]
 
 
 @pytest.fixture
@@ -118,21 +117,6 @@ def test_a_correction_names_the_file_of_the_client(client):
     assert names() == ["groundcontrol", "--original", "groundcontrol.ini"]
 
 
-@pytest.mark.parametrize("known", [{}, KNOWN], ids=["nothing", "known"])
-def test_the_preview(client, tmp_path, capsys, known):
-    choose(client, known=known, fineness=1.0, layout="fifteen")
-    shown = got(client.post("/api/preview", json={"layout": "fifteen"}))
-    grid, preview = shown["command"].splitlines()
-    assert "marks-2.toml" in grid and "marks-2.toml" in preview  # marks.toml has readings
-    assert main(shlex.split(grid)[1:]) == 0
-    said = said_by(preview, capsys)
-    assert said["sigma_mm"] == pytest.approx(shown["sigma"])
-    assert said["named"] == shown["named"] and said["marks"] == shown["marks"] == 15
-    written = (tmp_path / "marks-2.toml").read_bytes()
-    got(client.post("/api/grid"))
-    assert (tmp_path / "marks-2.toml").read_bytes() == written
-
-
 def test_the_readings(client, capsys, tmp_path):
     choose(client, known=KNOWN)
     arrows, doubts = got(client.get("/api/readings"))["command"].splitlines()
@@ -166,14 +150,9 @@ def test_every_command_is_understood_and_shows_the_chosen_unit(client, tmp_path,
     bench = got(client.post("/api/bench/fit", json={"effects": ["chain_stretch"]}))
     of_marks.append(bench["command"])
     others = [got(client.get(f"/api/{path}"))["command"] for path in ("reach",)]
-    plan = got(client.post("/api/preview", json={"layout": "own", "places": PLACES}))
-    others.append(plan["command"])
-    (tmp_path / "marks-2.toml").touch()  # as the plan will be written
     of_marks = "\n".join(of_marks).splitlines()
     for command in "\n".join([*of_marks, *others]).splitlines():
         asked = build_parser().parse_args(shlex.split(command)[1:])
-        if asked.command == "grid":
-            continue  # says no length; its --units are those of the program
         assert (asked.units or (typed if command in of_marks else "mm")) == units, command
 
 

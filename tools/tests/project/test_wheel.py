@@ -75,8 +75,7 @@ def plumb(wheel, tmp_path_factory):
 
 MEASURED = ("groundcontrol.ini", "marks.ini")
 COMMANDS = {
-    "grid": ("--preset", "nine"),
-    "preview": ("groundcontrol.ini", "--preset", "nine"),
+    "grid": ("--settings", "groundcontrol.ini", "--details"),
     "calibrate": MEASURED,
     "check": ("job.nc", "groundcontrol.ini"),
     "compare": MEASURED,
