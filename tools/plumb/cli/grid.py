@@ -156,7 +156,7 @@ def _could_tell(arguments: argparse.Namespace) -> Preview:
         raise InputError("--details is of a machine: give its --settings too")
     try:
         grid, machine = marks_grid.from_arguments(arguments)
-        marks_grid.check(grid, machine, lambda *place: None)
+        marks_grid.program(grid, machine)
     except marks_grid.GridError as error:
         raise InputError(str(error)) from None
     plan = as_read(marks_grid.touches_of(grid, machine), marks_grid.spans_of(grid))
