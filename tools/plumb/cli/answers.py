@@ -13,6 +13,7 @@ from typing import Any
 
 from plumb.bench.report import Report
 from plumb.cli.add import AddAnswer
+from plumb.cli.as_fitted import RecheckAnswer
 from plumb.cli.calibrate import CalibrateAnswer
 from plumb.cli.check import CheckAnswer
 from plumb.cli.diagnose import DiagnosisAnswer
@@ -24,7 +25,6 @@ from plumb.cli.inverse import ChainLengths
 from plumb.cli.next import NextAnswer
 from plumb.cli.reach import ReachAnswer
 from plumb.cli.read import MachineNumbers
-from plumb.cli.recheck import RecheckAnswer
 from plumb.cli.report import ReportAnswer
 from plumb.cli.resume import ResumeAnswer
 from plumb.cli.send import SendAnswer
@@ -50,7 +50,7 @@ ANSWERS: dict[str, Any] = {
     "refusal": Refusal,
     "add": AddAnswer,
     "bench": Report,
-    "calibrate": CalibrateAnswer,
+    "calibrate": CalibrateAnswer | RecheckAnswer,
     "check": CheckAnswer,
     "compare": Comparison,
     "diagnose": DiagnosisAnswer,
@@ -63,7 +63,6 @@ ANSWERS: dict[str, Any] = {
     "practice": Score,
     "reach": ReachAnswer,
     "read": MachineNumbers,
-    "recheck": RecheckAnswer,
     "report": ReportAnswer,
     "resume": ResumeAnswer,
     "send": SendAnswer,

@@ -49,7 +49,6 @@ GROUPS: Mapping[str, Mapping[str, str]] = {
     },
     "trouble": {
         "read": "read the machine's numbers and where its sled is",
-        "recheck": "say from two marks whether the machine is as it was fitted, or what changed",
         "home": "keep a hole as home mark, and restore a lost position with the bit in it",
         "slip": "say from touched marks whether a chain slipped, and how to repair it",
     },
@@ -71,6 +70,7 @@ GONE: Mapping[str, str] = {
     "gap": "measure the motor gap with a tape, and give it by --checked motor_gap=VALUE+-1mm",
     "guide": "plumb lab has it",
     "preview": "plumb grid --settings FILE --details prints its table",
+    "recheck": "plumb calibrate says of marks cut with fitted settings whether they hold",
     "telemetry": "plumb send says at the end of a program what deserves a look; docs/telemetry.md "
     "explains an answer to B30",
 }

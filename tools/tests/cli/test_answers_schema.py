@@ -28,6 +28,7 @@ QUESTIONS = (
     ("bench", "--scenario", "none-9", "one-9", "--boards", "1"),
     ("calibrate", *BOARD),
     ("calibrate", *BOARD, *TAPE, *CLIENT),
+    ("calibrate", "kept/machine.toml", "kept/check.toml"),
     ("check", EXAMPLE / "pocket.nc", INI),
     ("check", EXAMPLE / "pocket.nc", INI, "--marks", EXAMPLE / "marks.toml"),
     ("compare", *BOARD),
@@ -51,8 +52,6 @@ QUESTIONS = (
     ("practice", "reveal", ".", TOML),
     ("reach", INI),
     ("read",),
-    ("recheck", "kept/machine.toml", "--touch=-900,250:-900,250", "--touch=900,-250:905,-250"),
-    ("recheck", TOML, BOARD[1], "--check", "kept/marks.toml"),
     ("report", *BOARD, "-o", "report.html"),
     ("report", *SLIPPED, "-o", "report.html"),
     ("settings", TOML),
@@ -122,7 +121,11 @@ def folder(tmp_path, monkeypatch):
     (tmp_path / "home.toml").write_text(HOME)
     (tmp_path / "kept").mkdir()
     (tmp_path / "kept/machine.toml").write_text(TOML.read_text())
-    (tmp_path / "kept/marks.toml").write_bytes(Path(BOARD[1]).read_bytes())
+    (tmp_path / "kept/check.toml").write_text(
+        'frame = "machine"\ncut_with = "machine.toml"\n'
+        '[[mark]]\nname = "1"\ntarget = [-900, 250]\nmeasured = [-900, 250]\n'
+        '[[mark]]\nname = "2"\ntarget = [900, -250]\nmeasured = [905, -250]\n'
+    )
     append(tmp_path / "kept", "fit", {**FIT, "settings": TOML.read_text()})
     (tmp_path / "pairs.csv").write_text("1700,1700\n0,0\n9000,100\n")
     monkeypatch.setattr(read_command, "port_for", str)

@@ -20,6 +20,7 @@ SHARED = {
     "__init__",
     "addition",
     "answers",
+    "as_fitted",
     "arguments",
     "demo",
     "followed",

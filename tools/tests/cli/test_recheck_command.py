@@ -1,4 +1,4 @@
-"""`plumb recheck`: from a fit to what is said of it later."""
+"""`plumb calibrate` of marks that fitted settings cut: as it was fitted, or what changed."""
 
 import re
 import shutil
@@ -8,87 +8,80 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from plumb.cli.recheck import sentence
+from plumb.cli.as_fitted import sentence
 from plumb.diary.file import read_diary
 from plumb.diary.recheck import Change
 
 EXAMPLE = Path(__file__).resolve().parents[3] / "docs/example"
+NEAR = {(-900, 250): (-900.4, 250.3), (900, -250): (900.6, -249.8)}
+FAR = {(-900, 250): (-897.8, 243.7), (900, -250): (905.8, -252.6)}
 
 
-@pytest.fixture(autouse=True)
-def folder(tmp_path, monkeypatch):
+@pytest.fixture
+def checked(tmp_path, monkeypatch, run):
+    """Calibrates a fitted machine with marks by their targets."""
     for name in ("groundcontrol.ini", "marks.toml"):
         shutil.copy(EXAMPLE / name, tmp_path)
     monkeypatch.chdir(tmp_path)
-    return tmp_path
+    run("add", "groundcontrol.ini", "marks.toml", "--effect", "chain_pitch", "-o", "machine.toml")
+
+    def calibrate(marks, by=run, cut_with="machine.toml"):
+        lines = ['frame = "machine"', f'cut_with = "{cut_with}"']
+        for name, (target, measured) in enumerate(marks.items(), 1):
+            lines += ["[[mark]]", f'name = "{name}"', f"target = {[*target]}"]
+            lines += [f"measured = {[*measured]}"]
+        Path("check.toml").write_text("\n".join(lines))
+        return by("calibrate", "machine.toml", "check.toml")
+
+    return calibrate
 
 
-def test_a_fit_is_kept_and_held_against_marks(run, ask, folder):
-    words = ("groundcontrol.ini", "marks.toml", "--effect", "chain_pitch")
-    run("add", *words)
-    assert not (folder / "diary.jsonl").exists()
-    assert run("add", *words, "-o", "machine.toml")[2] == ""
-    (fit,) = read_diary(folder).entries
-    assert fit.content["settings"] == (folder / "machine.toml").read_text()
+def files():
+    return sorted(each.name for each in Path().iterdir())
 
-    near = ("--touch=-900.4,250.3:-900,250", "--touch=900.6,-249.8:900,-250")
-    code, said, _ = run("recheck", "machine.toml", *near)
-    assert code == 0 and re.search(
-        r"as the fit of .* left it: errors up to .* are within\s+what it", said
-    )
-    lost = (near[0], "--touch=900.6,-249.8:900,250")
-    code, said, _ = run("recheck", "machine.toml", *lost)
-    assert code == 1 and "Touch 2: has y lost its sign?" in said and "Touch 1" not in said
-    far = ("--touch=-897.8,243.7:-900,250", "--touch=905.8,-252.6:900,-250")
-    code, answer = ask("recheck", "machine.toml", *far)
+
+def test_a_machine_is_as_it_was_fitted_or_what_changed_is_named(checked, ask):
+    code, said, _ = checked(NEAR)
+    kept = files()
+    assert code == 0 and "The machine is as it was fitted: by the fit of" in said
+    assert "Nothing was written." in said and "a single change" not in said
+    rows = [line.split() for line in said.splitlines() if line.startswith(("1 ", "2 "))]
+    assert [row[:4] for row in rows] == [
+        ["1", "-900.4,", "250.3", "-0.40,"],
+        ["2", "900.6,", "-249.8", "+0.60,"],
+    ]
+    code, answer = checked(FAR, ask)
     assert code == 1 and not answer["holds"] and "Something changed since" in answer["sentence"]
     assert answer["changes"][0]["name"] == "left chain"
     assert answer["changes"][0]["size"] == pytest.approx(6.35, abs=1.0)
-    kinds = [entry.kind for entry in read_diary(folder).entries]
+    code, said, _ = checked(FAR)
+    assert code == 1 and "The likeliest: the left chain is" in " ".join(said.split())
+    shown = said[said.index("a single change") :]
+    assert sum(line.rstrip().endswith((" yes", " no")) for line in shown.splitlines()) == 4
+    assert max(map(len, said.splitlines())) <= 80
+    assert files() == kept
+    kinds = [entry.kind for entry in read_diary(".").entries]
     assert kinds == ["fit", "recheck", "recheck", "recheck"]
 
 
-def test_what_cannot_be_is_refused(run, folder):
-    code, _, error = run("recheck", "groundcontrol.ini", "--touch=0,0:0,0")
-    assert code == 2 and "two marks are needed" in error
-    code, _, error = run("recheck", "groundcontrol.ini", "--touch=0,0:0,0", "--touch=90,0:90,0")
-    assert code == 2 and "knows no fit that gave these settings" in error
+def test_a_machine_that_no_longer_holds_is_fitted_again_where_the_marks_are_enough(checked):
+    grid = {(x, y): (x + 5.0, y) for x in (-900, 0, 900) for y in (-400, 0, 400)}
+    code, said, _ = checked(grid)
+    assert code in (0, 1) and "as it was fitted" not in said and "single change" not in said
+    code, said, _ = checked({target: target for target in grid})
+    assert code == 0 and "The machine is as it was fitted" in said
 
 
 @pytest.mark.parametrize(
-    ("second", "complaint"),
-    [
-        ("1,2:1,2", "touch 2 is touch 1 again; touch another hole far from it"),
-        ("30,39:30,39", "the marks are less than 50 mm apart: they are a single place"),
-        ("30,40:30,40", "knows no fit that gave these settings"),
-    ],
+    "unlike", ["other settings", "no diary", "one place"], ids=lambda unlike: unlike
 )
-def test_a_place_that_was_touched_twice_is_no_second_place(run, second, complaint):
-    code, _, error = run("recheck", "groundcontrol.ini", "--touch=0,0:0,0", f"--touch={second}")
-    assert code == 2 and complaint in error
-
-
-def test_a_recheck_says_each_mark_and_the_four_best_changes(run, ask, folder):
-    words = ("groundcontrol.ini", "marks.toml", "--effect", "chain_pitch")
-    run("add", *words, "-o", "machine.toml")
-    moved = ("--touch=-895.1,250.2:-900,250", "--touch=904.8,-250.1:900,-250")
-    code, said, _ = run("recheck", "machine.toml", *moved)
-    _, answer = ask("recheck", "machine.toml", *moved)
-    sheet = "the sheet has moved by +4.85 +- 0.37 mm along x"
-    assert code == 1 and sheet in " ".join(said.split())
-    assert answer["changes"][0]["name"] == "sheet x" and answer["changes"][0]["explains"]
-    rows = [line.split() for line in said.splitlines() if line.startswith(("1 ", "2 "))]
-    assert rows[0][:5] == ["1", "-895.1,", "250.2", "+4.90,", "+0.20"]
-    assert rows[1][:5] == ["2", "904.8,", "-250.1", "+4.80,", "-0.10"]
-    shown = said[said.index("a single change") :]
-    assert "motors right of the middle of the sheet by +4.85 +- 0.37 mm " in shown
-    assert sum(line.rstrip().endswith((" yes", " no")) for line in shown.splitlines()) == 4
-    along_y = ("--touch=-900,255:-900,250", "--touch=900,-245:900,-250")
-    said_of_y = run("recheck", "machine.toml", *along_y)[1]
-    assert "5.00 +- 0.37 mm along y" in " ".join(said_of_y.split())
-    assert re.search(r"\n(left|right) chain by [+-]0\.\d+ \+- 0\.\d+ % too long ", shown)
-    near = ("--touch=-900.4,250.3:-900,250", "--touch=900.6,-249.8:900,-250")
-    assert "a single change" not in run("recheck", "machine.toml", *near)[1]
+def test_two_marks_that_no_fit_can_judge_are_too_few(checked, unlike):
+    marks = {(0, 0): (0, 0), (30, 39): (30, 39)} if unlike == "one place" else NEAR
+    if unlike == "no diary":
+        Path("diary.jsonl").unlink()
+    cut_with = "groundcontrol.ini" if unlike == "other settings" else "machine.toml"
+    code, said, refused = checked(marks, cut_with=cut_with)
+    assert code == 2 and said == "" and "too few for a diagnosis" in refused
 
 
 @pytest.mark.parametrize(
@@ -121,10 +114,10 @@ def test_a_change_has_the_words_and_the_unit_of_its_number(name, size, sigma, be
     assert sentence(checked).endswith(f"The likeliest: {said}.")
 
 
-def test_errors_that_no_single_change_explains_are_said_so(run, folder):
-    words = ("groundcontrol.ini", "marks.toml", "--effect", "chain_pitch")
-    run("add", *words, "-o", "machine.toml")
-    torn = ("--touch=-880,250:-900,250", "--touch=900,-270:900,-250", "--touch=0,20:0,0")
-    code, said, _ = run("recheck", "machine.toml", *torn)
-    assert code == 1 and "Errors up to 20.00 mm are more than the fit of" in said
-    assert "no single change explains them" in " ".join(said.split())
+def test_errors_that_no_single_change_explains_are_said_so(checked):
+    code, said, _ = checked({(-900, 250): (-880, 250), (900, -250): (900, -270)})
+    said = " ".join(said.split())
+    assert code == 1 and re.search(
+        r"Errors up to 20.00 mm are more than the fit of \S+ allows", said
+    )
+    assert "no single change explains them" in said
