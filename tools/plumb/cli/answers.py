@@ -57,17 +57,16 @@ ANSWERS: dict[str, Any] = {
     "effects": Library,
     "forward": Places,
     "grid": PlannedGrid,
-    "home": HomeAnswer,
     "inverse": ChainLengths,
     "next": NextAnswer,
     "practice": Score,
     "reach": ReachAnswer,
     "read": MachineNumbers,
+    "recover": HomeAnswer | SlipAnswer,
     "report": ReportAnswer,
     "resume": ResumeAnswer,
     "send": SendAnswer,
     "settings": SettingLines,
-    "slip": SlipAnswer,
     "vm": VmAnswer,
 }
 

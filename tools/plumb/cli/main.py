@@ -49,8 +49,7 @@ GROUPS: Mapping[str, Mapping[str, str]] = {
     },
     "trouble": {
         "read": "read the machine's numbers and where its sled is",
-        "home": "keep a hole as home mark, and restore a lost position with the bit in it",
-        "slip": "say from touched marks whether a chain slipped, and how to repair it",
+        "recover": "keep a hole as home mark, bring a lost place back, repair a slipped chain",
     },
     "engineers": {
         "vm": "start a virtual machine with a serial port, as if a board were plugged in",
@@ -69,8 +68,10 @@ GONE: Mapping[str, str] = {
     "diary": "plumb lab shows the diary, and diary.jsonl is plain text",
     "gap": "measure the motor gap with a tape, and give it by --checked motor_gap=VALUE+-1mm",
     "guide": "plumb lab has it",
+    "home": "plumb recover does it, with the same options",
     "preview": "plumb grid --settings FILE --details prints its table",
     "recheck": "plumb calibrate says of marks cut with fitted settings whether they hold",
+    "slip": "plumb recover does it, with the same options",
     "telemetry": "plumb send says at the end of a program what deserves a look; docs/telemetry.md "
     "explains an answer to B30",
 }

@@ -99,7 +99,7 @@ def slip_suspicion(telemetry: Telemetry) -> str | None:
         f"Look at {chains}: a motor's load fell away for a moment, {often} since power-on, the "
         f"last time on the {last.chain} near x {x}, y {y} mm, {ago(last.seconds_ago)} ago. A chain "
         "that slips does that. Touch two holes, and ask "
-        + to_do("plumb slip.", page="whether they are where they were.")
+        + to_do("plumb recover.", page="whether they are where they were.")
     )
 
 

@@ -42,8 +42,8 @@ QUESTIONS = (
     ("grid", *GRID),
     ("grid", *GRID, "--settings", INI, "--details"),
     ("grid", *GRID, "--output", "grid.nc", "--marks", "form.toml"),
-    ("home", "kept.toml", "--keep=low=0,-400", "-o", "hole.nc"),
-    ("home", "kept.toml", "--at", "left", "--touch=right:903,-250"),
+    ("recover", "kept.toml", "--keep=low=0,-400", "-o", "hole.nc"),
+    ("recover", "kept.toml", "--at", "left", "--touch=right:903,-250"),
     ("inverse", INI, "--points", "pairs.csv", "--controller", "plumb"),
     ("next", *BOARD),
     ("next", *BOARD, *TAPE),
@@ -55,8 +55,8 @@ QUESTIONS = (
     ("report", *BOARD, "-o", "report.html"),
     ("report", *SLIPPED, "-o", "report.html"),
     ("settings", TOML),
-    ("slip", TOML, "--touch=-900,250:-895.4,253.7", "--touch=900,-250:897.9,-246.5"),
-    ("slip", TOML, "--touch=0,0:5,5"),
+    ("recover", TOML, "--touch=-900,250:-895.4,253.7", "--touch=900,-250:897.9,-246.5"),
+    ("recover", TOML, "--touch=0,0:5,5"),
 )
 
 HOME = (

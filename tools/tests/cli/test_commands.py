@@ -24,10 +24,12 @@ SHARED = {
     "arguments",
     "demo",
     "followed",
+    "home",
     "inputs",
     "main",
     "output",
     "screen",
+    "slip",
 }
 # What takes longer to load than the help of all commands may take.
 HEAVY = ("numpy", "scipy", "matplotlib")

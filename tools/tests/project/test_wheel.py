@@ -90,8 +90,7 @@ COMMANDS = {
     "resume": ("job.nc", "groundcontrol.ini", "--line", "4"),
     "settings": ("machine.toml",),
     "reach": ("groundcontrol.ini",),
-    "home": ("machine.toml", "--keep=left=-900,250"),
-    "slip": ("machine.toml", "--touch=-900,250:-895,253"),
+    "recover": ("machine.toml", "--touch=-900,250:-895,253"),
     "vm": ("--seconds", "1"),
     "practice": ("start", "game", "--seconds", "1"),
 }
