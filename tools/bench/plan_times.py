@@ -1,4 +1,4 @@
-"""Times of `plumb next` and `plumb preview` without their printing, on marks made up."""
+"""Times of `plumb next` and of what a plan could tell, without printing, on marks made up."""
 
 from collections.abc import Callable
 from dataclasses import replace

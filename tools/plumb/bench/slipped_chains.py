@@ -1,7 +1,7 @@
 """Slips of whole links on the judge's machines: how often the right chain and count are named.
 
-`python -m plumb.bench.slipped_chains 300 --first 1001` prints the table of docs/commands/slip.md;
-`--outside 1` hides what no effect of the library does as well.
+`python -m plumb.bench.slipped_chains 300 --first 1001` prints the table of
+docs/commands/recover.md; `--outside 1` hides what no effect of the library does as well.
 
 A machine is hidden, cut, measured and fitted as an owner does it. Then a chain slips, or the
 sheet moves, or nothing happens; the owner puts the bit into two marks and asks.

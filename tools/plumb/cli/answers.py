@@ -13,27 +13,23 @@ from typing import Any
 
 from plumb.bench.report import Report
 from plumb.cli.add import AddAnswer
+from plumb.cli.as_fitted import RecheckAnswer
 from plumb.cli.calibrate import CalibrateAnswer
 from plumb.cli.check import CheckAnswer
 from plumb.cli.diagnose import DiagnosisAnswer
-from plumb.cli.diary import DiaryAnswer
 from plumb.cli.effects import Library
 from plumb.cli.forward import Places
 from plumb.cli.grid import PlannedGrid
-from plumb.cli.guide import GuideAnswer
 from plumb.cli.home import HomeAnswer
 from plumb.cli.inverse import ChainLengths
 from plumb.cli.next import NextAnswer
-from plumb.cli.preview import PreviewAnswer
 from plumb.cli.reach import ReachAnswer
 from plumb.cli.read import MachineNumbers
-from plumb.cli.recheck import RecheckAnswer
 from plumb.cli.report import ReportAnswer
 from plumb.cli.resume import ResumeAnswer
 from plumb.cli.send import SendAnswer
 from plumb.cli.settings import SettingLines
 from plumb.cli.slip import SlipAnswer
-from plumb.cli.telemetry import WatchedTelemetry
 from plumb.cli.vm import VmAnswer
 from plumb.fit.compare import Comparison
 from plumb.text.answers import schema_of
@@ -54,29 +50,23 @@ ANSWERS: dict[str, Any] = {
     "refusal": Refusal,
     "add": AddAnswer,
     "bench": Report,
-    "calibrate": CalibrateAnswer,
+    "calibrate": CalibrateAnswer | RecheckAnswer,
     "check": CheckAnswer,
     "compare": Comparison,
     "diagnose": DiagnosisAnswer,
-    "diary": DiaryAnswer,
     "effects": Library,
     "forward": Places,
     "grid": PlannedGrid,
-    "guide": GuideAnswer,
-    "home": HomeAnswer,
     "inverse": ChainLengths,
     "next": NextAnswer,
     "practice": Score,
-    "preview": PreviewAnswer,
     "reach": ReachAnswer,
     "read": MachineNumbers,
-    "recheck": RecheckAnswer,
+    "recover": HomeAnswer | SlipAnswer,
     "report": ReportAnswer,
     "resume": ResumeAnswer,
     "send": SendAnswer,
     "settings": SettingLines,
-    "slip": SlipAnswer,
-    "telemetry": WatchedTelemetry,
     "vm": VmAnswer,
 }
 

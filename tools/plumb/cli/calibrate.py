@@ -17,6 +17,7 @@ from plumb.cli.arguments import (
     add_units,
     add_without,
 )
+from plumb.cli.as_fitted import checked_by_fit, is_all, report
 from plumb.cli.compare import conclusion, outside_sentence, pose_sentence
 from plumb.cli.diagnose import explanation_table
 from plumb.cli.inputs import add_stated, stated_inputs
@@ -130,6 +131,9 @@ def run(arguments: argparse.Namespace) -> int:
     """Compare, diagnose, add or propose, write, print, and return the exit code."""
     inputs = stated_inputs(arguments)
     refuse_other_origin(inputs)
+    checked = checked_by_fit(inputs, arguments.settings)
+    if checked and is_all(checked):
+        return report(arguments, checked)
     this = round_of(inputs)
     files, client = _written(arguments, inputs, this)
     if arguments.json:
@@ -176,8 +180,9 @@ EXAMPLES = (
     "plumb calibrate groundcontrol.ini marks.toml --client groundcontrol -o machine.toml",
 )
 EXIT = (
-    "Exit: 0 done, the new settings are written; 1 a reading has to be looked at, or something "
-    "measured, first, and nothing was written; 2 an input cannot be used, and nothing was written."
+    "Exit: 0 done, the new settings are written, or the machine is as it was fitted; 1 something "
+    "changed, or a reading has to be looked at, or something measured, first, and nothing was "
+    "written; 2 an input cannot be used, and nothing was written."
 )
 
 

@@ -12,14 +12,19 @@ from typing import Annotated
 import plumb.grid as marks_grid
 from plumb.cli.arguments import add_json
 from plumb.cli.output import refuse_twins, write_outputs
-from plumb.cli.screen import next_step, print_json
+from plumb.cli.screen import next_step, print_json, sentences, table
+from plumb.diagnosis.unseen import share_words
 from plumb.fit.inputs import settings_in
+from plumb.fit.problem import USUAL_SIGMA
 from plumb.grid.options import APPROACH
+from plumb.model.plain import noun_of, plain_before
 from plumb.model.reach import refuse_way, with_soft_chains
 from plumb.pictures.grid_paper import grid_paper
+from plumb.plan.preview import POWER, Outline, Preview, as_read, preview
 from plumb.settings.machine import MachineSettings
 from plumb.text.answers import meant
 from plumb.text.errors import InputError
+from plumb.text.values import bare, unit, worded
 
 Point = tuple[float, float]
 
@@ -41,13 +46,19 @@ class PlannedGrid:
     marks: tuple[PlannedTouch, ...]
     approach: Point
     written: tuple[str, ...]
+    details: Annotated[Preview | None, meant("What the marks could tell; null without --details.")]
 
 
 def run(arguments: argparse.Namespace) -> int:
     """Make the grid as the tool does, unless our model of the machine refuses a place."""
     refuse_out_of_reach(arguments)
+    told = _could_tell(arguments) if arguments.details else None
     if not arguments.json:
-        code = _made(arguments)
+        code = 0
+        if not told or arguments.output or arguments.marks or arguments.paper:
+            code = _made(arguments)
+        if code == 0 and told:
+            print(_told(told))
         if code == 0 and arguments.output and arguments.marks:
             words = f"Cut {arguments.output}, write what you measure into {arguments.marks}, then:"
             measured = ["calibrate", arguments.settings or "groundcontrol.ini", arguments.marks]
@@ -72,6 +83,7 @@ def run(arguments: argparse.Namespace) -> int:
             ),
             approach=APPROACH,
             written=tuple(filter(None, (arguments.output, arguments.marks, arguments.paper))),
+            details=told,
         )
     )
     return 0
@@ -133,11 +145,72 @@ def _settings_of(path: str | None, machine: marks_grid.PlainMachine) -> MachineS
     return with_soft_chains(settings)[0]
 
 
+# What --details says: which causes such marks could show, before anything is cut.
+
+ALIKE = 2  # look-alikes in the table
+
+
+def _could_tell(arguments: argparse.Namespace) -> Preview:
+    """Return what the marks could tell of the machine in the settings. Raises InputError."""
+    if not arguments.settings:
+        raise InputError("--details is of a machine: give its --settings too")
+    try:
+        grid, machine = marks_grid.from_arguments(arguments)
+        marks_grid.program(grid, machine)
+    except marks_grid.GridError as error:
+        raise InputError(str(error)) from None
+    plan = as_read(marks_grid.touches_of(grid, machine), marks_grid.spans_of(grid))
+    return preview(settings_in(arguments.settings), plan, sigma=USUAL_SIGMA, is_quick=True)
+
+
+def _told(outlook: Preview) -> str:
+    what = f"{outlook.marks} marks"
+    what += f" and {outlook.distances} distances" if outlook.distances else ""
+    first = (
+        f"{what} read to {worded(outlook.sigma)}: of {len(outlook.outlines)} causes in their usual "
+        f"size, {outlook.seen} would show and {outlook.named} could be named."
+    )
+    return "\n\n".join([sentences([first], mark=""), _outline_table(outlook)])
+
+
+def _outline_table(outlook: Preview) -> str:
+    rows = []
+    for place, outline in enumerate(outlook.outlines, 1):
+        alike = ", ".join(map(noun_of, outline.alike[:ALIKE]))
+        more = len(outline.alike) - ALIKE
+        rows.append(
+            [
+                str(place),
+                noun_of(outline.effect),
+                bare(outline.raw),
+                share_words(outline.hidden_share),
+                _smallest(outline),
+                f"{alike} +{more}" if more > 0 else alike or "-",
+            ]
+        )
+    header = ["", "effect", f"usual, {unit()}", "taken up", "found from", "taken for"]
+    note = (
+        f"found from: the smallest size that is found in {100 * POWER:.0f} % of all cases, times "
+        "the usual size"
+    )
+    return table(header, rows, left=2, words=[-2, -1]) + "\n" + sentences([note], mark="")
+
+
+def _smallest(outline: Outline) -> str:
+    if outline.smallest is None:
+        return "never"
+    first = outline.parameters[0]
+    alone = len(outline.parameters) == 1 and first.smallest is not None
+    name, size = f"{outline.effect}.{first.name}", first.smallest or 0.0
+    in_words = f" ({plain_before(name, size)})" if alone else ""
+    return f"x {outline.smallest:.2g}{in_words}"
+
+
 # The arguments of `plumb grid`.
 
 EXAMPLES = (
     "plumb grid --settings groundcontrol.ini --output grid.nc --marks marks.toml",
-    "plumb grid --settings groundcontrol.ini --preset benchmark --output benchmark.nc",
+    "plumb grid --settings groundcontrol.ini --preset twenty-five --details",
 )
 EXIT = "Exit: 0 done; 2 the grid cannot be made, and nothing was written."
 
@@ -148,5 +221,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--paper",
         metavar="FILE.pdf",
         help="also write a sheet to print: the holes with their numbers, and boxes to fill in",
+    )
+    parser.add_argument(
+        "--details",
+        action="store_true",
+        help="also show what such marks could tell; without files, that alone",
     )
     add_json(parser)

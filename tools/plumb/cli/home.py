@@ -1,10 +1,8 @@
-"""`plumb home`: keeps holes as home marks, and restores a lost position by them."""
+"""Keeps holes as home marks, and restores a lost position by them: `plumb recover`."""
 
 from __future__ import annotations
 
 import argparse
-import math
-import re
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from datetime import date
@@ -14,7 +12,6 @@ from typing import Any
 import numpy as np
 from pydantic import computed_field
 
-from plumb.cli.arguments import add_force, add_json, add_settings, add_units
 from plumb.cli.output import STDOUT, say_failure, write_outputs
 from plumb.cli.screen import headline, next_step, print_json, sentences, table
 from plumb.diary.file import HOME, keep
@@ -23,6 +20,7 @@ from plumb.job.home import (
     SAME,
     HomeFit,
     HomeMark,
+    Point,
     Touch,
     hole_program,
     home_file,
@@ -39,7 +37,7 @@ from plumb.settings.machine import MachineSettings
 from plumb.text.answers import Internal, json_of
 from plumb.text.errors import InputError
 from plumb.text.files import alone_in
-from plumb.text.values import bare, signed, typed_length, unit, worded
+from plumb.text.values import bare, signed, unit, worded
 
 
 @dataclass(frozen=True)
@@ -86,8 +84,6 @@ def run(arguments: argparse.Namespace) -> int:
     settings = settings_in(arguments.settings)
     if arguments.keep and (arguments.at or arguments.touch):
         raise InputError("--keep goes alone: keep the home mark first, then restore by it")
-    if arguments.touch and not arguments.at:
-        raise InputError("--touch needs --at: name the home mark by which the chains were set")
     answer = HomeAnswer(settings, read_home_marks(home_file(arguments.settings)))
     if arguments.keep:
         _keep(arguments, answer)
@@ -186,7 +182,7 @@ def _text(arguments: argparse.Namespace, answer: HomeAnswer) -> str:
 def _listed(arguments: argparse.Namespace, answer: HomeAnswer) -> str:
     """Return all home marks, or how to begin."""
     if not answer.marks:
-        keeping = ["home", arguments.settings, "--keep=left=-900,250", "-o", "left.nc"]
+        keeping = ["recover", arguments.settings, "--keep=left=-900,250", "-o", "left.nc"]
         return f"There is no home mark yet.\n\n{next_step('Keep a hole:', keeping)}"
     rows = [[mark.name, _place(mark.place), _chains(mark)] for mark in answer.marks]
     return table(["home mark", f"place [{unit()}]", "chains [mm]"], rows, words=[1, 2])
@@ -220,50 +216,6 @@ def _chains(mark: HomeMark | ShownMark) -> str:
     return f"L{mark.chains[0]:.3f} R{mark.chains[1]:.3f}"
 
 
-# The arguments of `plumb home`.
-
-EXAMPLES = (
-    "plumb home machine.toml --keep left=-900,250 -o hole.nc",
-    "plumb home machine.toml --at left --touch=right:903,-250",
-)
-EXIT = (
-    "Exit: 0 done; 1 a second home mark does not fit the first; 2 an input cannot be used, and "
-    "nothing was written."
-)
-WORD = re.compile(r"[A-Za-z0-9_-]+")
-
-
-def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Add the arguments of `plumb home`."""
-    add_settings(parser)
-    parser.add_argument(
-        "--keep",
-        metavar="NAME=X,Y",
-        type=named_place,
-        help="keep the hole that the machine makes at this place [mm, from the middle of the "
-        "sheet, y up], with both chains there; -o writes the program that makes it",
-    )
-    parser.add_argument(
-        "--at",
-        metavar="NAME",
-        help="the bit is in this home mark: say how long the chains are; -o writes the program "
-        "that sets them",
-    )
-    add_touch(parser, meaning="another home mark, touched after that: say how well it fits")
-    parser.add_argument("-o", "--output", metavar="FILE", help="write the program to this file")
-    add_force(parser)
-    add_units(parser)
-    add_json(parser)
-
-
-def named_place(text: str) -> tuple[str, Point]:
-    """Read NAME=X,Y."""
-    name, _, place = text.partition("=")
-    if not WORD.fullmatch(name):
-        raise argparse.ArgumentTypeError(f"'{text}' is not NAME=X,Y, like left=-900,250")
-    return name, point(place)
-
-
 def touches_of(arguments: argparse.Namespace) -> tuple[Touch, ...]:
     """Return the touches, numbered, those of home marks by name. Raises InputError for a hole
     twice.
@@ -284,7 +236,7 @@ def home_mark(settings: str, name: str) -> HomeMark:
     path = home_file(settings)
     marks = read_home_marks(path)
     if name not in marks:
-        known = f"it has {', '.join(marks)}" if marks else "there is none yet: plumb home --keep"
+        known = f"it has {', '.join(marks)}" if marks else "there is none yet: plumb recover --keep"
         raise InputError(f"{path}: no home mark {name!r}; {known}")
     return marks[name]
 
@@ -296,40 +248,3 @@ def asked_signs(touches: Sequence[Touch]) -> list[str]:
         for touch in touches
         if (name := lost_sign(touch))
     ]
-
-
-# The option --touch: a mark with the bit in it, and what the machine shows there.
-
-Point = tuple[float, float]
-
-
-def add_touch(parser: argparse.ArgumentParser, *, meaning: str) -> None:
-    """Add the option --touch."""
-    parser.add_argument(
-        "--touch",
-        metavar="HOLE:SHOWN",
-        action="append",
-        type=touch,
-        default=[],
-        help=f"{meaning}, like --touch=-900,250:-896.2,253.1 (x,y of the hole, or the name of a "
-        "home mark; then what the machine shows with the bit in it)",
-    )
-
-
-def touch(text: str) -> tuple[str | Point, Point]:
-    """Read HOLE:SHOWN; a hole is a place or a name."""
-    hole, separator, shown = text.rpartition(":")
-    if not (separator and hole):
-        raise argparse.ArgumentTypeError(f"'{text}' is not HOLE:SHOWN, like -900,250:-896.2,253.1")
-    return (point(hole) if "," in hole else hole), point(shown)
-
-
-def point(text: str) -> Point:
-    """Read x,y [mm, from the middle of the sheet, y up], typed in mm or with their units."""
-    try:
-        x, y = map(typed_length, text.split(","))
-    except ValueError:
-        x = y = math.nan
-    if not (math.isfinite(x) and math.isfinite(y)):
-        raise argparse.ArgumentTypeError(f"'{text}' is no place x,y in mm, like -900,250")
-    return x, y

@@ -28,14 +28,12 @@ EPILOG = "Lengths are mm, forces N, angles rad. plumb COMMAND --help explains ea
 # In the order of `plumb --help`. To add a command, write its file and give it a line.
 GROUPS: Mapping[str, Mapping[str, str]] = {
     "first day": {
-        "guide": "go through a machine's first day: wires, numbers, reach, chains, first mark",
         "lab": "open the lab in your browser: measure, see why the machine errs, and cure it",
         "flash": "write the firmware to the Mega",
         "reach": "which part of the sheet a machine can use",
     },
     "calibrate": {
         "grid": "the G-code for a grid of calibration marks",
-        "preview": "before any hole is drilled: which effects a plan of marks could tell apart",
         "calibrate": "compare, diagnose, then add what is likeliest or say what to measure next",
         "compare": "how far the marks lie from where the settings predict them",
         "diagnose": "which effects the settings miss, and how likely each is by the marks",
@@ -51,11 +49,7 @@ GROUPS: Mapping[str, Mapping[str, str]] = {
     },
     "trouble": {
         "read": "read the machine's numbers and where its sled is",
-        "recheck": "say from two marks whether the machine is as it was fitted, or what changed",
-        "home": "keep a hole as home mark, and restore a lost position with the bit in it",
-        "slip": "say from touched marks whether a chain slipped, and how to repair it",
-        "diary": "show how errors and numbers of a machine went over time",
-        "telemetry": "how the machine is doing, from a client's log with an answer to B30",
+        "recover": "keep a hole as home mark, bring a lost place back, repair a slipped chain",
     },
     "engineers": {
         "vm": "start a virtual machine with a serial port, as if a board were plugged in",
@@ -68,6 +62,18 @@ GROUPS: Mapping[str, Mapping[str, str]] = {
 }
 COMMANDS: Mapping[str, str] = {
     name: said for group in GROUPS.values() for name, said in group.items()
+}
+# Commands that went: a sentence that says what does it now.
+GONE: Mapping[str, str] = {
+    "diary": "plumb lab shows the diary, and diary.jsonl is plain text",
+    "gap": "measure the motor gap with a tape, and give it by --checked motor_gap=VALUE+-1mm",
+    "guide": "plumb lab has it",
+    "home": "plumb recover does it, with the same options",
+    "preview": "plumb grid --settings FILE --details prints its table",
+    "recheck": "plumb calibrate says of marks cut with fitted settings whether they hold",
+    "slip": "plumb recover does it, with the same options",
+    "telemetry": "plumb send says at the end of a program what deserves a look; docs/telemetry.md "
+    "explains an answer to B30",
 }
 
 
@@ -106,9 +112,6 @@ def build_parser(arguments: Sequence[str] = ("--completion",)) -> Parser:
     parser.add_argument("--version", action=Version, help="show the version and exit")
     completion = "print what lets a shell complete commands; see docs/README.md"
     parser.add_argument("--completion", action=Completion, help=completion)
-    parser.add_argument(
-        "--man", action=Manual, help="print the manual page: plumb --man | man -l -"
-    )
     commands = parser.add_subparsers(metavar="COMMAND", required=True, dest="command")
     for name, said in COMMANDS.items():
         subparser = commands.add_parser(
@@ -118,7 +121,7 @@ def build_parser(arguments: Sequence[str] = ("--completion",)) -> Parser:
             allow_abbrev=False,
             formatter_class=argparse.RawDescriptionHelpFormatter,
         )
-        if name in arguments or WHOLE & {*arguments}:
+        if name in arguments or "--completion" in arguments:
             command = loaded(f"plumb.cli.{name}")
             subparser.epilog = "\n".join(
                 [
@@ -132,7 +135,6 @@ def build_parser(arguments: Sequence[str] = ("--completion",)) -> Parser:
     return parser
 
 
-WHOLE = {"--completion", "--man"}  # options that need the parsers of all commands
 # How the help calls arguments that are names of files.
 FILES = ("SETTINGS", "JOB", "MARKS", "PLAN", "FILE", "INI", "LOG")
 
@@ -210,6 +212,8 @@ class Parser(argparse.ArgumentParser):
             return
         choices = [str(choice) for choice in action.choices]
         if isinstance(action, argparse._SubParsersAction):
+            if value in GONE:
+                raise InputError(f"there is no command '{value}' any more: {GONE[value]}")
             raise InputError(
                 f"there is no command '{value}'{meant(value, choices)}; see plumb --help"
             )
@@ -257,18 +261,6 @@ class Completion(argparse.Action):
         shtab = import_module("shtab")
         _complete_files(parser, shtab.FILE)
         print(shtab.complete(parser, values))
-        parser.exit()
-
-
-class Manual(argparse.Action):
-    """Prints the manual page."""
-
-    def __init__(self, option_strings: Sequence[str], dest: str, help: str) -> None:
-        super().__init__(option_strings, dest=argparse.SUPPRESS, nargs=0, help=help)
-
-    def __call__(self, parser: argparse.ArgumentParser, *_: object) -> None:
-        """Print it and stop."""
-        print(loaded("plumb.cli.man").manual(parser))
         parser.exit()
 
 

@@ -88,9 +88,9 @@ def _way_back(lost: str) -> list[str]:
     """Return that the machine does not know its place, in its words, and what brings it back."""
     return [
         f"The machine does not know where its sled is. It says: {lost}",
-        "The way back: put the bit into a home mark and ask plumb home --at for the line to send; "
-        "or set the chains with B06 or B08. Set z with it, the bit at the sheet's face, as each "
-        "command resets the board: plumb send 'B06 ...' 'G10 Z0'.",
+        "The way back: put the bit into a home mark and ask plumb recover --at for the line to "
+        "send; or set the chains with B06 or B08. Set z with it, the bit at the sheet's face, as "
+        "each command resets the board: plumb send 'B06 ...' 'G10 Z0'.",
     ]
 
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import math
 import signal
 import sys
 from collections.abc import Callable, Sequence
@@ -60,9 +59,9 @@ class SendAnswer:
         dict[int, tuple[float, float]], meant("Numbers before and after, by $-number.")
     ] = field(default_factory=dict)
     kept: Annotated[str | None, meant("The file of the numbers before.")] = None
-    warnings: Annotated[
-        list[str], meant("What deserves a look after a program, as in the answer of telemetry.")
-    ] = field(default_factory=list)
+    warnings: Annotated[list[str], meant("What deserves a look after a program.")] = field(
+        default_factory=list
+    )
 
     def hear(self, line: str) -> None:
         """Note what the machine says, and print it on lines that fit the screen."""
@@ -177,13 +176,12 @@ def _print_written(arguments: argparse.Namespace, done: tuple[Written, str]) -> 
 
 def _watched(sender: Sender, numbers: dict[int, float]) -> list[str]:
     """Print what deserves a look, before the line is closed: the next program that opens it resets
-    the board, which then has forgotten what it saw. How far a motor fell behind is no matter: the
-    feed yields, and the machine says so.
+    the board, which then has forgotten what it saw.
     """
     telemetry = telemetry_in("\n".join(sender.ask("B30")))
     if telemetry is None:
         return []
-    said = list(warnings(telemetry, limit_mm=math.inf, rate_hz=int(numbers.get(69, 100))))
+    said = list(warnings(telemetry, rate_hz=int(numbers.get(69, 100))))
     if said:
         print(sentences(said))
     return said

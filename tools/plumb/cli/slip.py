@@ -1,4 +1,4 @@
-"""`plumb slip`: whether a chain slipped by whole links, and the line that repairs it."""
+"""Whether a chain slipped by whole links, and the line that repairs it: `plumb recover --touch`."""
 
 from __future__ import annotations
 
@@ -8,8 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from plumb.cli.arguments import add_force, add_json, add_settings, add_sigma, add_units
-from plumb.cli.home import add_touch, asked_signs, touches_of
+from plumb.cli.home import asked_signs, touches_of
 from plumb.cli.output import STDOUT, say_failure, write_outputs
 from plumb.cli.screen import BAD, GOOD, OPEN, headline, next_step, print_json, sentences, table
 from plumb.diary.file import SLIP as SLIP_ENTRY
@@ -30,7 +29,6 @@ from plumb.job.slip import (
     repair_program,
 )
 from plumb.text.answers import json_of
-from plumb.text.errors import InputError
 from plumb.text.values import bare, signed, unit, worded
 
 SIDES = ("left", "right")
@@ -63,11 +61,6 @@ class SlipAnswer:
 
 def run(arguments: argparse.Namespace) -> int:
     """Weigh, write, print, and return the exit code."""
-    if not arguments.touch:
-        raise InputError(
-            "no mark was touched: put the bit into a hole that the machine made, read what it "
-            "shows, and give both with --touch=X,Y:X,Y; two holes far apart can tell"
-        )
     settings = settings_in(arguments.settings)
     finding = find_slip(
         settings,
@@ -216,39 +209,3 @@ def _odds(answer: SlipAnswer) -> str:
 def _percent(odds: float) -> str:
     """Odds for people; what is not quite certain does not look it."""
     return f"{100 * odds:.3g} %" if odds < SURE else f"> {100 * SURE:g} %"
-
-
-# The arguments of `plumb slip`.
-
-EXAMPLES = (
-    "plumb slip machine.toml --touch=-900,250:-895.4,253.7 --touch=900,-250:897.9,-246.5",
-    "plumb slip machine.toml --touch=0,0:5,5",
-)
-EXIT = (
-    "Exit: 0 no chain slipped; 1 a chain slipped, or the touches cannot tell, or no slip explains "
-    "them; 2 an input cannot be used."
-)
-
-
-def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Add the arguments of `plumb slip`."""
-    add_settings(parser)
-    add_touch(parser, meaning="a mark with the bit in it; give two or more")
-    parser.add_argument(
-        "--taped",
-        action="store_true",
-        help="the places of the holes were read with a tape [they are where the machine was sent "
-        "when it made them]",
-    )
-    parser.add_argument(
-        "--fixed",
-        action="store_true",
-        help="the holes are in the frame or its board, not in a sheet that can move",
-    )
-    add_sigma(parser, usual="0.5; with --taped what the fit of SETTINGS left, if that is more")
-    parser.add_argument(
-        "-o", "--output", metavar="FILE", help="write the program that repairs the slip"
-    )
-    add_force(parser)
-    add_units(parser)
-    add_json(parser)

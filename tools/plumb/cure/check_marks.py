@@ -21,7 +21,7 @@ from plumb.model.catalogue import effect_names
 from plumb.model.predict import Array
 from plumb.text.values import bare, worded
 
-LEVEL = 0.99  # of the checks of an unchanged machine hold; `plumb recheck` goes by it too
+LEVEL = 0.99  # of the checks of an unchanged machine hold; a recheck by the diary goes by it too
 
 
 @dataclass(frozen=True)
@@ -36,11 +36,6 @@ class CheckedMark:
     off: float  # how far the reading is from the prediction
     error: float  # how far it is from its target
     is_within: bool
-
-    @property
-    def miss(self) -> tuple[float, float]:
-        """From the prediction to the reading."""
-        return self.measured[0] - self.predicted[0], self.measured[1] - self.predicted[1]
 
 
 @dataclass(frozen=True)

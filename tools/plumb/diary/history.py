@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
+from datetime import datetime
 from typing import Annotated
-
-from pydantic import computed_field
 
 from plumb.diary.file import FIT, Diary, Entry
 from plumb.text.answers import Moment, Number, key
@@ -29,10 +28,10 @@ class DiaryFit:
 class Point:
     """A fitted number at a time, with its 95 % interval."""
 
-    at: Moment
-    value: Number
-    low: Number
-    high: Number
+    at: datetime
+    value: float
+    low: float
+    high: float
 
 
 @dataclass(frozen=True)
@@ -43,12 +42,6 @@ class Course:
     unit: str
     points: tuple[Point, ...]
 
-    @property
-    def change(self) -> float | None:
-        """The newest value less the value before; None with a single fit."""
-        return self.points[-1].value - self.points[-2].value if len(self.points) > 1 else None
-
-    @computed_field(alias="moved")
     @property
     def has_moved(self) -> bool:
         """Whether the newest interval and the interval before have no value in common."""

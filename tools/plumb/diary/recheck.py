@@ -22,7 +22,7 @@ from plumb.model.predict import FOUND, NAMES, Array, places_with_slopes, values_
 from plumb.settings.machine import MachineSettings
 from plumb.settings.toml import MACHINE_KEYS, machine_in
 from plumb.text.answers import Internal
-from plumb.text.errors import InputError, to_do
+from plumb.text.errors import InputError
 
 STEP = 0.1  # [mm] of chain
 # Changes that need no new fit: how much longer a chain is than the machine believes, where the
@@ -73,7 +73,10 @@ def recheck(
     whichever fits the marks better counts. Raises InputError where the diary does not know the
     settings.
     """
-    fit = _fit_of(diary, settings)
+    fit = fit_of(diary, settings)
+    if fit is None:
+        remedy = "give the machine.toml that plumb add wrote next to this diary"
+        raise InputError(diary.path, "knows no fit that gave these settings", remedy=remedy)
     fitted = settings.fitted.last_sheet_rotation if settings.fitted else 0.0
     turned = [_recheck(fit, settings, touches, turn, sigma) for turn in (fitted, 0.0)]
     return ranked(turned, lambda checked: checked.chi_square)[0]
@@ -109,18 +112,14 @@ def _recheck(
     )
 
 
-def _fit_of(diary: Diary, settings: MachineSettings) -> Entry:
-    """Return the newest fit of the diary that gave these settings."""
+def fit_of(diary: Diary, settings: MachineSettings) -> Entry | None:
+    """Return the newest fit of the diary that gave these settings; None if it knows no such fit."""
     for entry in reversed(diary.of_kind(FIT)):
         tables = tomllib.loads(entry.content["settings"])
         head = {key: value for key, value in tables.items() if key in MACHINE_KEYS}
         if machine_in(diary.path, head, place="", known=None) == replace(settings, fitted=None):
             return entry
-    remedy = to_do(
-        "give the machine.toml that plumb add wrote next to this diary",
-        page="open a machine.toml that Correct wrote into this folder",
-    )
-    raise InputError(diary.path, "knows no fit that gave these settings", remedy=remedy)
+    return None
 
 
 def _places(settings: MachineSettings, chains: Array) -> tuple[Array, Array]:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import shlex
 from collections.abc import Callable, Collection
 from dataclasses import dataclass, replace
 from itertools import count
@@ -21,7 +20,6 @@ from plumb.guide.talk import (
     LENGTHS,
     LIGHTEST,
     Jog,
-    LeftError,
     Progress,
     Talk,
     chain_jog,
@@ -34,7 +32,6 @@ from plumb.line.sender import RefusedError, Sender
 from plumb.model.reach import percent, survey_sheet
 from plumb.settings.machine import GRAVITY, MachineSettings, frame_of
 from plumb.settings.toml import machine_toml
-from plumb.text.errors import to_do
 from plumb.text.files import read_bytes, write_whole
 from plumb.text.values import bare, brief, unit, worded
 
@@ -149,7 +146,7 @@ def tell_numbers(visit: Visit) -> bool:
             "up with GroundControl, or hang it on a ring."
         )
         return False
-    talk.say("Measure with a steel tape. Enter keeps the number in brackets.")
+    talk.say("Measure with a steel tape.")
     frame = dict(settings.frame)
     for known in LENGTHS:
         # People measure the height from the sheet's edge, the frame counts it from its middle.
@@ -168,17 +165,11 @@ def tell_numbers(visit: Visit) -> bool:
     written, _, failure = write_and_keep(visit.sender, str(visit.path), lines)
     visit.write(machine_toml(changed))
     rows = [f"  ${number}: {old:g} -> {new:g}" for number, (old, new) in written.changed.items()]
-    undo = to_do(f"plumb send --undo {_file(visit)} brings them back", page="nothing is lost")
     talk.say("\n".join(["The machine holds these numbers; each was read back.", *rows]))
-    talk.say(f"The numbers that it had before are kept in this folder: {undo}.")
+    talk.say("The numbers that it had before are kept in this folder: nothing is lost.")
     if failure:
         talk.say(failure)
     return True
-
-
-def _file(visit: Visit) -> str:
-    """Return the settings' file, as a shell takes it where the guide was started."""
-    return shlex.quote(str(visit.path))
 
 
 def show_reach(visit: Visit) -> bool:
@@ -186,9 +177,8 @@ def show_reach(visit: Visit) -> bool:
     settings = visit.settings()
     survey = survey_sheet(settings)
     expected = expected_anywhere(settings, expected_priors(visit.progress.sigmas))
-    where = to_do(f"plumb reach {_file(visit)} draws where", page="Reach shows where")
     visit.talk.say(
-        f"The machine can use {percent(survey.shares['usable'])} of the sheet; {where}.\n"
+        f"The machine can use {percent(survey.shares['usable'])} of the sheet; Reach shows where.\n"
         f"{expected_sentence(expected)}"
     )
     return True
@@ -312,29 +302,6 @@ STEPS = (
     Step("chains", "Chains at 12 o'clock", set_chains),
     Step("mark", "The first mark", first_mark),
 )
-
-
-# Walks through the steps: what is done is passed over, what is left is taken up again.
-
-
-def walk(visit: Visit, *, first: str = "") -> bool:
-    """Take the steps in order, from `first` or from the step that is open; whether all are done."""
-    names = [step.name for step in STEPS]
-    begin = names.index(first) if first else 0
-    try:
-        for step in STEPS[begin:]:
-            if step.name in visit.progress.done and step.name != first:
-                continue
-            number = names.index(step.name) + 1
-            visit.talk.say(f"\n{number} of {len(STEPS)}  {step.title}")
-            if not take(visit, step):
-                visit.talk.say(f"This step is still open: {step.title}")
-                return False
-    except LeftError:
-        visit.progress.save()
-        visit.talk.say("The guide stays where it is; run it again to go on.")
-        return False
-    return True
 
 
 def take(visit: Visit, step: Step) -> bool:

@@ -1,102 +1,49 @@
-"""How the guide speaks with the owner: on a terminal, or in a test with prepared answers."""
+"""How the guide speaks with its owner, what a short jog says, and how far the two came."""
 
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Protocol
 
 from plumb.text.errors import InputError
 from plumb.text.files import read_text, write_whole
-from plumb.text.values import UNITS, brief, length_in, worded
-
-YES = ("y", "yes")
-LEAVE = ("q", "quit", "leave")
+from plumb.text.values import brief, worded
 
 
 class LeftError(Exception):
     """The owner leaves; what is done stays done."""
 
 
-@dataclass
-class Talk:
-    """Says lines and asks questions; `unit` is that of the owner's tape."""
+class Talk(Protocol):
+    """Says lines and asks questions. Each question raises LeftError if the owner leaves."""
 
-    say: Callable[[str], None]
-    answer: Callable[[str], str]  # to a question; EOFError where nobody answers
-    unit: str = "mm"
-    asked: list[str] = field(default_factory=list)
-
-    def ask(self, question: str) -> str:
-        """Return what the owner types. Raises LeftError for q, and where nobody answers."""
-        self.asked.append(question)
-        try:
-            text = self.answer(question).strip()
-        except EOFError:
-            raise LeftError from None
-        if text.lower() in LEAVE:
-            raise LeftError
-        return text
+    def say(self, text: str) -> None:
+        """Say lines."""
 
     def agrees(self, what: str, act: str) -> bool:
-        """Return whether the owner says yes to what will move; anything else is no.
-
-        `act` says it in a few words, for a button.
+        """Return whether the owner says yes to what will move; `act` says it in a few words, for a
+        button.
         """
-        return self.ask(f"{what}\nGo? [y/n, q leaves] ").lower() in YES
 
     def says_yes(self, question: str) -> bool:
         """Return whether the owner says yes to what moves nothing."""
-        return self.ask(f"{question} [y/n] ").lower() in YES
 
     def choice(self, question: str, answers: dict[str, str]) -> str:
         """Return the letter of one of the answers."""
-        listed = "".join(f"\n  {letter}  {words}" for letter, words in answers.items())
-        while True:
-            letter = self.ask(f"{question}{listed}\nType a letter: ").lower()
-            if letter in answers:
-                return letter
-            self.say(f"{letter!r} is none of {', '.join(answers)}.")
 
-    def length(self, question: str, usual: float | None, low: float, high: float) -> float:
-        """Return a length [mm] from low to high, typed in the owner's unit; Enter: the usual."""
-        scale = UNITS[self.unit]
-        hint = "" if usual is None else f" [{usual / scale:.{1 if scale == 1 else 3}f}]"
-        while True:
-            text = self.ask(f"{question}, {self.unit}{hint}: ")
-            if not text and usual is not None:
-                return usual
-            try:
-                size = length_in(text.replace(",", "."), unit=scale)
-            except ValueError as error:
-                self.say(f"{error}")
-                continue
-            if low <= size <= high:
-                return size
-            self.say(f"That is not from {low / scale:g} to {high / scale:g} {self.unit}.")
+    def length(self, question: str, usual: float, low: float, high: float) -> float:
+        """Return a length [mm] from low to high."""
 
     def turn(self, side: str, most: float) -> float:
         """Return how far the owner lets a sprocket turn [mm of chain]; 0: a tooth points straight
         up.
         """
-        question = (
-            f"The {side.upper()} sprocket turns as far as you type ({self.unit} of chain; minus "
-            "turns back). Type 0 when a tooth points straight up"
-        )
-        return self.length(question, None, -most, most)
 
     def mass(self, question: str, usual: float, low: float, high: float) -> float:
-        """Return a mass [kg] from low to high; Enter: the usual."""
-        while True:
-            text = self.ask(f"{question}, kg [{usual:.1f}]: ")
-            try:
-                mass = float(text.replace(",", ".")) if text else usual
-            except ValueError:
-                mass = 0.0
-            if low <= mass <= high:
-                return mass
-            self.say(f"A sled weighs from {low:g} to {high:g} kg.")
+        """Return a mass [kg] from low to high."""
 
 
 # What a short jog says of an axis' wires: what moved, which way, and what the machine noticed.

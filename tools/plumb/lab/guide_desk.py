@@ -1,6 +1,6 @@
 """The guide on the page: a step at a time, on the machine's line; its questions wait for answers.
 
-The steps are those of `plumb guide`. A question stays until it is answered or left, whichever tab
+A question stays until it is answered or left, whichever tab
 answers. While it waits the machine stands, and Stop ends the step.
 """
 
@@ -72,7 +72,7 @@ class GuideDesk:
 
         def work(sender: Sender) -> None:
             try:
-                talk = ScreenTalk(self, sender, line, unit)
+                talk = ScreenTalk(self, sender, line)
                 self._note_hanging(step, line)
                 visit = Visit(sender, talk, progress_in(folder), lambda: self._hang(line))
                 with shown_in(unit):
@@ -140,9 +140,11 @@ class GuideDesk:
 class ScreenTalk(Talk):
     """The guide speaks through a page."""
 
-    def __init__(self, desk: GuideDesk, sender: Sender, line: MachineLine, unit: str) -> None:
-        super().__init__(desk.said.append, lambda question: "", unit)
+    def __init__(self, desk: GuideDesk, sender: Sender, line: MachineLine) -> None:
         self._desk, self._sender, self._line = desk, sender, line
+
+    def say(self, text: str) -> None:
+        self._desk.said.append(text)
 
     def agrees(self, what: str, act: str) -> bool:
         return self._put(Question("go", what, act=act)) == YES
@@ -153,7 +155,7 @@ class ScreenTalk(Talk):
     def choice(self, question: str, answers: dict[str, str]) -> str:
         return self._put(Question("choice", question, answers=tuple(answers.items())))
 
-    def length(self, question: str, usual: float | None, low: float, high: float) -> float:
+    def length(self, question: str, usual: float, low: float, high: float) -> float:
         return float(self._put(Question("length", question, usual=usual, low=low, high=high)))
 
     def turn(self, side: str, most: float) -> float:

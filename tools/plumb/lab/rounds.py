@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import re
 import shlex
 from collections.abc import Collection, Mapping, Sequence
@@ -14,13 +13,12 @@ from plumb.fit.inputs import settings_in
 from plumb.fit.problem import PRIORS
 from plumb.grid import PRESETS, Grid, PlainMachine, marks_list, spans_of, touches_of
 from plumb.grid.cut_with import cut_with_lines, digest_of, with_form
-from plumb.grid.options import APPROACH
 from plumb.grid.pattern import Touch
 from plumb.lab.known import refuse_absurd_known, stated
 from plumb.lab.project import Choices, Layout, Project
 from plumb.line.progress import Wait, waits_in
 from plumb.marks.form import read_form
-from plumb.marks.read import Distance, Mark, Measurements, read_marks
+from plumb.marks.read import Mark, read_marks
 from plumb.model.predict import known_effects
 from plumb.model.reach import refuse_way, with_soft_chains
 from plumb.plan.options import MARK, READING, ROUND
@@ -145,19 +143,6 @@ class Planned:
             return ["--preset", self.layout]
         places = " ".join(f"{x:.12g},{y:.12g}" for x, y in self.grid.places)
         return [f"--places={places}"]
-
-    def as_measured(self) -> Measurements:
-        """Return the plan as if all were read just where it was sent."""
-        sent = {touch.name: (touch.x, touch.y) for touch in self.touches}
-        marks = tuple(
-            Mark(name, place, None if self.spans else place, approach=APPROACH)
-            for name, place in sent.items()
-        )
-        distances = tuple(
-            Distance((first, second), math.dist(sent[first], sent[second]))
-            for first, second in self.spans
-        )
-        return Measurements(marks, distances=distances, source="the plan")
 
 
 def planned(settings: MachineSettings, layout: Layout, places: Sequence[Place]) -> Planned:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
@@ -26,7 +25,6 @@ __all__ = [
     "Round",
     "join_measurements",
     "read_marks",
-    "read_plan",
     "without_marks",
 ]
 
@@ -46,32 +44,6 @@ def read_marks(
     named = replace(measurements.rounds[0], digest=digest_of(measurements))
     measurements = replace(measurements, rounds=(named, *measurements.rounds[1:]))
     return checked(measurements, sheet=_sheet_of(measurements, sheet))
-
-
-def read_plan(path: str | PathLike[str], *, sheet: Sheet) -> Measurements:
-    """Return the marks of a file as they are planned: each as if it were measured where it was
-    sent.
-
-    A mark without reading that is the end of a distance stays without. A repeat with
-    another target, as plumb grid places it, is another mark here.
-    """
-    plan = _read(path, sheet)
-    ends = {name for distance in plan.distances for name in distance.between}
-    marks = []
-    for mark in plan.marks:
-        read = mark.measured is not None or mark.name not in ends
-        moved = mark.target != plan.target_of(mark.name)
-        name = f"{mark.name} at {mark.target[0]:g}/{mark.target[1]:g}" if moved else mark.name
-        marks.append(replace(mark, name=name, measured=mark.target if read else None))
-    known = {mark.name for mark in marks}
-    spans = tuple(
-        replace(distance, length=math.dist(*(plan.target_of(name) for name in distance.between)))
-        if known.issuperset(distance.between)
-        else distance
-        for distance in plan.distances
-    )
-    meant = replace(plan, marks=tuple(marks), distances=spans)
-    return checked(meant, sheet=_sheet_of(plan, sheet))
 
 
 def _without_unread(measurements: Measurements) -> Measurements:

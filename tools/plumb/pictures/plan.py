@@ -3,13 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from textwrap import wrap
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from plumb.model.plain import noun_of
-from plumb.pictures.scale import Panel, Scale, around, saved, spots_of
+from plumb.pictures.scale import around, saved
 from plumb.pictures.sheet import (
     BAD,
     GOOD,
@@ -21,11 +19,9 @@ from plumb.pictures.sheet import (
     fitting,
     sheet_figure,
     strip,
-    write_beside,
     write_title,
 )
 from plumb.plan.planned_visits import Visits
-from plumb.plan.preview import PlanAddition, Preview
 from plumb.settings.machine import GRAVITY
 
 if TYPE_CHECKING:
@@ -220,84 +216,3 @@ def _draw_legend(axis: Axes, lines: Sequence[tuple[str | None, str, str]], foot:
             edge = INK if colour == "white" else "white"
             axis.plot(EDGE + 0.1, y, symbol, color=colour, markeredgecolor=edge, markersize=10)
         axis.text(EDGE + 0.3, y, words, va="center", fontsize=12, color=INK)
-
-
-# A picture of a preview: the planned marks, and the places of the best additions, numbered.
-
-PREVIEW_LINE, PREVIEW_FOOT = 0.22, 0.2  # [inch] of a line below the sheet, below the lines
-PLACED, PLACELESS, CROWD = 3, 3, 12  # additions with places and without, and marks of each
-LETTERS = 108  # of a line
-NUMBER, WORDS = 12.0, 10.0  # [point]
-
-
-def draw_preview(preview: Preview, *, sheet: tuple[float, float], form: str = "png") -> bytes:
-    """Return the sheet with the plan and its best additions, and below it what they tell."""
-    lines = [line for said in sentences_of(preview) for line in wrap(said, LETTERS)]
-    foot = PREVIEW_FOOT + PREVIEW_LINE * len(lines)
-    figure, axis = sheet_figure(around(sheet), WIDTH, head=TITLE, foot=foot)
-    draw_wood(axis, sheet)
-    _draw_old(axis, preview.targets)
-    _draw_numbers(axis, numbered_places(preview), sheet)
-    title = f"What these {preview.marks} marks could tell, read to {preview.sigma:g} mm"
-    write_title(figure, title, left=EDGE, head=TITLE, size=15)
-    below = strip(figure, foot)
-    for i, line in enumerate(lines):
-        y = foot - 0.1 - PREVIEW_LINE * (i + 0.5)
-        below.text(EDGE, y, line, fontsize=WORDS, color=INK, va="center")
-    return saved(figure, form)
-
-
-def sentences_of(preview: Preview) -> list[str]:
-    """Return what the plan finds, what it misses, and a sentence for each numbered addition."""
-    seen = [outline for outline in preview.outlines if outline.is_seen]
-    missed = [outline for outline in preview.outlines if not outline.is_seen]
-    said = [
-        f"{what}: {', '.join(noun_of(outline.effect) for outline in outlines)}."
-        for what, outlines in (
-            ("Found in their usual size", seen),
-            ("Not found in their usual size", missed),
-        )
-        if outlines
-    ]
-    said += [
-        f"{preview.named} of {len(preview.outlines)} causes could be named.",
-        "More could be with what follows; numbers show where on the sheet:",
-    ]
-    said += [f"{i}: {_promise(each)}." for i, each in enumerate(with_places(preview), 1)]
-    without = [each for each in preview.additions if not len(each.visits)][:PLACELESS]
-    return said + [f"Without a mark: {_promise(each)}." for each in without]
-
-
-def with_places(preview: Preview) -> list[PlanAddition]:
-    """Return the best additions whose marks are few enough to be shown: they get numbers."""
-    placed = [each for each in preview.additions if 0 < len(each.visits) <= CROWD]
-    return placed[:PLACED]
-
-
-def numbered_places(preview: Preview) -> list[tuple[str, np.ndarray]]:
-    """Return the numbers of the additions that go to a place, and the place [mm]."""
-    numbers: dict[tuple[float, ...], list[int]] = {}
-    for number, addition in enumerate(with_places(preview), 1):
-        for target in np.unique(np.round(addition.visits.targets), axis=0):
-            numbers.setdefault(tuple(target.tolist()), []).append(number)
-    return [(", ".join(map(str, each)), np.array(place)) for place, each in numbers.items()]
-
-
-def _promise(addition: PlanAddition) -> str:
-    return (
-        f"{addition.title}, about {addition.minutes:.0f} minutes: {addition.named} could be named"
-    )
-
-
-def _draw_numbers(
-    axis: Axes, numbered: Sequence[tuple[str, np.ndarray]], sheet: tuple[float, float]
-) -> None:
-    if not numbered:
-        return
-    places = np.array([place for _, place in numbered])
-    axis.plot(*places.T, "D", color=GOOD, markersize=7, markeredgecolor="white", zorder=4)
-    # Two places of an addition next to each other share its number.
-    spots = spots_of(Panel("", places, 0 * places, names=tuple(said for said, _ in numbered)))
-    scale = Scale.of([spots], sheet)
-    inch = WIDTH / around(sheet).width
-    write_beside(axis, spots, spots.names, scale, size=NUMBER, inch=inch, weight="bold", color=GOOD)

@@ -7,7 +7,8 @@ parameters it is the root of their squares, so no sign or mixture of them is pre
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import math
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Annotated
 
@@ -23,7 +24,9 @@ from plumb.diagnosis.sizes import hidden_share
 from plumb.fit.inputs import Stated
 from plumb.fit.observations import different_numbers, model_and_observations
 from plumb.fit.problem import PRIORS
-from plumb.marks.read import Measurements
+from plumb.grid.options import APPROACH
+from plumb.grid.pattern import Touch
+from plumb.marks.read import Distance, Mark, Measurements
 from plumb.model.catalogue import effect_names, parameter_words
 from plumb.model.plain import ranked
 from plumb.plan.case import Case, Planned, hidden_hypotheses
@@ -101,8 +104,7 @@ class Preview:
     # (e, e) [sigmas] of the row beyond frame and column; diagonal: beyond the frame
     matrix: Annotated[Matrix, key("snr")]
     outlines: tuple[Outline, ...]  # in the order of the effects
-    additions: tuple[PlanAddition, ...]  # best first
-    targets: Internal[Array]  # (k, 2) [mm]
+    additions: Internal[tuple[PlanAddition, ...]]  # best first
 
     @computed_field
     @property
@@ -151,8 +153,22 @@ def preview(
         matrix=matrix,
         outlines=tuple(_outline(frame, i, matrix) for i in range(len(names))),
         additions=() if is_quick else _additions(case),
-        targets=rows.targets,
     )
+
+
+def as_read(touches: Sequence[Touch], spans: Sequence[tuple[str, str]]) -> Measurements:
+    """Return a plan as if all were read just where it was sent; `spans`: marks between which a tape
+    is laid, and then nothing else is read.
+    """
+    sent = {touch.name: (touch.x, touch.y) for touch in touches}
+    places = ((touch.name, (touch.x, touch.y)) for touch in touches)
+    marks = tuple(
+        Mark(name, place, None if spans else place, approach=APPROACH) for name, place in places
+    )
+    distances = tuple(
+        Distance((first, second), math.dist(sent[first], sent[second])) for first, second in spans
+    )
+    return Measurements(marks, distances=distances, source="the plan")
 
 
 def _as_planned(

@@ -28,6 +28,7 @@ QUESTIONS = (
     ("bench", "--scenario", "none-9", "one-9", "--boards", "1"),
     ("calibrate", *BOARD),
     ("calibrate", *BOARD, *TAPE, *CLIENT),
+    ("calibrate", "kept/machine.toml", "kept/check.toml"),
     ("check", EXAMPLE / "pocket.nc", INI),
     ("check", EXAMPLE / "pocket.nc", INI, "--marks", EXAMPLE / "marks.toml"),
     ("compare", *BOARD),
@@ -36,30 +37,26 @@ QUESTIONS = (
     ("diagnose", *BOARD),
     ("diagnose", *SLIPPED),
     ("diagnose", *BOARD, "--sigma", "5"),
-    ("diary", "kept"),
     ("effects",),
     ("forward", INI, "--lengths", "pairs.csv"),
     ("grid", *GRID),
+    ("grid", *GRID, "--settings", INI, "--details"),
     ("grid", *GRID, "--output", "grid.nc", "--marks", "form.toml"),
-    ("home", "kept.toml", "--keep=low=0,-400", "-o", "hole.nc"),
-    ("home", "kept.toml", "--at", "left", "--touch=right:903,-250"),
+    ("recover", "kept.toml", "--keep=low=0,-400", "-o", "hole.nc"),
+    ("recover", "kept.toml", "--at", "left", "--touch=right:903,-250"),
     ("inverse", INI, "--points", "pairs.csv", "--controller", "plumb"),
     ("next", *BOARD),
     ("next", *BOARD, *TAPE),
     ("next", *SLIPPED),
     ("next", *BOARD, "--sigma", "5", "--marks", "form.toml"),
     ("practice", "reveal", ".", TOML),
-    ("preview", INI, *GRID),
     ("reach", INI),
     ("read",),
-    ("recheck", "kept/machine.toml", "--touch=-900,250:-900,250", "--touch=900,-250:905,-250"),
-    ("recheck", TOML, BOARD[1], "--check", "kept/marks.toml"),
     ("report", *BOARD, "-o", "report.html"),
     ("report", *SLIPPED, "-o", "report.html"),
     ("settings", TOML),
-    ("slip", TOML, "--touch=-900,250:-895.4,253.7", "--touch=900,-250:897.9,-246.5"),
-    ("slip", TOML, "--touch=0,0:5,5"),
-    ("telemetry", EXAMPLE / "client.log"),
+    ("recover", TOML, "--touch=-900,250:-895.4,253.7", "--touch=900,-250:897.9,-246.5"),
+    ("recover", TOML, "--touch=0,0:5,5"),
 )
 
 HOME = (
@@ -124,7 +121,11 @@ def folder(tmp_path, monkeypatch):
     (tmp_path / "home.toml").write_text(HOME)
     (tmp_path / "kept").mkdir()
     (tmp_path / "kept/machine.toml").write_text(TOML.read_text())
-    (tmp_path / "kept/marks.toml").write_bytes(Path(BOARD[1]).read_bytes())
+    (tmp_path / "kept/check.toml").write_text(
+        'frame = "machine"\ncut_with = "machine.toml"\n'
+        '[[mark]]\nname = "1"\ntarget = [-900, 250]\nmeasured = [-900, 250]\n'
+        '[[mark]]\nname = "2"\ntarget = [900, -250]\nmeasured = [905, -250]\n'
+    )
     append(tmp_path / "kept", "fit", {**FIT, "settings": TOML.read_text()})
     (tmp_path / "pairs.csv").write_text("1700,1700\n0,0\n9000,100\n")
     monkeypatch.setattr(read_command, "port_for", str)
@@ -163,7 +164,7 @@ def test_the_schema_is_a_schema():
 
 
 # They write a file, serve, or talk; the tests of their rooms hold their answers to the schema.
-ASKED_ELSEWHERE = {"send", "guide", "resume", "vm"}
+ASKED_ELSEWHERE = {"send", "resume", "vm"}
 
 
 def test_every_command_with_json_is_asked():

@@ -1,4 +1,4 @@
-"""`plumb next`, `plumb preview` and --checked: what they print, write and refuse."""
+"""`plumb next`, `plumb grid --details` and --checked: what they print, write and refuse."""
 
 import dataclasses
 import os
@@ -138,49 +138,32 @@ def test_marks_that_were_read_are_never_overwritten(run, file, maker):
     assert code == 2 and "is read here and kept" in complaint and path.read_bytes() == before
 
 
-def test_a_grid_is_previewed_before_it_is_cut(ask, run, maker, tmp_path):
-    picture = tmp_path / "preview.png"
-    code, answer = ask("preview", maker, "--preset", "twenty-five", "--picture", picture)
-    assert code == 0 and picture.read_bytes().startswith(b"\x89PNG")
-    cells = np.array(answer["snr"])
-    assert cells.shape == (len(answer["effects"]),) * 2
-    # Nothing is seen better with another effect than without it.
-    assert (cells <= np.diag(cells)[:, np.newaxis] * (1 + 1e-3) + 1e-6).all()
-    sag = answer["effects"].index("chain_sag")
-    assert cells[sag, sag] > 5 > cells[sag, answer["effects"].index("frame_lean")]
-    command = {each["effect"]: each for each in answer["outlines"]}
-    assert command["motor_level"]["hidden_share"] > 0.95
-    assert "frame_lean" in command["chain_sag"]["alike"]
-    assert answer["additions"][0]["named"] > answer["named"]
-    code, said, _ = run("preview", maker, "--preset", "twenty-five")
-    assert code == 0 and "Best addition" in said and "could be named" in said
-    # A command to copy keeps its file's name in one piece.
-    assert max(len(line) for line in said.splitlines() if not line.startswith("  ")) <= 80
-
-
-def test_what_grid_writes_is_a_plan(run, ask, maker, tmp_path):
-    form = tmp_path / "marks.toml"
-    run("grid", "--preset", "fifteen", "--marks", form, "--output", tmp_path / "grid.nc")
-    code, answer = ask("preview", maker, form)
-    assert code == 0
-    _, grid_itself = ask("preview", maker, "--preset", "fifteen")
-    assert answer["marks"] == grid_itself["marks"]
-    assert np.allclose(answer["snr"], grid_itself["snr"], rtol=1e-2, atol=0.02)
+def test_a_grid_says_what_its_marks_could_tell_before_it_is_cut(ask, run, maker, tmp_path):
+    details = ("grid", "--settings", maker, "--preset", "twenty-five", "--details")
+    answer = ask(*details)[1]["details"]
+    outlines = {each["effect"]: each for each in answer["outlines"]}
+    assert answer["marks"] == 25 and outlines["motor_level"]["hidden_share"] > 0.95
+    assert "frame_lean" in outlines["chain_sag"]["alike"]
+    code, said, _ = run(*details)
+    assert code == 0 and said.startswith("25 marks read to 0.50 mm: of 13 causes in their usual")
+    assert "found from" in said and max(map(len, said.splitlines())) <= 80
+    code, with_file, _ = run(*details, "--output", tmp_path / "grid.nc")
+    assert code == 0 and with_file.endswith(said) and (tmp_path / "grid.nc").exists()
+    taped = ask("grid", "--settings", maker, "--preset", "distances", "--details")[1]["details"]
+    assert (taped["marks"], taped["distances"]) == (0, 12)
+    assert ask("grid", "--preset", "nine")[1]["details"] is None
 
 
 @pytest.mark.parametrize(
     ("options", "complaint"),
     [
-        (["--preset", "ten"], "--preset"),
-        ([MARKS, "--preset", "nine"], "--preset is of a grid"),
-        (["--margin", "0"], "margin"),
-        (["nowhere.toml"], "nowhere.toml"),
-        (["--sigma", "-1"], "sigma"),
-        (["--picture", "x.gif"], "x.gif"),
+        (["--details"], "--details is of a machine: give its --settings too"),
+        (["--details", "--settings", "nowhere.toml"], "nowhere.toml"),
+        (["--details", "--settings", SETTINGS, "--margin", "0"], "margin"),
     ],
 )
-def test_preview_refuses_in_one_line(run, maker, options, complaint):
-    code, said, refused = run("preview", maker, *options)
+def test_details_of_a_grid_are_refused_in_one_line(run, options, complaint):
+    code, said, refused = run("grid", *options)
     assert code == 2 and said == "" and complaint in refused and refused.count("\n") == 1
 
 
@@ -222,7 +205,7 @@ def test_a_form_names_the_settings_that_the_machine_has_now_if_somebody_says_so(
 
 def test_sentences_and_tables_name_effects_as_makers_do(run):
     for words in (
-        ["preview", SETTINGS, "--preset", "nine"],
+        ["grid", "--settings", SETTINGS, "--preset", "nine", "--details"],
         ["next", SETTINGS, MARKS],
         ["add", SETTINGS, MARKS, "--effect", "auto"],
     ):

@@ -20,14 +20,16 @@ SHARED = {
     "__init__",
     "addition",
     "answers",
+    "as_fitted",
     "arguments",
     "demo",
     "followed",
+    "home",
     "inputs",
     "main",
-    "man",
     "output",
     "screen",
+    "slip",
 }
 # What takes longer to load than the help of all commands may take.
 HEAVY = ("numpy", "scipy", "matplotlib")
@@ -50,7 +52,7 @@ def test_a_command_has_its_file_and_its_names(name):
 @pytest.mark.parametrize("name", COMMANDS)
 def test_the_examples_of_the_help_are_understood(name, monkeypatch, capsys, tmp_path):
     """Each file that they name is there; nothing is run."""
-    for file in ("groundcontrol.ini", "machine.toml", "marks.toml", "client.log", "pocket.nc"):
+    for file in ("groundcontrol.ini", "machine.toml", "marks.toml", "pocket.nc"):
         (tmp_path / file).write_bytes((EXAMPLE / file).read_bytes())
     for file in ("first.toml", "check.toml", "places.csv", "lengths.csv", "errors.toml"):
         (tmp_path / file).write_text("")

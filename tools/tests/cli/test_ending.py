@@ -97,7 +97,7 @@ def test_the_command_is_quiet_before_it_looks_for_its_package(tmp_path):
 def test_ctrl_c_ends_quietly(tmp_path):
     pipe = tmp_path / "log"
     os.mkfifo(pipe)
-    command = [*PLUMB, "telemetry", str(pipe)]
+    command = [*PLUMB, "settings", str(pipe)]
     with (
         INTERRUPTIBLE(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as started,
         open(pipe, "wb"),  # opens when the command reads

@@ -48,7 +48,7 @@ def asked(monkeypatch, capsys):
 def test_a_lost_place_is_said_in_the_machines_words_and_no_place_is_shown(asked, lost):
     said = " ".join(asked("Plumb v0.1", lost, "ready").split())
     assert f"The machine does not know where its sled is. It says: {lost}" in said
-    assert "plumb home --at" in said and "B06 or B08" in said and "G10 Z0" in said
+    assert "plumb recover --at" in said and "B06 or B08" in said and "G10 Z0" in said
     assert "The sled is at" not in said
     answer = json.loads(asked("Plumb v0.1", lost, options=["--json"]))
     assert answer["place"] is None and answer["lost"] == lost

@@ -22,14 +22,13 @@ def _no_screen(monkeypatch):
 @pytest.mark.parametrize(
     "command",
     [
-        ("preview", INI),
+        ("grid", "--settings", INI, "--details"),
         ("compare", INI, MARKS),
         ("diagnose", INI, MARKS),
         ("next", INI, MARKS),
         ("add", INI, MARKS, "--effect", "auto", "--patch"),
         ("add", INI, MARKS, "--effect", "sprocket_runout", "frame_flex"),
         ("effects",),
-        ("telemetry", EXAMPLE / "client.log"),
         ("bench", "--scenario", "one-9", "--boards", "1"),
         ("inverse", INI, "--points", EXAMPLE / "places.csv"),
         ("forward", INI, "--lengths", EXAMPLE / "lengths.csv"),

@@ -4,7 +4,7 @@ import argparse
 
 import pytest
 from plumb.cli.arguments import length, place
-from plumb.cli.home import touch
+from plumb.cli.recover import touch
 from plumb.grid.command import add_arguments, from_arguments
 
 

@@ -96,7 +96,6 @@ def lengths_shown(said, unit):
     [
         ["diagnose", INI, MARKS],
         ["add", INI, MARKS, "--effect", "chain_sag", "sled_swing"],
-        ["preview", INI, "--preset", "fifteen"],
         ["reach", INI],
         ["next", INI, MARKS, "--details"],
         ["calibrate", INI, MARKS, "--details"],

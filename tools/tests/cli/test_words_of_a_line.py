@@ -1,10 +1,11 @@
 """Words of a command line: what is no option, no number, no program."""
 
 import codecs
+import re
 from pathlib import Path
 
 import pytest
-from plumb.cli.main import COMMANDS
+from plumb.cli.main import COMMANDS, GONE
 from plumb.settings.files import read_settings
 from plumb.text.files import read_text
 
@@ -29,6 +30,14 @@ JOB, SETTINGS, MARKS = (EXAMPLE / name for name in ("pocket.nc", "groundcontrol.
 def test_a_wrong_word_is_named_and_not_what_stands_behind_it(run, words, says):
     code, out, complaint = run(*words)
     assert code == 2 and out == "" and says in complaint
+
+
+@pytest.mark.parametrize("name", GONE)
+def test_a_command_that_went_says_what_does_it_now(run, name):
+    said = f"there is no command '{name}' any more: {GONE[name]}"
+    assert run(name, "--old-option", "1") == (2, "", f"plumb: {said}\n")
+    commands = re.findall(r"plumb (\w+)", GONE[name])
+    assert name not in COMMANDS and {*commands} <= {*COMMANDS}
 
 
 def test_what_stands_behind_two_dashes_is_no_option(run):
@@ -77,17 +86,6 @@ def test_places_stand_on_the_command_line(ask, tmp_path):
     _, in_file = ask("inverse", SETTINGS, "--points", points)
     code, on_line = ask("inverse", SETTINGS, "100,-50", "-300,20")
     assert code == 0 and on_line == in_file
-
-
-def test_the_manual_has_each_command_with_its_options(run, capsys):
-    with pytest.raises(SystemExit) as end:
-        run("--man")
-    page = capsys.readouterr().out
-    assert end.value.code == 0 and page.startswith(".TH PLUMB 1\n.SH NAME\nplumb \\- Find and")
-    assert all(f"\n.SS plumb {name}\n" in page for name in COMMANDS)
-    assert "\n.TP\n.B \\-\\-bit MM\ndiameter of the bit [what JOB says" in page
-    assert "\n.TP\n.B JOB\na program of G\\-code\n" in page
-    assert "\n.TP\n.B \\-o FILE, \\-\\-output FILE\n" in page and "%(" not in page
 
 
 def test_a_bare_plumb_shows_its_help_and_completion_knows_fish(run, capsys):

@@ -9,9 +9,11 @@ from plumb.cure.add import add
 from plumb.diary.file import (
     FIT,
     NAME,
+    Entry,
     append,
     fit_entry,
     keep,
+    noted,
     numbers_entry,
     program_entry,
     read_diary,
@@ -88,7 +90,6 @@ def test_the_history_shows_errors_and_numbers_over_time(first, tmp_path):
     gap = courses["motor_gap"]
     assert gap.unit == "mm" and len(gap.points) == 2
     assert gap.points[0].low < gap.points[0].value < gap.points[0].high
-    assert gap.change == pytest.approx(gap.points[1].value - gap.points[0].value)
 
 
 def points(*ends):
@@ -124,11 +125,19 @@ def entry_with(**content):
     return {**empty, **errors, **content}
 
 
-def test_the_change_of_a_number_is_from_the_fit_before(tmp_path):
-    for number in points((0, 2), (4, 6), (7, 9)):
-        append(tmp_path, FIT, entry_with(numbers=[number]))
-    (course,) = history_of(read_diary(tmp_path)).courses
-    assert [point.value for point in course.points] == [1, 5, 8] and course.change == 3
+@pytest.mark.parametrize(
+    ("kind", "content", "said"),
+    [
+        ("program", {"program": "a.nc", "whole": True}, "sent a.nc"),
+        ("program", {"program": "a.nc", "whole": False}, "sent a.nc, not to its end"),
+        ("numbers", {"changed": {"$2": [1, 2]}, "machine": "m"}, "1 number changed by m"),
+        ("home", {"mark": "left", "kept": True}, "home mark left kept"),
+        ("home", {"mark": "left", "kept": False}, "home mark left used"),
+        ("slip", {"sentence": "No chain slipped."}, "No chain slipped."),
+    ],
+)
+def test_what_was_done_has_its_words(kind, content, said):
+    assert noted(Entry(kind, FIRST, content)) == said
 
 
 def test_readings_are_marks_and_distances(tmp_path):

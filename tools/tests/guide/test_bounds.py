@@ -5,20 +5,16 @@ from dataclasses import replace
 import pytest
 from plumb.fit.expected import expected_anywhere, expected_priors, expected_sentence
 from plumb.guide.steps import Visit, _judge_mark, show_reach
-from plumb.guide.talk import Progress, Talk, progress_in
+from plumb.guide.talk import Progress, progress_in
 from plumb.settings.toml import machine_toml
+from plumb.text.errors import InputError
+from prepared_owner import PreparedOwner
 from synthetic import BELIEVED
 
 
-def talk_of(*answers):
-    said, left = [], list(answers)
-    return Talk(said.append, lambda question: left.pop(0)), said
-
-
-def test_sizes_outside_of_their_range_are_asked_again():
-    talk, said = talk_of("99", "1", "7", "41", "2", "12,5")
-    assert talk.length("How far", None, 5.0, 10.0) == 7.0 and len(said) == 2
-    assert talk.mass("Weight", 10.0, 3.0, 40.0) == 12.5 and len(said) == 4
+def owner_of(*answers):
+    left = list(answers)
+    return PreparedOwner(lambda question: left.pop(0))
 
 
 def test_a_step_is_kept_once(tmp_path):
@@ -28,6 +24,12 @@ def test_a_step_is_kept_once(tmp_path):
     assert progress_in(tmp_path).done == ["read"]
 
 
+def test_a_damaged_file_is_refused(tmp_path):
+    (tmp_path / "guide.json").write_text('{"done": 3}')
+    with pytest.raises(InputError, match="damaged"):
+        progress_in(tmp_path)
+
+
 # How well a careful owner knows the frame [mm]: little but the height is open.
 SIGMAS = {"motor_height": 10.0, "motor_center_x": 0.1, "motor_gap": 0.1, "rotation_radius": 0.1}
 
@@ -35,18 +37,18 @@ SIGMAS = {"motor_height": 10.0, "motor_center_x": 0.1, "motor_gap": 0.1, "rotati
 @pytest.mark.parametrize(("off", "is_normal"), [(19.0, True), (21.0, False)])
 def test_a_first_mark_twice_as_far_as_expected_is_still_normal(tmp_path, off, is_normal):
     width, height = BELIEVED.sheet
-    talk, said = talk_of(str(width / 2), str(height / 2 + off))
-    visit = Visit(None, talk, Progress(tmp_path, [], SIGMAS))
+    owner = owner_of(str(width / 2), str(height / 2 + off))
+    visit = Visit(None, owner, Progress(tmp_path, [], SIGMAS))
     assert _judge_mark(visit, BELIEVED) is is_normal
-    assert ("is normal" in said[-1]) is is_normal
+    assert ("is normal" in owner.said[-1]) is is_normal
 
 
 def test_the_guide_calls_normal_what_plumb_reach_does(tmp_path):
-    talk, said = talk_of()
+    owner = owner_of()
     (tmp_path / "machine.toml").write_text(machine_toml(BELIEVED))
-    assert show_reach(Visit(None, talk, Progress(tmp_path, [], SIGMAS)))
+    assert show_reach(Visit(None, owner, Progress(tmp_path, [], SIGMAS)))
     expected = expected_anywhere(BELIEVED, expected_priors(SIGMAS))
-    assert said[-1].endswith(expected_sentence(expected))
+    assert owner.said[-1].endswith(expected_sentence(expected))
 
 
 def test_nothing_is_normal_where_no_sled_hangs():

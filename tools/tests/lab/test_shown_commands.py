@@ -9,7 +9,6 @@ import pytest
 from folder import EXAMPLE, choose, compared, finished, got, type_in, with_marks
 from plumb.cli.main import build_parser, main
 from plumb.diagnosis.answer import odds_words
-from scipy.special import chdtri
 
 # A gap that is wrong, so that it changes every fit; a ring that no fit moves unless it is known.
 KNOWN = {
@@ -17,7 +16,6 @@ KNOWN = {
     "rotation_radius": {"value": 141.0, "sigma": 1.0},
     "chain_pitch.left": {"value": 0.004, "sigma": 0.0002},
 }
-PLACES = [[-900, 400], [900, 400], [0, -400]]
 
 
 @pytest.fixture
@@ -118,21 +116,6 @@ def test_a_correction_names_the_file_of_the_client(client):
     assert names() == ["groundcontrol", "--original", "groundcontrol.ini"]
 
 
-@pytest.mark.parametrize("known", [{}, KNOWN], ids=["nothing", "known"])
-def test_the_preview(client, tmp_path, capsys, known):
-    choose(client, known=known, fineness=1.0, layout="fifteen")
-    shown = got(client.post("/api/preview", json={"layout": "fifteen"}))
-    grid, preview = shown["command"].splitlines()
-    assert "marks-2.toml" in grid and "marks-2.toml" in preview  # marks.toml has readings
-    assert main(shlex.split(grid)[1:]) == 0
-    said = said_by(preview, capsys)
-    assert said["sigma_mm"] == pytest.approx(shown["sigma"])
-    assert said["named"] == shown["named"] and said["marks"] == shown["marks"] == 15
-    written = (tmp_path / "marks-2.toml").read_bytes()
-    got(client.post("/api/grid"))
-    assert (tmp_path / "marks-2.toml").read_bytes() == written
-
-
 def test_the_readings(client, capsys, tmp_path):
     choose(client, known=KNOWN)
     arrows, doubts = got(client.get("/api/readings"))["command"].splitlines()
@@ -165,36 +148,23 @@ def test_every_command_is_understood_and_shows_the_chosen_unit(client, tmp_path,
     of_marks = [got(client.get(f"/api/{path}"))["command"] for path in marks]
     bench = got(client.post("/api/bench/fit", json={"effects": ["chain_stretch"]}))
     of_marks.append(bench["command"])
-    others = [got(client.get(f"/api/{path}"))["command"] for path in ("reach", "diary")]
-    plan = got(client.post("/api/preview", json={"layout": "own", "places": PLACES}))
-    others.append(plan["command"])
-    (tmp_path / "marks-2.toml").touch()  # as the plan will be written
+    others = [got(client.get(f"/api/{path}"))["command"] for path in ("reach",)]
     of_marks = "\n".join(of_marks).splitlines()
     for command in "\n".join([*of_marks, *others]).splitlines():
         asked = build_parser().parse_args(shlex.split(command)[1:])
-        if asked.command == "grid":
-            continue  # says no length; its --units are those of the program
         assert (asked.units or (typed if command in of_marks else "mm")) == units, command
 
 
-@pytest.mark.parametrize(
-    ("off", "holds"), [(0.3, True), (0.85, True), (4.0, False)], ids=["near", "between", "far"]
-)
-def test_the_check(client, tmp_path, capsys, off, holds):
-    for name in ("groundcontrol.ini", "machine.toml"):
-        (tmp_path / name).write_bytes((EXAMPLE / name).read_bytes())
-    choose(client, settings="machine.toml", known=KNOWN, units="inch")
+@pytest.mark.parametrize(("off", "holds"), [(0.3, True), (4.0, False)], ids=["near", "far"])
+def test_the_check(client, tmp_path, off, holds):
+    project = got(client.get("/api/project"))
+    finished(client, "correction")
+    read = {"settings": project["files"]["groundcontrol.ini"], "choices": project["choices_digest"]}
+    got(client.post("/api/correction", json=read))
+    choose(client, settings="machine.toml", units="inch")
     got(client.post("/api/check"))
     type_in(client, "check.toml", (0, off))
     shown = got(client.get("/api/check"))
     assert shown["holds"] is holds
-    command = shlex.split(shown["command"])[1:]
-    assert main(command) == int(not holds)
-    assert " ".join(capsys.readouterr().out.split()).startswith(shown["sentence"])
-    said = said_by(shown["command"], capsys)
-    assert said["holds"] is holds
-    within_95_of_100 = said["chi_square"] <= chdtri(2 * len(said["marks"]), 0.05)
-    assert bool(within_95_of_100) is (off < 0.5)
-    for here, there in zip(shown["marks"], said["marks"], strict=True):
-        assert there["expected_mm"] == pytest.approx(here["promised"])
-        assert there["hole"] == pytest.approx(here["measured"])
+    assert shown["command"] == "plumb calibrate machine.toml check.toml --units inch"
+    assert main(shlex.split(shown["command"])[1:]) == int(not holds)

@@ -3,7 +3,7 @@
 import pytest
 from plumb.marks.model import Mark, Measurements
 from plumb.marks.plausible import far_reading
-from plumb.marks.read import join_measurements, read_marks, read_plan
+from plumb.marks.read import join_measurements, read_marks
 from plumb.text.errors import InputError
 
 SHEET = (2440.0, 1220.0)
@@ -71,14 +71,6 @@ def test_the_second_distance_is_called_so(tmp_path):
     path.write_text(f'frame = "machine"\n{good}[[distance]]\nbetween = ["A", "B"]\n')
     with pytest.raises(InputError, match=r"distance.* number 2: mm or inch is missing"):
         read_marks(path, sheet=SHEET)
-
-
-def test_a_planned_repeat_at_another_place_is_another_mark(tmp_path):
-    path = tmp_path / "marks.toml"
-    marks = "".join(f'[[mark]]\nname = "A"\ntarget = [{x}, 5]\nunread = true\n' for x in (0, 0, 25))
-    path.write_text(f'frame = "machine"\n{marks}')
-    names = [mark.name for mark in read_plan(path, sheet=SHEET).marks]
-    assert names == ["A", "A", "A at 25/5"]
 
 
 def test_files_of_the_same_name_are_counted_and_their_marks_too():

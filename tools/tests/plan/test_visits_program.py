@@ -4,8 +4,8 @@ import dataclasses
 
 import numpy as np
 import pytest
+from plumb.marks.form import read_form
 from plumb.marks.model import Mark
-from plumb.marks.read import read_plan
 from plumb.plan.planned_visits import (
     joined,
     marks_file,
@@ -59,7 +59,7 @@ def test_a_form_keeps_place_side_weight_and_swap(file, swapped):
         swapped=swapped,
     )
     text = marks_file(visits, sheet=BELIEVED.sheet, controller="plumb", said=("Four marks.",))
-    read = read_plan(file("form.toml", text), sheet=BELIEVED.sheet)
+    read = read_form(file("form.toml", text), sheet=BELIEVED.sheet).measurements
     assert read.controller == "plumb" and len(read.marks) == 2
     for mark, target, side in zip(read.marks, targets, sides, strict=True):
         assert mark.target == pytest.approx(tuple(target), abs=0.001)

@@ -12,7 +12,7 @@ from preloaded import preloaded
 PAGES = pages()
 # Their commands drive a machine, or fit and draw much. Those of README are run by
 # cli/test_client_files.py too.
-COMMANDS = ("bench", "calibrate", "guide", "home", "lab", "next", "practice", "report", "send")
+COMMANDS = ("bench", "calibrate", "lab", "next", "practice", "recover", "report", "send")
 LONG = {"README.md", *(f"docs/commands/{name}.md" for name in COMMANDS)}
 
 

@@ -120,8 +120,8 @@ def test_the_printed_command_brings_a_lost_place_back(served, tmp_path):
     lost = plumb("read", "--port", "maslow", folder=tmp_path)
     assert "does not know where its sled is" in lost and "B06 or B08" in lost
     assert "plumb send 'B06 ...' 'G10 Z0'" in " ".join(lost.split())
-    plumb("home", "machine.toml", "--keep=left=-900,250", "-o", "left.nc", folder=tmp_path)
-    said = plumb("home", "machine.toml", "--at", "left", folder=tmp_path)
+    plumb("recover", "machine.toml", "--keep=left=-900,250", "-o", "left.nc", folder=tmp_path)
+    said = plumb("recover", "machine.toml", "--at", "left", folder=tmp_path)
     z_known, all_lost = re.findall(r"^  plumb (send .*)$", said, re.MULTILINE)
     assert all_lost == f"{z_known} 'G10 Z0'"
     for command, back in ((z_known, False), (all_lost, True)):

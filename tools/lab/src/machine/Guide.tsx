@@ -1,4 +1,4 @@
-// A machine's first day, step by step, by the steps of plumb guide; each can be left and taken up again.
+// A machine's first day, step by step; each can be left and taken up again.
 import { useEffect } from "preact/hooks";
 import type { Schemas } from "../api/client";
 import { Refusal } from "../shell/doing";

@@ -26,7 +26,6 @@ export function Diary() {
       <Screen
         title="The diary"
         say="Each correction that you write, and what you send to the machine, is noted here by itself. Nothing is noted yet."
-        command={diary.command}
         act={save}
       />
     );
@@ -35,7 +34,6 @@ export function Diary() {
     <Screen
       title="The diary"
       say="Each correction with its error, and how the numbers went. A number that moved by more than its interval says that the machine has changed."
-      command={diary.command}
       act={save}
     >
       {rounds.length > 0 && <Errors rounds={rounds} units={units} />}

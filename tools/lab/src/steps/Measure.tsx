@@ -39,7 +39,7 @@ export function Measure() {
       title="Which marks?"
       say="Drag a mark, or tap the sheet to add a mark. Nothing is cut yet."
       why={<Why />}
-      command={plan?.command ?? `plumb preview ${project.choices.settings} marks.toml`}
+      command={plan?.command ?? `plumb grid --settings ${project.choices.settings} --details`}
       stage={
         <>
           <MarksMap

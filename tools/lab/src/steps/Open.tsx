@@ -34,7 +34,7 @@ export function Open() {
           cuts, right or wrong: your marks show how wrong.
         </p>
       }
-      command={connected && guide.guide ? `${read}\n${guide.guide.command}` : read}
+      command={read}
       stage={machine && <Opened machine={machine} />}
       fieldsFirst={!!guide.guide?.here}
       act={first && <BeginStep {...guide} />}

@@ -23,9 +23,7 @@ from plumb.lab.rounds import (
     cut_commands,
     inputs_of,
     kept_settings,
-    known_words,
     planned,
-    read_names,
     refuse_unreachable,
     round_files,
     unit_words,
@@ -176,8 +174,7 @@ def _command(project: Project, inputs: Inputs, form: str) -> str:
     """Return the same in a terminal: what the fit promises of the check marks that were read."""
     choices = project.choices
     unit = unit_words(choices, inputs.measurements.typed.unit)
-    board = [choices.settings, *read_names(project, _promising(project), choices)]
-    return command("recheck", *board, "--check", form, *known_words(choices), *unit)
+    return command("calibrate", choices.settings, form, *unit)
 
 
 def _made(project: Project, number: str, plan: Planned | None) -> str:

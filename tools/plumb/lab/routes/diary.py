@@ -9,7 +9,6 @@ from pydantic import BaseModel
 
 from plumb.diary.file import FIT, Diary, noted, read_diary
 from plumb.diary.history import Course, DiaryFit, history_of
-from plumb.lab.rounds import command, unit_words
 from plumb.lab.routes.project import TheProject
 from plumb.model.plain import plain_change, plainly
 from plumb.text.values import shown_in
@@ -58,23 +57,20 @@ class DiaryAnswer(BaseModel):
     courses: list[NumberCourse]
     others: list[Noted]
     spoilt: int  # lines that cannot be read
-    command: str
 
 
 @router.get("/diary")
 def show_diary(project: TheProject) -> DiaryAnswer:
     """Return the diary of the folder."""
-    choices = project.choices
     diary = read_diary(project.folder)
     history = history_of(diary)
-    with shown_in(choices.units):
+    with shown_in(project.choices.units):
         courses = [_course(course) for course in history.courses]
     return DiaryAnswer(
         rounds=[Round(fit=fit, said=plainly(fit.effects)) for fit in history.fits],
         courses=courses,
         others=_others(diary),
         spoilt=len(diary.spoilt),
-        command=command("diary", *unit_words(choices)),
     )
 
 

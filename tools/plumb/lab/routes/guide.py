@@ -1,4 +1,4 @@
-"""A machine's first day on the page, by the steps of `plumb guide`; the folder keeps how far."""
+"""A machine's first day on the page, step by step; the folder keeps how far."""
 
 from __future__ import annotations
 
@@ -14,7 +14,6 @@ from plumb.guide.talk import progress_in
 from plumb.lab.guide_desk import GuideDesk, Question
 from plumb.lab.machine_line import MachineLine, TheLine
 from plumb.lab.project import Choices, Number, Project, save_choices
-from plumb.lab.rounds import command
 from plumb.lab.routes.project import TheProject
 from plumb.text.errors import InputError
 
@@ -38,7 +37,6 @@ class GuideAnswer(BaseModel):
     said: list[str]
     question: Question | None
     trouble: str
-    command: str
 
 
 class Beginning(BaseModel):
@@ -67,8 +65,6 @@ Desk = Annotated[GuideDesk, Depends(_desk)]
 def show_guide(project: TheProject, desk: Desk) -> GuideAnswer:
     """Return how far the guide is, and what it asks now."""
     done = progress_in(project.folder).done
-    choices = project.choices
-    units = ["--units", choices.units] if choices.units != "mm" else []
     return GuideAnswer(
         steps=[
             GuideStep(name=step.name, title=step.title, done=step.name in done) for step in STEPS
@@ -78,7 +74,6 @@ def show_guide(project: TheProject, desk: Desk) -> GuideAnswer:
         said=list(desk.said),
         question=desk.question,
         trouble=desk.trouble,
-        command=command("guide", ".", *units),
     )
 
 

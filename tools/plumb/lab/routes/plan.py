@@ -12,11 +12,10 @@ from pydantic import BaseModel, Field
 
 from plumb.fit.expected import Expected, expected_anywhere, expected_priors, expected_sentence
 from plumb.lab.known import measured_to, planned_priors, possible
-from plumb.lab.project import Choices, Layout, Project
+from plumb.lab.project import Choices, Layout
 from plumb.lab.rounds import (
     TITLES,
     Place,
-    Planned,
     command,
     grid_command,
     next_names,
@@ -31,7 +30,7 @@ from plumb.marks.model import tape_sigma
 from plumb.model.plain import noun_of
 from plumb.model.predict import REACH_WORDS
 from plumb.model.reach import Give, Pull, Survey, conclusion_of, percent, survey_sheet
-from plumb.plan.preview import APART, PlanAddition, Preview, preview
+from plumb.plan.preview import APART, PlanAddition, Preview, as_read, preview
 from plumb.settings.machine import MachineSettings
 from plumb.text.errors import InputError
 from plumb.text.values import shown_in, worded
@@ -224,9 +223,8 @@ def _look(
     is_quick: bool,
 ) -> Preview:
     plan = planned(same.settings, layout, places)
-    return preview(
-        same.settings, plan.as_measured(), sigma=sigma, priors=dict(priors), is_quick=is_quick
-    )
+    marks = as_read(plan.touches, plan.spans)
+    return preview(same.settings, marks, sigma=sigma, priors=dict(priors), is_quick=is_quick)
 
 
 DESK, SLOW_DESK = Desk(), Desk()  # what takes seconds holds up nobody who drags a mark
@@ -239,6 +237,8 @@ def preview_plan(request: PlanRequest, project: TheProject) -> PlanAnswer:
     choices = project.choices
     plan = planned(settings, request.layout, request.places)
     outlook = DESK.look(settings, choices, request, is_quick=True)
+    form, file = next_names(project)
+    made = grid_command(project, possible(choices, settings), plan, form=form, program=file)
     return PlanAnswer(
         marks=len(plan.touches),
         distances=len(plan.spans),
@@ -249,19 +249,8 @@ def preview_plan(request: PlanRequest, project: TheProject) -> PlanAnswer:
         named=outlook.named,
         apart=APART,
         trouble=_trouble(settings, request),
-        command=_command(project, possible(choices, settings), plan, outlook.sigma),
+        command=made,
     )
-
-
-def _command(project: Project, choices: Choices, plan: Planned, sigma: float) -> str:
-    """Return the form, and what its marks could tell."""
-    form, file = next_names(project)
-    made = grid_command(project, choices, plan, form=form, program=file)
-    looked = command(
-        *("preview", choices.settings, form, "--sigma", f"{sigma:.12g}"),
-        *(*prior_words(planned_priors(choices)), *unit_words(choices)),
-    )
-    return f"{made}\n{looked}"
 
 
 @router.post("/preview/additions")

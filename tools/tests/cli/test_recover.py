@@ -1,4 +1,4 @@
-"""`plumb slip` and `plumb home`: the repair that they write, and what they refuse."""
+"""`plumb recover`: home marks, slipped chains, the repair that it writes, and what it refuses."""
 
 import subprocess
 import sys
@@ -21,7 +21,7 @@ def folder(tmp_path, monkeypatch):
 
 
 def test_a_slip_is_named_and_its_repair_written(run, folder):
-    code, said, _ = run("slip", "machine.toml", *SLIPPED, "-o", "repair.nc")
+    code, said, _ = run("recover", "machine.toml", *SLIPPED, "-o", "repair.nc")
     assert code == 1
     assert said.startswith("The left chain is 1 link (6.35 mm) longer than the machine believes")
     comment, line = (folder / "repair.nc").read_text().splitlines()
@@ -30,7 +30,7 @@ def test_a_slip_is_named_and_its_repair_written(run, folder):
 
 
 def test_marks_that_six_commands_keep_at_once_are_all_kept(folder):
-    command = [sys.executable, "-m", "plumb.cli.start", "home", "machine.toml"]
+    command = [sys.executable, "-m", "plumb.cli.start", "recover", "machine.toml"]
     begun = [
         subprocess.Popen([*command, f"--keep=m{i}=0,{100 * i}"], stdout=subprocess.DEVNULL)
         for i in range(6)
@@ -41,7 +41,7 @@ def test_marks_that_six_commands_keep_at_once_are_all_kept(folder):
 
 
 def test_touches_odds_and_the_line_are_said(run):
-    said = run("slip", "machine.toml", *SLIPPED)[1]
+    said = run("recover", "machine.toml", *SLIPPED)[1]
     rows = [line.split() for line in said.splitlines() if line.startswith(("1 ", "2 "))]
     assert rows[0][1:7] == ["-900.0,", "250.0", "-902.4,", "256.1", "+2.40,", "-6.10"]
     assert rows[1][1:7] == ["900.0,", "-250.0", "894.5,", "-247.1", "+5.50,", "-2.90"]
@@ -49,47 +49,47 @@ def test_touches_odds_and_the_line_are_said(run):
     assert "a slip, links: left +1  > 99.9 %" in said
     line = next(each for each in said.splitlines() if each.startswith("  plumb send "))
     assert line == "  plumb send 'B06 L2589.564 R1315.333'"
-    said = run("slip", "machine.toml", "--touch=0,0:5,5", "--sigma", "3")[1]
+    said = run("recover", "machine.toml", "--touch=0,0:5,5", "--sigma", "3")[1]
     shown = said[said.index("what may have happened") : said.index("Touch another")]
     odds = [each.split()[-2] for each in shown.splitlines() if each.endswith(" %")]
     assert len(odds) == 4 and all(0 < float(each) < 99 for each in odds)
 
 
 def test_where_nothing_slipped_there_is_nothing_to_repair(run, folder):
-    code, said, _ = run("slip", "machine.toml", *STILL, "-o", "repair.nc")
+    code, said, _ = run("recover", "machine.toml", *STILL, "-o", "repair.nc")
     assert code == 0 and said.startswith("No chain slipped")
     assert "B06" not in said and not (folder / "repair.nc").exists()
 
 
 def test_a_single_hole_asks_for_another(run, ask):
-    code, said, _ = run("slip", "machine.toml", SLIPPED[0])
+    code, said, _ = run("recover", "machine.toml", SLIPPED[0])
     assert code == 1 and "cannot tell" in said
-    x, y = ask("slip", "machine.toml", SLIPPED[0])[1]["touch_next"]
+    x, y = ask("recover", "machine.toml", SLIPPED[0])[1]["touch_next"]
     assert f"Touch another hole near {x}, {y}, where the likeliest" in said
-    assert ask("slip", "machine.toml", *SLIPPED)[1]["touch_next"] is None
-    code, said, _ = run("slip", "machine.toml", SLIPPED[0], "--fixed")
+    assert ask("recover", "machine.toml", *SLIPPED)[1]["touch_next"] is None
+    code, said, _ = run("recover", "machine.toml", SLIPPED[0], "--fixed")
     assert code == 1 and said.startswith("The left chain is 1 link")
 
 
 def test_the_same_hole_again_is_no_proof(run):
-    code, said, error = run("slip", "machine.toml", SLIPPED[0], SLIPPED[0])
+    code, said, error = run("recover", "machine.toml", SLIPPED[0], SLIPPED[0])
     assert code == 2 and said == ""
     assert "touch 2 is touch 1 again; touch another hole far from it" in error
-    run("home", "machine.toml", "--keep=left=-900,250")
+    run("recover", "machine.toml", "--keep=left=-900,250")
     again = "--touch=left:-902.1,256"
-    code, _, error = run("slip", "machine.toml", SLIPPED[1], SLIPPED[0], again)
+    code, _, error = run("recover", "machine.toml", SLIPPED[1], SLIPPED[0], again)
     assert code == 2 and "touch 3 is touch 2 again" in error
-    code, said, _ = run("slip", "machine.toml", SLIPPED[0], "--touch=-880,250:-882.4,256.1")
+    code, said, _ = run("recover", "machine.toml", SLIPPED[0], "--touch=-880,250:-882.4,256.1")
     assert code == 1 and "cannot tell" in said, "holes so near err alike"
-    run("home", "machine.toml", "--keep=right=900,-250")
+    run("recover", "machine.toml", "--keep=right=900,-250")
     twice = ("--touch=right:900,-250", "--touch=right:900,-250")
-    assert run("home", "machine.toml", "--at", "left", *twice)[0] == 2
+    assert run("recover", "machine.toml", "--at", "left", *twice)[0] == 2
 
 
 def test_a_program_of_ours_is_replaced_and_no_other(run, folder):
-    keeping = ("home", "machine.toml", "--keep=left=-900,250", "-o", "left.nc")
-    restoring = ("home", "machine.toml", "--at", "left", "-o", "back.nc")
-    repairing = ("slip", "machine.toml", *SLIPPED, "-o", "repair.nc")
+    keeping = ("recover", "machine.toml", "--keep=left=-900,250", "-o", "left.nc")
+    restoring = ("recover", "machine.toml", "--at", "left", "-o", "back.nc")
+    repairing = ("recover", "machine.toml", *SLIPPED, "-o", "repair.nc")
     for words, code in ((keeping, 0), (restoring, 0), (repairing, 1)):
         assert [run(*words)[0] for _ in range(2)] == [code, code], words
         (folder / words[-1]).write_text("G21\nG90\n")
@@ -98,19 +98,19 @@ def test_a_program_of_ours_is_replaced_and_no_other(run, folder):
 
 def test_a_lost_minus_is_no_sound_machine(run):
     lost = "--touch=-900,250:902.4,256.1"
-    code, said, _ = run("slip", "machine.toml", lost)
+    code, said, _ = run("recover", "machine.toml", lost)
     assert code == 1 and "Touch 1: has x lost its sign?" in said
-    assert "lost its sign" not in run("slip", "machine.toml", *SLIPPED)[1]
-    said = run("slip", "machine.toml", SLIPPED[1], "--touch=-900,-250:-902.4,256.1")[1]
+    assert "lost its sign" not in run("recover", "machine.toml", *SLIPPED)[1]
+    said = run("recover", "machine.toml", SLIPPED[1], "--touch=-900,-250:-902.4,256.1")[1]
     assert "Touch 2: has y lost its sign?" in said
-    code, said, _ = run("slip", "machine.toml", "--touch=-900,250:-300,400", "--touch=0,0:9,250")
+    code, said, _ = run("recover", "machine.toml", "--touch=-900,250:-300,400", "--touch=0,0:9,250")
     assert code == 1 and "lost its sign" not in said, "far away by either sign"
 
 
 def test_a_home_mark_is_not_held_against_itself(run):
     for kept in ("left=-900,250", "twin=-899,252", "right=900,-250"):
-        run("home", "machine.toml", f"--keep={kept}")
-    restored = ("home", "machine.toml", "--at", "left")
+        run("recover", "machine.toml", f"--keep={kept}")
+    restored = ("recover", "machine.toml", "--at", "left")
     for name in ("left", "twin"):
         code, said, error = run(*restored, f"--touch={name}:-900,250")
         assert code == 2 and said == ""
@@ -124,60 +124,60 @@ def test_a_home_mark_is_not_held_against_itself(run):
 
 def test_both_chains_are_said_in_a_sentence(ask):
     touched = ("--touch=-900,250:-902.4,256.1", "--fixed")
-    _, left = ask("slip", "machine.toml", *touched)
+    _, left = ask("recover", "machine.toml", *touched)
     assert left["accounts"][0]["links"] == [1, 0]
-    _, answer = ask("slip", "machine.toml", "--touch=-900,250:-896.6,260.2", "--fixed")
+    _, answer = ask("recover", "machine.toml", "--touch=-900,250:-896.6,260.2", "--fixed")
     assert answer["accounts"][0]["links"] == [1, 1]
     assert "and the right chain is 1 link" in answer["sentence"]
     assert "both slipped on their sprockets" in answer["sentence"]
 
 
 def test_a_home_mark_goes_by_its_name(ask):
-    ask("home", "machine.toml", "--keep=left=-900,250")
-    _, answer = ask("slip", "machine.toml", "--touch=left:-902.4,256.1", SLIPPED[1])
+    ask("recover", "machine.toml", "--keep=left=-900,250")
+    _, answer = ask("recover", "machine.toml", "--touch=left:-902.4,256.1", SLIPPED[1])
     assert answer["touches"][0]["name"] == "left" and answer["verdict"] == "slip"
 
 
 def test_home_marks_are_kept_listed_and_restored(run, ask, folder):
-    assert "no home mark yet" in run("home", "machine.toml")[1]
-    code, said, _ = run("home", "machine.toml", "--keep=left=-900,250", "-o", "left.nc")
+    assert "no home mark yet" in run("recover", "machine.toml")[1]
+    code, said, _ = run("recover", "machine.toml", "--keep=left=-900,250", "-o", "left.nc")
     assert code == 0 and said.count("-900.00, 250.00") == 1
     program = (folder / "left.nc").read_text().splitlines()
     assert program[1:3] == ["G21", "G90"] and program[-3].startswith("G1 X-900.000 Y250.000")
-    run("home", "machine.toml", "--keep=right=900,-250")
-    _, answer = ask("home", "machine.toml")
+    run("recover", "machine.toml", "--keep=right=900,-250")
+    _, answer = ask("recover", "machine.toml")
     assert [mark["name"] for mark in answer["marks"]] == ["left", "right"]
     text = (folder / "home.toml").read_text()
     (folder / "home.toml").write_text(text.replace("[900.0, -250.0]", "[899.0, -250.0]"))
-    right = ask("home", "machine.toml")[1]["marks"][1]
+    right = ask("recover", "machine.toml")[1]["marks"][1]
     assert right["place"] == pytest.approx([900, -250]) and right["kept_place"] == [899, -250]
     chains = answer["marks"][0]["chains"]
-    code, said, _ = run("home", "machine.toml", "--at", "left", "-o", "restore.nc")
+    code, said, _ = run("recover", "machine.toml", "--at", "left", "-o", "restore.nc")
     assert code == 0
     line = (folder / "restore.nc").read_text().splitlines()[-1]
     assert line == f"B06 L{chains[0]:.3f} R{chains[1]:.3f}"
     assert f"send {line}, and the machine shows -900.00, 250.00." in " ".join(said.split())
-    listed = run("home", "machine.toml")[1].splitlines()
+    listed = run("recover", "machine.toml")[1].splitlines()
     assert f"L{chains[0]:.3f} R{chains[1]:.3f}" in listed[1]
-    said = " ".join(run("home", "machine.toml", "--keep=low=0,-400")[1].split())
+    said = " ".join(run("recover", "machine.toml", "--keep=low=0,-400")[1].split())
     assert "Make the hole with the program, in what cannot move" in said
 
 
 @pytest.mark.parametrize(("shown", "code"), [("900.4,-250.7", 0), ("905.1,-247.2", 1)])
 def test_a_second_mark_fits_or_not(run, shown, code):
-    run("home", "machine.toml", "--keep=left=-900,250")
-    run("home", "machine.toml", "--keep=right=900,-250")
-    done, said, _ = run("home", "machine.toml", "--at", "left", f"--touch=right:{shown}")
+    run("recover", "machine.toml", "--keep=left=-900,250")
+    run("recover", "machine.toml", "--keep=right=900,-250")
+    done, said, _ = run("recover", "machine.toml", "--at", "left", f"--touch=right:{shown}")
     assert done == code and ("does not fit" in said) is bool(code)
 
 
 def test_what_was_done_goes_into_a_diary_that_is_there(run, folder):
-    run("home", "machine.toml", "--keep=left=-900,250")
-    run("slip", "machine.toml", *SLIPPED)
+    run("recover", "machine.toml", "--keep=left=-900,250")
+    run("recover", "machine.toml", *SLIPPED)
     assert read_diary(folder).entries == ()
     append(folder, "fit", {})
-    run("home", "machine.toml", "--at", "left")
-    run("slip", "machine.toml", *SLIPPED)
+    run("recover", "machine.toml", "--at", "left")
+    run("recover", "machine.toml", *SLIPPED)
     (home,), (slip,) = (read_diary(folder).of_kind(kind) for kind in ("home", "slip"))
     assert home.content["mark"] == "left" and not home.content["kept"]
     assert slip.content["verdict"] == "slip"
@@ -186,14 +186,13 @@ def test_what_was_done_goes_into_a_diary_that_is_there(run, folder):
 @pytest.mark.parametrize(
     ("words", "why"),
     [
-        (["slip", "machine.toml"], "no mark was touched"),
-        (["slip", "machine.toml", "--touch=left:0,0"], "no home mark 'left'; there is none yet"),
-        (["slip", "machine.toml", "--touch=0,0:0,9000"], "what the machine shows cannot be"),
-        (["home", "machine.toml", "--at", "left"], "no home mark 'left'"),
-        (["home", "machine.toml", "-o", "a.nc"], "there is no program without --keep or --at"),
-        (["home", "machine.toml", "--touch=a:0,0"], "--touch needs --at"),
-        (["home", "machine.toml", "--keep=a=0,0", "--at", "a"], "--keep goes alone"),
-        (["home", "machine.toml", "--keep=a=0,9000"], "home mark a"),
+        (["recover", "machine.toml", "--fixed"], "--fixed is for touched holes"),
+        (["recover", "machine.toml", "--touch=left:0,0"], "no home mark 'left'; there is none yet"),
+        (["recover", "machine.toml", "--touch=0,0:0,9000"], "what the machine shows cannot be"),
+        (["recover", "machine.toml", "--at", "left"], "no home mark 'left'"),
+        (["recover", "machine.toml", "-o", "a.nc"], "there is no program without --keep or --at"),
+        (["recover", "machine.toml", "--keep=a=0,0", "--at", "a"], "--keep goes alone"),
+        (["recover", "machine.toml", "--keep=a=0,9000"], "home mark a"),
     ],
 )
 def test_what_cannot_be_is_refused(run, folder, words, why):
@@ -207,21 +206,20 @@ def test_what_cannot_be_is_refused(run, folder, words, why):
     ["--touch=0,0", "--touch=:0,0", "--touch=0,0:x,1", "--touch=0,nan:0,0", "--keep=a b=0,0"],
 )
 def test_a_touch_that_is_no_touch_is_refused(run, touch):
-    command = "home" if "keep" in touch else "slip"
-    code, _, error = run(command, "machine.toml", touch)
+    code, _, error = run("recover", "machine.toml", touch)
     assert code == 2 and ("is not" in error or "is no place" in error)
 
 
 def test_a_touch_without_a_name_of_a_home_mark_does_not_fit_one(run):
-    run("home", "machine.toml", "--keep=left=-900,250")
-    code, _, error = run("home", "machine.toml", "--at", "left", "--touch=1,2:3,4")
+    run("recover", "machine.toml", "--keep=left=-900,250")
+    code, _, error = run("recover", "machine.toml", "--at", "left", "--touch=1,2:3,4")
     assert code == 2 and "give the name of a home mark" in error
 
 
 def test_a_hole_on_the_left_half_needs_no_equals_sign(run):
-    wanted = run("slip", "machine.toml", *SLIPPED)
-    assert run("slip", "machine.toml", *(word for each in SLIPPED for word in each.split("="))) == (
-        wanted
-    )
-    kept = run("home", "machine.toml", "--keep", "-900,250")
+    wanted = run("recover", "machine.toml", *SLIPPED)
+    assert run(
+        "recover", "machine.toml", *(word for each in SLIPPED for word in each.split("="))
+    ) == (wanted)
+    kept = run("recover", "machine.toml", "--keep", "-900,250")
     assert kept[0] == 2 and "is not NAME=X,Y" in kept[2]

@@ -1,0 +1,108 @@
+"""`plumb recover`: keeps home marks, brings a lost place back, and repairs a slipped chain."""
+
+from __future__ import annotations
+
+import argparse
+import math
+import re
+
+from plumb.cli import home, slip
+from plumb.cli.arguments import add_force, add_json, add_settings, add_sigma, add_units
+from plumb.job.home import Point
+from plumb.text.errors import InputError
+from plumb.text.values import typed_length
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Keep, restore or list home marks, or weigh what touched holes say; return the exit code."""
+    if arguments.touch and not (arguments.keep or arguments.at):
+        return slip.run(arguments)
+    for option in ("taped", "fixed", "sigma"):
+        if getattr(arguments, option):
+            raise InputError(f"--{option} is for touched holes: give --touch, and no home mark")
+    return home.run(arguments)
+
+
+# The arguments of `plumb recover`.
+
+EXAMPLES = (
+    "plumb recover machine.toml --keep left=-900,250 -o hole.nc",
+    "plumb recover machine.toml --touch=-900,250:-895.4,253.7 --touch=900,-250:897.9,-246.5",
+)
+EXIT = (
+    "Exit: 0 done, or no chain slipped; 1 a chain slipped, the touches cannot tell, no slip "
+    "explains them, or a second home mark does not fit the first; 2 an input cannot be used, and "
+    "nothing was written."
+)
+WORD = re.compile(r"[A-Za-z0-9_-]+")
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the arguments of `plumb recover`."""
+    add_settings(parser)
+    parser.add_argument(
+        "--keep",
+        metavar="NAME=X,Y",
+        type=named_place,
+        help="keep the hole that the machine makes at this place [mm, from the middle of the "
+        "sheet, y up], with both chains there; -o writes the program that makes it",
+    )
+    parser.add_argument(
+        "--at",
+        metavar="NAME",
+        help="the bit is in this home mark: say how long the chains are; -o writes the program "
+        "that sets them",
+    )
+    parser.add_argument(
+        "--touch",
+        metavar="HOLE:SHOWN",
+        action="append",
+        type=touch,
+        default=[],
+        help="a hole with the bit in it, like --touch=-900,250:-896.2,253.1 (x,y of the hole, or "
+        "the name of a home mark; then what the machine shows): with two or more say whether a "
+        "chain slipped; with --at, how well another home mark fits",
+    )
+    parser.add_argument(
+        "--taped",
+        action="store_true",
+        help="the places of the holes were read with a tape [they are where the machine was sent "
+        "when it made them]",
+    )
+    parser.add_argument(
+        "--fixed",
+        action="store_true",
+        help="the holes are in the frame or its board, not in a sheet that can move",
+    )
+    add_sigma(parser, usual="0.5; with --taped what the fit of SETTINGS left, if that is more")
+    parser.add_argument("-o", "--output", metavar="FILE", help="write the program to this file")
+    add_force(parser)
+    add_units(parser)
+    add_json(parser)
+
+
+def named_place(text: str) -> tuple[str, Point]:
+    """Read NAME=X,Y."""
+    name, _, place = text.partition("=")
+    if not WORD.fullmatch(name):
+        raise argparse.ArgumentTypeError(f"'{text}' is not NAME=X,Y, like left=-900,250")
+    return name, point(place)
+
+
+def touch(text: str) -> tuple[str | Point, Point]:
+    """Read HOLE:SHOWN; a hole is a place or a name."""
+    hole, separator, shown = text.rpartition(":")
+    if not (separator and hole):
+        raise argparse.ArgumentTypeError(f"'{text}' is not HOLE:SHOWN, like -900,250:-896.2,253.1")
+    return (point(hole) if "," in hole else hole), point(shown)
+
+
+def point(text: str) -> Point:
+    """Read x,y [mm, from the middle of the sheet, y up], typed in mm or with their units."""
+    try:
+        x, y = map(typed_length, text.split(","))
+    except ValueError:
+        x = y = math.nan
+    if not (math.isfinite(x) and math.isfinite(y)):
+        raise argparse.ArgumentTypeError(f"'{text}' is no place x,y in mm, like -900,250")
+    return x, y

@@ -1,0 +1,36 @@
+"""An owner who answers the guide without a page."""
+
+
+class PreparedOwner:
+    """Answers each question by a function of its text; `said` holds what was said and asked."""
+
+    def __init__(self, answer):
+        self.said, self._answer = [], answer
+
+    def say(self, text):
+        self.said.append(text)
+
+    def _ask(self, question):
+        self.said.append(question)
+        return self._answer(question)
+
+    def agrees(self, what, act):
+        return self._ask(what) == "y"
+
+    def says_yes(self, question):
+        return self._ask(question) == "y"
+
+    def choice(self, question, answers):
+        letter = self._ask(question)
+        assert letter in answers
+        return letter
+
+    def length(self, question, usual, low, high):
+        size = float(self._ask(question))
+        assert low <= size <= high
+        return size
+
+    mass = length
+
+    def turn(self, side, most):
+        return self.length(side, None, -most, most)
