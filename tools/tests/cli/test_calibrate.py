@@ -270,7 +270,6 @@ def test_the_client_that_was_named_counts(run):
     "command",
     [
         ("grid", "--settings", INI, "--output", "grid.nc", "--marks", "cut.toml"),
-        ("preview", INI, "--preset", "nine"),
         ("compare", INI, "marks.toml", "--cut-with", INI),
         ("diagnose", INI, "marks.toml", "--sigma", "0.5", "--prior", "motor_gap=2"),
         ("next", INI, "marks.toml"),
