@@ -21,6 +21,7 @@ from plumb.lab.project import Choices, Number, Project
 from plumb.lab.rounds import in_turn, inputs_of, planned
 from plumb.line.sender import cleaned
 from plumb.model.predict import lengths, places
+from plumb.plan.preview import as_read
 
 
 def test_without_settings_a_line_says_what_is_missing(tmp_path):
@@ -121,22 +122,14 @@ def test_layouts_have_their_marks_and_minutes(client):
     assert layouts["nine"]["places"][0][0] < 0 < layouts["nine"]["places"][0][1]
 
 
-def test_a_plan_tells_what_the_command_tells(client, tmp_path, capsys):
+def test_a_plan_says_which_causes_its_marks_would_show(client):
     answer = got(client.post("/api/preview", json={"layout": "fifteen"}))
-    choose(client, layout="fifteen")
-    got(client.post("/api/grid"))
-    words = answer["command"].splitlines()[-1].split()[1:]
-    assert words[1:3] == ["groundcontrol.ini", "marks.toml"]
-    words[1:3] = [str(tmp_path / name) for name in words[1:3]]
-    main([*words, "--json"])
-    said = json.loads(capsys.readouterr().out)
-    assert answer["marks"] == said["marks"] == 15
-    assert [effect["name"] for effect in answer["effects"]] == said["effects"]
-    seen = [outline["effect"] for outline in said["outlines"] if outline["smallest"] <= 1]
-    assert [effect["name"] for effect in answer["effects"] if effect["is_seen"]] == seen
-    assert 0 < len(seen) < len(said["effects"])
-    assert answer["named"] == said["named"] > 0
-    assert answer["trouble"] == ""
+    seen = [effect["name"] for effect in answer["effects"] if effect["is_seen"]]
+    named = [effect for effect in answer["effects"] if effect["is_seen"] and effect["is_distinct"]]
+    assert answer["marks"] == 15 and answer["trouble"] == ""
+    assert 0 < len(named) == answer["named"] <= len(seen) == answer["seen"]
+    assert answer["seen"] < len(answer["effects"])
+    assert "motor_level" not in seen, "the frame takes it up"
 
 
 def test_more_marks_tell_more(client):
@@ -255,9 +248,9 @@ def test_a_form_of_distances_names_them(client, tmp_path):
     got(client.post("/api/grid"))
     text = (tmp_path / "marks.toml").read_text()
     assert text.count("# [[distance]]") == 12 and '# between = ["1", "9"]' in text
-    plan = planned(MAKER, "distances", ()).as_measured()
-    lengths = {distance.between: distance.length for distance in plan.distances}
-    assert lengths["1", "3"] == pytest.approx(2238.4)
+    plan = planned(MAKER, "distances", ())
+    taped = {each.between: each.length for each in as_read(plan.touches, plan.spans).distances}
+    assert taped["1", "3"] == pytest.approx(2238.4)
 
 
 def test_a_grid_is_not_cut_without_a_machine(client, tmp_path):

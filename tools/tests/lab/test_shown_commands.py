@@ -156,11 +156,9 @@ def test_every_command_is_understood_and_shows_the_chosen_unit(client, tmp_path,
 
 
 @pytest.mark.parametrize(("off", "holds"), [(0.3, True), (4.0, False)], ids=["near", "far"])
-def test_the_check(client, tmp_path, off, holds):
-    project = got(client.get("/api/project"))
-    finished(client, "correction")
-    read = {"settings": project["files"]["groundcontrol.ini"], "choices": project["choices_digest"]}
-    got(client.post("/api/correction", json=read))
+def test_the_check(client, off, holds):
+    fitted = ["groundcontrol.ini", "marks.toml", "--effect", "chain_pitch", "-o", "machine.toml"]
+    assert main(["add", *fitted]) == 0
     choose(client, settings="machine.toml", units="inch")
     got(client.post("/api/check"))
     type_in(client, "check.toml", (0, off))
