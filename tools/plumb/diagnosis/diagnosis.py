@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from plumb.diagnosis.answer import Diagnosis, Fall, Ranked, Together, judge
+from plumb.diagnosis.answer import Diagnosis, Fall, Judgement, Ranked, Together, judge
 from plumb.diagnosis.as_set import is_good
 from plumb.diagnosis.expected_error import left_open
 from plumb.diagnosis.explanation import Explanation, explain, measured_board
@@ -23,19 +23,33 @@ from plumb.model.plain import ranked
 from plumb.text.values import worded
 
 
+@dataclass(frozen=True)
+class Found:
+    """What all that is said of marks goes by: the readings that count, and what explains them."""
+
+    readings: CleanReadings
+    judgement: Judgement
+    best: Explanation  # with the effects to go on with
+
+
+def find(inputs: Inputs) -> Found:
+    """Weigh all accounts of the marks. Raises InputError as diagnose() does."""
+    readings = clean_readings(measured_board(inputs), inputs)
+    judgement = judge(readings, inputs.stated)
+    return Found(readings, judgement, readings.explained(judgement.best))
+
+
 def diagnose(inputs: Inputs) -> Diagnosis:
     """Find what the model of these settings misses in the marks, and in numbers checked directly.
 
     Raises InputError for too few marks, and marks that cannot be reached.
     """
-    board = measured_board(inputs)
-    readings = clean_readings(board, inputs)
-    judgement = judge(readings, inputs.stated)
+    found = find(inputs)
+    readings, judgement, best = found.readings, found.judgement, found.best
     frame, noise = readings.frame, readings.noise
     # Where a field acts, all chances are on that condition; else that nothing else is wrong.
     is_unknown = judgement.verdict == "not_in_library"
     explanations = tuple(readings.explained(each.account) for each in judgement.listed)
-    best = readings.explained(judgement.best)
     doubts = doubts_of(readings, judgement.verdict, best, inputs.measurements.rounds)
     return Diagnosis(
         verdict=judgement.verdict,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from dataclasses import dataclass, replace
 from typing import Annotated
 
@@ -78,6 +79,23 @@ def without(rows: Observations, reading: Reading) -> Observations:
         measured=np.delete(rows.measured, reading.index, axis=0),
         targets=np.delete(rows.targets, reading.index, axis=0),
         names=rows.names[: reading.index] + rows.names[reading.index + 1 :],
+    )
+
+
+def sure_readings(measurements: Measurements, outliers: Collection[Outlier]) -> Measurements:
+    """Return the measurements without these readings; the visits stay."""
+    off = {(outlier.name, outlier.read) for outlier in outliers}
+    return replace(
+        measurements,
+        marks=tuple(
+            replace(mark, measured=None) if (mark.name, mark.measured) in off else mark
+            for mark in measurements.marks
+        ),
+        distances=tuple(
+            each
+            for each in measurements.distances
+            if (" - ".join(each.between), (each.length,)) not in off
+        ),
     )
 
 

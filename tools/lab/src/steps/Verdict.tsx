@@ -62,13 +62,15 @@ export function Verdict() {
       why={<Why noise={verdict.noise} notes={verdict.notes} />}
       command={answer.command}
       stage={
-        verdict.marks.length > 0 && (
+        (verdict.marks.length > 0 || verdict.spans.length > 0) && (
           <Residuals
             marks={verdict.marks}
+            spans={verdict.spans}
             states={verdict.states}
             sigma={verdict.sigma}
             covariates={bench?.covariates}
             doubted={verdict.doubted}
+            doubtedSpans={verdict.doubted_spans}
             drawn={drawn}
             sheet={sheet}
           />
@@ -109,7 +111,9 @@ export function Verdict() {
                 card={card}
                 units={units}
                 isLaid={card.title === laid}
-                lay={() => lay(card.title === laid ? undefined : card.title)}
+                {...(verdict.marks.length > 0
+                  ? { lay: () => lay(card.title === laid ? undefined : card.title) }
+                  : {})}
               />
             ))}
           </div>

@@ -19,7 +19,7 @@ from plumb.fit.compare import ComparedMark, Comparison
 from plumb.fit.expected import plausible_range
 from plumb.lab.background import Background, Progress, key_of
 from plumb.lab.project import Project
-from plumb.lab.residuals import State, as_set, doubted_marks, fitted_state
+from plumb.lab.residuals import Doubts, Span, State, as_set, fitted_state, spans_of
 from plumb.lab.rounds import board_words, command, inputs_of, known_words, unit_words
 from plumb.lab.routes.project import TheProject
 from plumb.model.catalogue import every_effect
@@ -75,7 +75,9 @@ class Verdict(BaseModel):
     sentence: str
     marks: tuple[ComparedMark, ...]
     states: list[State]  # as set, with the frame fitted, with what is added
+    spans: list[Span]
     doubted: list[int]  # marks whose readings are to be looked at again
+    doubted_spans: list[int]
     apart: str  # a sentence, where rivals would cut elsewhere by more than the noise
     sigma: float  # [mm] of a reading
     noise: str  # a sentence
@@ -141,13 +143,15 @@ def verdict_of(inputs: api.Inputs, diagnosis: Diagnosis, auto: AutoAddition) -> 
     """Return a diagnosis as the page shows it."""
     raw = api.compare(inputs)
     shown = list(diagnosis.explanations)[:MOST_CARDS]
-    doubted = doubted_marks(raw, {(slip.name, slip.read) for slip in diagnosis.outliers})
+    doubts = Doubts.of(diagnosis.outliers, raw)
     return Verdict(
         title=_title(auto),
         sentence=diagnosis.sentence,
         marks=raw.marks,
-        states=_states(raw, auto, doubted),
-        doubted=doubted,
+        spans=spans_of(inputs.measurements),
+        states=_states(raw, auto, doubts),
+        doubted=list(doubts.marks),
+        doubted_spans=list(doubts.spans),
         apart=auto.apart.sentence if auto.apart else "",
         sigma=diagnosis.noise.sigma,
         noise=diagnosis.noise.sentence,
@@ -179,10 +183,10 @@ def _title(auto: AutoAddition) -> str:
     return "One suspect" if diagnosis.verdict == "one_suspect" else "Several things could be it"
 
 
-def _states(raw: Comparison, auto: AutoAddition, doubted: list[int]) -> list[State]:
+def _states(raw: Comparison, auto: AutoAddition, doubts: Doubts) -> list[State]:
     """Return what is left of the marks: as set, with the frame, with what is added."""
     addition, noise = auto.addition, auto.diagnosis.noise
-    states = [as_set(raw, noise.sigma, doubted=doubted)]
+    states = [as_set(raw, noise.sigma, doubts=doubts)]
     if auto.diagnosis.outliers:
         return states
     live = LiveBoard(auto.inputs, noise=noise)
