@@ -14,11 +14,10 @@ from typing import Generic, TypeVar, cast
 
 from plumb.cure.live_board import BoardView, LiveBoard
 from plumb.diagnosis.diagnosis import find
-from plumb.diagnosis.outliers import Outlier, sure_readings
+from plumb.diagnosis.outliers import Doubts, Outlier, sure_readings
 from plumb.fit.compare import Comparison, compare
 from plumb.fit.inputs import Inputs
 from plumb.lab.project import Project
-from plumb.lab.residuals import Doubts
 from plumb.text.errors import InputError
 
 Result = TypeVar("Result")

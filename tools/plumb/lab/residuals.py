@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Iterable, Sequence
-from dataclasses import dataclass
+from collections.abc import Collection, Sequence
 from typing import TypeVar
 
 import numpy as np
 from pydantic import BaseModel
 
 from plumb.cure.live_board import BoardView
-from plumb.diagnosis.outliers import Outlier
+from plumb.diagnosis.outliers import NOTHING_DOUBTED, Doubts
 from plumb.fit.compare import Comparison
 from plumb.fit.fit import Fit
 from plumb.fit.quantiles import quantiles
@@ -57,27 +56,6 @@ class State(BaseModel):
     ranked: Ranked
 
 
-@dataclass(frozen=True)
-class Doubts:
-    """Readings that are to be looked at again, by their places among marks and distances."""
-
-    marks: tuple[int, ...] = ()
-    spans: tuple[int, ...] = ()
-
-    @staticmethod
-    def of(outliers: Iterable[Outlier], raw: Comparison) -> Doubts:
-        """Return which of the readings these are."""
-        off = {(outlier.name, outlier.read) for outlier in outliers}
-        spans = [(" - ".join(each.between), (each.measured,)) for each in raw.distances]
-        return Doubts(
-            tuple(i for i, mark in enumerate(raw.marks) if (mark.name, mark.measured) in off),
-            tuple(i for i, span in enumerate(spans) if span in off),
-        )
-
-
-NOTHING_DOUBTED = Doubts()
-
-
 def spans_of(measurements: Measurements) -> list[Span]:
     """Return the distances with the places of their ends."""
     places: dict[str, Pair] = {}
@@ -99,13 +77,9 @@ def as_set(
     """Return the marks against the settings as they stand; sigma [mm] is that of a reading. What is
     doubted does not count.
     """
-    lengths, doubted = [math.hypot(*mark.error) for mark in raw.marks], doubts.marks
-    if not lengths:
-        lengths, doubted = [each.error for each in raw.distances], doubts.spans
-    sure = [length for i, length in enumerate(lengths) if i not in doubted]
     return State(
         title=title,
-        fit_rms=math.sqrt(np.mean(np.square(sure or lengths))),
+        fit_rms=doubts.rms(raw),
         noise_rms=None,
         errors=[mark.error for mark in raw.marks],
         spans=[each.error for each in raw.distances],

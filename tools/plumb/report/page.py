@@ -245,7 +245,7 @@ def _verdict(findings: Findings) -> Verdict:
 
 def _figures(findings: Findings) -> tuple[Figure, ...]:
     comparison = findings.comparison
-    figures = [Figure("as set, RMS", worded(comparison.rms))]
+    figures = [Figure("as set, RMS", worded(findings.as_set_rms))]
     if comparison.marks and comparison.distances:
         figures.append(Figure("their distances, as set", worded(comparison.distance_rms)))
     addition = findings.auto.addition

@@ -12,6 +12,7 @@ from plumb.cure.auto import AutoAddition, add_auto
 from plumb.cure.live_board import BoardView, Chosen, LiveBoard
 from plumb.diagnosis.answer import SHOWN, Diagnosis, Together, odds_words
 from plumb.diagnosis.diagnosis import diagnose
+from plumb.diagnosis.outliers import Doubts
 from plumb.diagnosis.priors import LIKELIER
 from plumb.diagnosis.sizes import Size
 from plumb.diagnosis.unseen import Unseen, share_words, unseen_by
@@ -19,7 +20,7 @@ from plumb.fit.compare import ComparedMark, Comparison
 from plumb.fit.expected import plausible_range
 from plumb.lab.background import Background, Progress, key_of
 from plumb.lab.project import Project
-from plumb.lab.residuals import Doubts, Span, State, as_set, fitted_state, spans_of
+from plumb.lab.residuals import Span, State, as_set, fitted_state, spans_of
 from plumb.lab.rounds import board_words, command, inputs_of, known_words, unit_words
 from plumb.lab.routes.project import TheProject
 from plumb.model.catalogue import every_effect
