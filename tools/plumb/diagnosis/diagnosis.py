@@ -51,6 +51,9 @@ def diagnose(inputs: Inputs) -> Diagnosis:
     is_unknown = judgement.verdict == "not_in_library"
     explanations = tuple(readings.explained(each.account) for each in judgement.listed)
     doubts = doubts_of(readings, judgement.verdict, best, inputs.measurements.rounds)
+    open_now = left_open(frame)
+    is_nothing = judgement.verdict == "nothing_provable"
+    good = is_nothing and is_good(frame, [best])
     return Diagnosis(
         verdict=judgement.verdict,
         readings=readings,
@@ -71,10 +74,11 @@ def diagnose(inputs: Inputs) -> Diagnosis:
         usual=best.board.usual_checks,
         outliers=readings.outliers,
         could_hide=tuple(room_for(name, explanations or (best,), noise) for name in effect_names()),
-        left_open=left_open(frame),
-        is_good=judgement.verdict == "nothing_provable" and is_good(frame, [best]),
+        left_open=open_now,
+        is_good=good,
+        is_cured=good and inputs.settings.fitted is not None,
         falls=_falls(frame, best, judgement.best.effects),
-        warnings=doubts.warnings,
+        warnings=tuple(filter(None, [open_now.sentence, *doubts.warnings])),
         disagreements=doubts.disagreements,
     )
 

@@ -314,7 +314,7 @@ def _accounts(findings: Findings) -> tuple[Account, ...]:
         return ()
     return tuple(
         Account(
-            plainly(each.effects),
+            findings.diagnosis.called(each),
             odds_words(each.share),
             worded(each.rms_after),
             worded(each.noise_rms),

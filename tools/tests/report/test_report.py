@@ -187,11 +187,8 @@ def test_a_slip_changes_no_setting(made):
     assert fall_text.count("not fitted") == 1
 
 
-def test_a_slip_is_ringed_and_neither_scales_nor_counts(made):
+def test_a_slip_does_not_count(made):
     _, answer, page = made("slip")
-    _, _, example = made("cannot_tell")
-    assert page.source.count('id="doubt"') == 4  # before and after, small and large
-    assert 'id="doubt"' not in example.source
     as_set = re.search(r"As set: ([\d.]+) mm", Page(page.part("maps")).text)
     assert float(as_set[1]) < answer["comparison"]["rms_mm"] - 2
 

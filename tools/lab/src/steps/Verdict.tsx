@@ -96,6 +96,7 @@ export function Verdict() {
           </li>
         </ul>
       )}
+      {verdict.reach && <p class="trouble">{verdict.reach}.</p>}
       <HalfTyped />
       <div ref={place}>
         {isNextWanted && <NextStep sheet={sheet} marks={verdict.marks} next={next} />}

@@ -153,7 +153,7 @@ def _nothing_to_change(auto: AutoAddition) -> tuple[str, str]:
         return "Nothing to change", "verdict"
     if auto.diagnosis.outliers:
         return "First look at a reading again", "readings"
-    return "First measure more marks", "measure"
+    return "First measure marks all over the sheet", "measure"
 
 
 @router.post("/correction")

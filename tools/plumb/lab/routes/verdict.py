@@ -74,6 +74,7 @@ class Verdict(BaseModel):
 
     title: str
     sentence: str
+    reach: str  # a sentence, where the marks do not reach over the sheet
     marks: tuple[ComparedMark, ...]
     states: list[State]  # as set, with the frame fitted, with what is added
     spans: list[Span]
@@ -148,6 +149,7 @@ def verdict_of(inputs: api.Inputs, diagnosis: Diagnosis, auto: AutoAddition) -> 
     return Verdict(
         title=_title(auto),
         sentence=diagnosis.sentence,
+        reach=diagnosis.left_open.sentence,
         marks=raw.marks,
         spans=spans_of(inputs.measurements),
         states=_states(raw, auto, doubts),
@@ -172,7 +174,7 @@ def _title(auto: AutoAddition) -> str:
     if diagnosis.disagreements:
         return "The rounds do not go together"
     if diagnosis.is_good:
-        return "As good as these marks can show"
+        return "Cured" if diagnosis.is_cured else "As good as these marks can show"
     if diagnosis.verdict == "nothing_provable":
         may_act = diagnosis.nothing_chance <= LIKELIER
         return "Something may act" if may_act else "The frame may be all of it"
@@ -180,7 +182,8 @@ def _title(auto: AutoAddition) -> str:
         return diagnosis.sentence.partition(".")[0]
     if diagnosis.verdict == "not_in_library":
         known = diagnosis.field_chance <= LIKELIER
-        return "Something is left over" if known else "No known effect draws this"
+        odds = odds_words(diagnosis.field_chance)
+        return "Something is left over" if known else f"Something unknown acts, odds {odds}"
     return "One suspect" if diagnosis.verdict == "one_suspect" else "Several things could be it"
 
 
@@ -200,7 +203,7 @@ def _states(raw: Comparison, auto: AutoAddition, doubts: Doubts) -> list[State]:
 
 def _card(diagnosis: Diagnosis, index: int, together: Together) -> Card:
     return Card(
-        title=plainly(together.effects),
+        title=diagnosis.called(together),
         effects=[_effect(diagnosis, name, together) for name in together.effects],
         odds="" if diagnosis.is_finding else f"Odds {odds_words(together.share)}",
         rms_after=together.rms_after,
