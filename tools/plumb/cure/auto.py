@@ -18,7 +18,6 @@ from plumb.model.catalogue import every_effect
 from plumb.model.plain import noun_of, plainly
 from plumb.text.answers import Internal, key, part
 from plumb.text.errors import to_do
-from plumb.text.values import worded
 
 
 @dataclass(frozen=True)

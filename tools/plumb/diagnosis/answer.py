@@ -208,7 +208,9 @@ def _nothing_provable(diagnosis: Diagnosis) -> str:
     if diagnosis.is_good:
         left = _left(diagnosis.rms_before, diagnosis.noise_rms)
         good = "as good as these marks can show"
-        said = f"Cured: the machine is now {good}" if diagnosis.is_cured else f"The machine is {good}"
+        said = (
+            f"Cured: the machine is now {good}" if diagnosis.is_cured else f"The machine is {good}"
+        )
         return f"{said}. With the frame fitted {left}."
     said = (
         "The marks show no cause: all that is wrong may be the frame's numbers."

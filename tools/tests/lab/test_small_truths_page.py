@@ -66,7 +66,9 @@ def test_the_drawing_of_the_machine_has_the_sled_where_the_bar_says(lab, page):
     for screen in ("known", "open"):
         page.goto(f"{lab.url}#/{screen}")
         at_rest(page)
-        said = re.findall(r"-?\d+\.\d", bar(page).locator(".place").inner_text().replace("\u2212", "-"))
+        said = re.findall(
+            r"-?\d+\.\d", bar(page).locator(".place").inner_text().replace("\u2212", "-")
+        )
         sled = page.locator(".machine-picture .bit")
         drawn = [float(sled.get_attribute("cx")), -float(sled.get_attribute("cy"))]
         assert drawn == pytest.approx([float(mm) for mm in said[:2]], abs=0.06)

@@ -330,9 +330,7 @@ def _covariate(covariate: Covariate, doubted: Collection[int]) -> BenchCovariate
         name=covariate.name,
         unit="°" if covariate.unit == "rad" else covariate.unit,
         of_chain=covariate.of_chain,
-        values=among_all(
-            ends(_in_degrees(covariate.name, covariate.values)), doubted, NO_ENDS
-        ),
+        values=among_all(ends(_in_degrees(covariate.name, covariate.values)), doubted, NO_ENDS),
     )
 
 
