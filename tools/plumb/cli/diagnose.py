@@ -24,7 +24,7 @@ from plumb.diagnosis import Diagnosis, diagnose
 from plumb.diagnosis.answer import SHOWN, Together, odds_words
 from plumb.diagnosis.unseen import unseen_by
 from plumb.model.catalogue import every_effect
-from plumb.model.plain import noun_of, plain_size, plainly, ranked
+from plumb.model.plain import noun_of, plain_size, ranked
 from plumb.plan import Proposal, propose
 from plumb.text.values import worded
 
@@ -93,7 +93,7 @@ def likeliest(diagnosis: Diagnosis) -> list[str]:
     parts = []
     if diagnosis.explanations:
         first, *_ = shown = diagnosis.explanations[:FEW]
-        rows = [[plainly(each.effects), *_numbers_of(each)] for each in shown]
+        rows = [[diagnosis.called(each), *_numbers_of(each)] for each in shown]
         sizes = [
             plain_size(f"{name}.{size.name}", size.value, size.low, size.high)
             for name in first.effects
@@ -144,7 +144,7 @@ def explanation_table(diagnosis: Diagnosis) -> str:
         numbers = _numbers_of(explanation)
         if diagnosis.is_finding:
             numbers[0] = "-"  # they are named by what they predict, not by odds
-        rows.append([f"{number}. {plainly(explanation.effects)}", *numbers])
+        rows.append([f"{number}. {diagnosis.called(explanation)}", *numbers])
         for name in explanation.effects:
             rows += _size_rows(explanation, name)
     return table(["cause, with its 95 % interval", *HEADER[1:]], rows)

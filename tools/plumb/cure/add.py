@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Annotated
 
 import numpy as np
 from pydantic import computed_field
 
 from plumb.cure.live_board import Chosen, LiveBoard, refuse_unknown_effects
+from plumb.diagnosis.expected_error import left_open
 from plumb.diagnosis.noise import Noise
 from plumb.diagnosis.sizes import intervals_sentence
 from plumb.fit.compare import Comparison, best_pose, compare
@@ -210,7 +211,9 @@ def add(
     raw = compare(inputs)
     board = LiveBoard(inputs, warm=False, noise=noise)
     board.refuse(chosen)
-    return add_to(board, raw, chosen, patch=patch)
+    added = add_to(board, raw, chosen, patch=patch)
+    reach = left_open(board.frame).sentence
+    return replace(added, warnings=(reach, *added.warnings)) if reach else added
 
 
 def add_to(board: LiveBoard, raw: Comparison, chosen: Chosen, *, patch: bool = False) -> Addition:

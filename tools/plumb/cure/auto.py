@@ -18,7 +18,6 @@ from plumb.model.catalogue import every_effect
 from plumb.model.plain import noun_of, plainly
 from plumb.text.answers import Internal, key, part
 from plumb.text.errors import to_do
-from plumb.text.values import worded
 
 
 @dataclass(frozen=True)
@@ -161,11 +160,7 @@ def _slip_reason(diagnosis: Diagnosis) -> str:
 
 
 def _open_reason(left_open: LeftOpen) -> str:
-    return (
-        f"nothing was added: of the {worded(left_open.before, 1)} by which holes may be off among "
-        f"each other before anything is measured, these marks leave {worded(left_open.now, 1)} "
-        "open; measure marks all over the sheet, nine or more"
-    )
+    return f"nothing was added. {left_open.sentence}"
 
 
 def _reason(

@@ -155,7 +155,7 @@ def check_sentence(checked: Check) -> str:
     """Return what was promised, what was measured, and what follows."""
     off = ", ".join(bare(mark.off) for mark in checked.marks)
     promised = worded(max(mark.promised for mark in checked.marks))
-    measured = f"Promised: within {promised}. Measured: off by {off}."
+    measured = f"Promised: within {promised}. Measured: off from what was promised by {off}."
     if checked.holds:
         return f"{measured} The settings hold."
     far = " and ".join(mark.name for mark in checked.marks if not mark.is_within)

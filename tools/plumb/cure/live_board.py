@@ -124,6 +124,19 @@ class LiveBoard:
             self._last = self._fits[key]
             return self._last
 
+    @cached_property
+    def frame(self) -> Explanation:
+        """The frame alone, with slopes by every effect."""
+        return explain(
+            Board.of(
+                self.model,
+                self.rows,
+                sigma=self.noise.sigma,
+                priors=self.inputs.priors,
+                checked=self.inputs.checked,
+            )
+        )
+
     def _fit(self, chosen: Chosen) -> Fit:
         weighted = self.weighted(chosen.held, near=self._last if self._warm else None)
         return weighted(effects=chosen.effects, priors=self.inputs.priors)
@@ -234,17 +247,9 @@ class BoardView:
         curves = suspect_curves(frame, explanation, rows)
         return Drawn(np.asarray(moved[rows.mark_rows]), curves)
 
-    @cached_property
+    @property
     def _frame(self) -> Explanation:
-        inputs, noise = self.board.inputs, self.board.noise
-        board = Board.of(
-            self.board.model,
-            self.board.rows,
-            sigma=noise.sigma,
-            priors=inputs.priors,
-            checked=inputs.checked,
-        )
-        return explain(board)
+        return self.board.frame
 
 
 # Whether the settings to be corrected are those of the machine that cut the marks.

@@ -125,6 +125,7 @@ class Diagnosis:
     is_good: Annotated[
         bool, meant("Whether noise alone may feign all that is wrong with the settings.")
     ]
+    is_cured: Internal[bool]  # it is good since a fit wrote its settings
     falls: Annotated[
         tuple[Fall, ...], meant("How the error falls, effect by effect, with what to go on with.")
     ]
@@ -153,6 +154,13 @@ class Diagnosis:
         """
         is_unknown = self.verdict == "not_in_library" and not self.disagreements
         return is_unknown and bool(self.likely) and _takes_most(self.best, self.readings.frame)
+
+    def called(self, together: Together) -> str:
+        """An explanation by the nouns of its effects, for people."""
+        is_unknown = self.verdict == "not_in_library" and self.field_chance > LIKELIER
+        if is_unknown and not together.effects:
+            return "only what no known effect draws"
+        return plainly(together.effects)
 
     @property
     def pattern_mm(self) -> float:
@@ -199,7 +207,11 @@ def _outlier(diagnosis: Diagnosis) -> str:
 def _nothing_provable(diagnosis: Diagnosis) -> str:
     if diagnosis.is_good:
         left = _left(diagnosis.rms_before, diagnosis.noise_rms)
-        return f"The machine is as good as these marks can show. With the frame fitted {left}."
+        good = "as good as these marks can show"
+        said = (
+            f"Cured: the machine is now {good}" if diagnosis.is_cured else f"The machine is {good}"
+        )
+        return f"{said}. With the frame fitted {left}."
     said = (
         "The marks show no cause: all that is wrong may be the frame's numbers."
         if diagnosis.nothing_chance > LIKELIER

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from plumb.diagnosis.answer import Diagnosis, Fall, Ranked, Together, judge
+from plumb.diagnosis.answer import Diagnosis, Fall, Judgement, Ranked, Together, judge
 from plumb.diagnosis.as_set import is_good
 from plumb.diagnosis.expected_error import left_open
 from plumb.diagnosis.explanation import Explanation, explain, measured_board
@@ -23,20 +23,37 @@ from plumb.model.plain import ranked
 from plumb.text.values import worded
 
 
+@dataclass(frozen=True)
+class Found:
+    """What all that is said of marks goes by: the readings that count, and what explains them."""
+
+    readings: CleanReadings
+    judgement: Judgement
+    best: Explanation  # with the effects to go on with
+
+
+def find(inputs: Inputs) -> Found:
+    """Weigh all accounts of the marks. Raises InputError as diagnose() does."""
+    readings = clean_readings(measured_board(inputs), inputs)
+    judgement = judge(readings, inputs.stated)
+    return Found(readings, judgement, readings.explained(judgement.best))
+
+
 def diagnose(inputs: Inputs) -> Diagnosis:
     """Find what the model of these settings misses in the marks, and in numbers checked directly.
 
     Raises InputError for too few marks, and marks that cannot be reached.
     """
-    board = measured_board(inputs)
-    readings = clean_readings(board, inputs)
-    judgement = judge(readings, inputs.stated)
+    found = find(inputs)
+    readings, judgement, best = found.readings, found.judgement, found.best
     frame, noise = readings.frame, readings.noise
     # Where a field acts, all chances are on that condition; else that nothing else is wrong.
     is_unknown = judgement.verdict == "not_in_library"
     explanations = tuple(readings.explained(each.account) for each in judgement.listed)
-    best = readings.explained(judgement.best)
     doubts = doubts_of(readings, judgement.verdict, best, inputs.measurements.rounds)
+    open_now = left_open(frame)
+    is_nothing = judgement.verdict == "nothing_provable"
+    good = is_nothing and is_good(frame, [best])
     return Diagnosis(
         verdict=judgement.verdict,
         readings=readings,
@@ -57,10 +74,11 @@ def diagnose(inputs: Inputs) -> Diagnosis:
         usual=best.board.usual_checks,
         outliers=readings.outliers,
         could_hide=tuple(room_for(name, explanations or (best,), noise) for name in effect_names()),
-        left_open=left_open(frame),
-        is_good=judgement.verdict == "nothing_provable" and is_good(frame, [best]),
+        left_open=open_now,
+        is_good=good,
+        is_cured=good and inputs.settings.fitted is not None,
         falls=_falls(frame, best, judgement.best.effects),
-        warnings=doubts.warnings,
+        warnings=tuple(filter(None, [open_now.sentence, *doubts.warnings])),
         disagreements=doubts.disagreements,
     )
 

@@ -207,6 +207,18 @@ class LeftOpen:
         """Whether settings by these marks would be a guess over most of the sheet."""
         return self.now > MOST_OPEN * self.before
 
+    @property
+    def sentence(self) -> str:
+        """That marks do not reach over the sheet, for people; empty where they do."""
+        if not self.is_too_much:
+            return ""
+        return (
+            f"These marks do not reach over the sheet: of the {worded(self.before, 1)} by which "
+            "holes may be off among each other before anything is measured, they leave "
+            f"{worded(self.now, 1)} open. What a fit promises holds near the marks only; measure "
+            "marks all over the sheet"
+        )
+
 
 def left_open(explanation: Explanation) -> LeftOpen:
     """Return what the marks of an explanation leave open, by its slopes."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from dataclasses import dataclass, replace
 from typing import Annotated
 
@@ -10,6 +11,7 @@ from pydantic import computed_field
 
 from plumb.diagnosis.explanation import Board
 from plumb.diagnosis.noise import library_basis
+from plumb.fit.compare import Comparison
 from plumb.fit.observations import Observations
 from plumb.marks.read import Measurements
 from plumb.model.plain import greatest
@@ -81,6 +83,50 @@ def without(rows: Observations, reading: Reading) -> Observations:
     )
 
 
+def sure_readings(measurements: Measurements, outliers: Collection[Outlier]) -> Measurements:
+    """Return the measurements without these readings; the visits stay."""
+    off = {(outlier.name, outlier.read) for outlier in outliers}
+    return replace(
+        measurements,
+        marks=tuple(
+            replace(mark, measured=None) if (mark.name, mark.measured) in off else mark
+            for mark in measurements.marks
+        ),
+        distances=tuple(
+            each
+            for each in measurements.distances
+            if (" - ".join(each.between), (each.length,)) not in off
+        ),
+    )
+
+
+@dataclass(frozen=True)
+class Doubts:
+    """Readings to look at again, by their places among the marks and distances that are compared."""
+
+    marks: tuple[int, ...] = ()
+    spans: tuple[int, ...] = ()
+
+    @staticmethod
+    def of(outliers: Collection[Outlier], raw: Comparison) -> Doubts:
+        """Return which of the readings these are."""
+        off = {(outlier.name, outlier.read) for outlier in outliers}
+        spans = [(" - ".join(each.between), (each.measured,)) for each in raw.distances]
+        return Doubts(
+            tuple(i for i, mark in enumerate(raw.marks) if (mark.name, mark.measured) in off),
+            tuple(i for i, span in enumerate(spans) if span in off),
+        )
+
+    def rms(self, raw: Comparison) -> float:
+        """RMS error of the others [mm]: of the marks, or of the distances without marks."""
+        lengths, doubted = [mark.length for mark in raw.marks], self.marks
+        if not lengths:
+            lengths, doubted = [each.error for each in raw.distances], self.spans
+        sure = [length for i, length in enumerate(lengths) if i not in doubted]
+        return float(np.sqrt(np.mean(np.square(sure or lengths))))
+
+
+NOTHING_DOUBTED = Doubts()
 ROUND = (1.0, 2.0, 5.0, 10.0, 20.0, 25.4, 40.0, 50.0, 100.0)  # [mm] off by a tick, a hook, an inch
 _EITHER = "its other reading may be the wrong one"
 CLOSE = 2.5  # [deviations] within which a guess agrees with the shift

@@ -33,6 +33,7 @@ from plumb.settings.machine import MachineSettings
 from plumb.text.answers import Internal
 
 STEP = 5.0  # [mm] between places that are looked at
+SENT, PARTED, TAKEN = 0.45, 0.6, 0.85  # shares of the time after which a long program is so far
 
 
 @dataclass(frozen=True)
@@ -70,23 +71,28 @@ def check_job(
     """Run a program dry; `inputs` are marks that tell which errors to expect, `tools` what cuts if
     it is not what the program says.
     """
+    far = progress or (lambda share: None)
     run = Run(settings, start=start, numbers=numbers)
-    run.send(lines, progress=progress)
+    run.send(lines, progress=lambda share: far(SENT * share))
     done = run.finish()
     over_sheet = done.moves.only(done.moves.over_sheet)
     samples = over_sheet.sampled(STEP)
     parts = parts_of(over_sheet, samples)
     tools = tools or Tools.of(lines)
+    far(PARTED)
     taken = take(over_sheet, tools)
+    far(TAKEN)
     findings = [*findings_of(done), *spoiled(over_sheet, taken, tools, lines)]
     findings += [*ends_too_high(settings, done), *meant_otherwise(done, lines)]
     if inputs:
         parts = with_errors(Believed.of(inputs), settings, parts)
+    hanging = hanging_along(settings, over_sheet, samples, limits or {})
+    far(1.0)
     return Checked(
         done=done,
         samples=samples,
         findings=tuple(sorted(findings, key=lambda finding: finding.line)),
-        hanging=hanging_along(settings, over_sheet, samples, limits or {}),
+        hanging=hanging,
         slower=slower_moves(over_sheet),
         times=times_of(done),
         parts=parts,

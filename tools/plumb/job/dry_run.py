@@ -169,7 +169,9 @@ class Moves:
         return column
 
     def only(self, those: Flags | Rows) -> Moves:
-        """Return some of the moves."""
+        """Return some of the moves; all of them take no room a second time."""
+        if those.dtype == bool and those.all():
+            return self
         return Moves(self.rows[those])
 
     @property

@@ -8,15 +8,17 @@ from __future__ import annotations
 from collections.abc import Callable
 from concurrent.futures import Future, ThreadPoolExecutor
 from contextvars import copy_context
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from threading import Lock
 from typing import Generic, TypeVar, cast
 
 from plumb.cure.live_board import BoardView, LiveBoard
-from plumb.diagnosis.readings import doubted_readings
+from plumb.diagnosis.diagnosis import find
+from plumb.diagnosis.outliers import Doubts, Outlier, sure_readings
 from plumb.fit.compare import Comparison, compare
 from plumb.fit.inputs import Inputs
 from plumb.lab.project import Project
+from plumb.text.errors import InputError
 
 Result = TypeVar("Result")
 Progress = Callable[[float], None]
@@ -103,7 +105,13 @@ class WarmBoard:
     live: LiveBoard
     view: BoardView
     raw: Comparison
-    doubted: frozenset[tuple[str, tuple[float, ...] | None]]  # readings, by name and place
+    inputs: Inputs  # with all readings
+    slips: tuple[Outlier, ...]  # readings that no fit of the board sees
+
+    @property
+    def doubts(self) -> Doubts:
+        """Where these are among all readings."""
+        return Doubts.of(self.slips, self.raw)
 
 
 class LiveBoards:
@@ -124,10 +132,10 @@ class LiveBoards:
             key = key_of(project)
             if self._kept is None or self._kept.key != key:
                 inputs = inputs_of(project)
-                live = LiveBoard(inputs)
+                live, slips = _diagnosed(inputs)
                 words = tuple(board_words(project))
                 view, raw = BoardView(live), compare(inputs)
-                self._kept = WarmBoard(key, words, live, view, raw, _doubted(inputs))
+                self._kept = WarmBoard(key, words, live, view, raw, inputs, slips)
             return self._kept
 
 
@@ -140,7 +148,15 @@ def key_of(project: Project) -> str:
     return "\n".join([said, *digests])
 
 
-def _doubted(inputs: Inputs) -> frozenset[tuple[str, tuple[float, ...] | None]]:
-    marks = inputs.measurements.marks
-    doubts = (doubt for doubt in doubted_readings(inputs) if doubt.is_mark)
-    return frozenset((marks[each.index].name, marks[each.index].measured) for each in doubts)
+def _diagnosed(inputs: Inputs) -> tuple[LiveBoard, tuple[Outlier, ...]]:
+    """Return the board on which a diagnosis fits, without the readings that it doubts: its noise,
+    and what is usual of sizes; and those readings.
+    """
+    try:
+        found = find(inputs)
+    except InputError:  # too few readings, or what the board says better
+        return LiveBoard(inputs), ()  # nothing can be fitted
+    slips, usual = found.readings.outliers, found.best.board.usual_checks
+    sure = sure_readings(inputs.measurements, slips)
+    sure_inputs = replace(inputs, measurements=sure, checked=(*inputs.checked, *usual))
+    return LiveBoard(sure_inputs, noise=found.readings.noise), slips

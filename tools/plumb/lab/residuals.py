@@ -4,18 +4,23 @@ from __future__ import annotations
 
 import math
 from collections.abc import Collection, Sequence
+from typing import TypeVar
 
 import numpy as np
 from pydantic import BaseModel
 
 from plumb.cure.live_board import BoardView
+from plumb.diagnosis.outliers import NOTHING_DOUBTED, Doubts
 from plumb.fit.compare import Comparison
 from plumb.fit.fit import Fit
 from plumb.fit.quantiles import quantiles
+from plumb.marks.read import Measurements
 from plumb.model.predict import Array
 
 Pair = tuple[float, float]
 Ends = tuple[float | None, float | None]  # left and right; None for what is not known
+NO_ENDS: Ends = (None, None)
+Value = TypeVar("Value")
 MICROMETRE = 3  # decimals of a mm
 
 
@@ -29,58 +34,92 @@ class Ranked(BaseModel):
     beyond: list[bool]  # whether it lies outside of the band
 
 
+class Span(BaseModel):
+    """A distance that was measured [mm]."""
+
+    between: tuple[str, str]
+    ends: tuple[Pair, Pair]  # the targets of its marks, machine frame
+    measured: float
+
+
 class State(BaseModel):
-    """The marks against a machine: as it is set, or fitted [mm]."""
+    """The readings against a machine: as it is set, or fitted [mm]; None for a reading that took
+    no part in the fit.
+    """
 
     title: str
     fit_rms: float
     noise_rms: float | None  # that noise alone would leave
-    errors: list[Pair]
+    errors: list[Pair | None]
+    spans: list[float | None]  # errors of the distances
     chains: list[Ends]
     ranked: Ranked
 
 
+def spans_of(measurements: Measurements) -> list[Span]:
+    """Return the distances with the places of their ends."""
+    places: dict[str, Pair] = {}
+    for mark in measurements.marks:
+        places.setdefault(mark.name, mark.target)
+    return [
+        Span(
+            between=each.between,
+            ends=(places[each.between[0]], places[each.between[1]]),
+            measured=each.length,
+        )
+        for each in measurements.distances
+    ]
+
+
 def as_set(
-    raw: Comparison, sigma: float, *, title: str = "as set", doubted: Sequence[int] = ()
+    raw: Comparison, sigma: float, *, title: str = "as set", doubts: Doubts = NOTHING_DOUBTED
 ) -> State:
     """Return the marks against the settings as they stand; sigma [mm] is that of a reading. What is
     doubted does not count.
     """
-    sure = [math.hypot(*mark.error) for i, mark in enumerate(raw.marks) if i not in doubted]
     return State(
         title=title,
-        fit_rms=math.sqrt(np.mean(np.square(sure))) if doubted and sure else raw.rms,
+        fit_rms=doubts.rms(raw),
         noise_rms=None,
         errors=[mark.error for mark in raw.marks],
+        spans=[each.error for each in raw.distances],
         chains=[(mark.left_chain_residual, mark.right_chain_residual) for mark in raw.marks],
         ranked=_ranked(np.array([mark.error for mark in raw.marks]), math.sqrt(2) * sigma),
     )
 
 
-def doubted_marks(
-    raw: Comparison, doubted: Collection[tuple[str, tuple[float, ...] | None]]
-) -> list[int]:
-    """Return which of the marks have these readings, by name and place."""
-    return [i for i, mark in enumerate(raw.marks) if (mark.name, mark.measured) in doubted]
-
-
-def fitted_state(title: str, fitted: Fit, view: BoardView) -> State:
-    """Return what a fit leaves of the marks of a board."""
+def fitted_state(
+    title: str, fitted: Fit, view: BoardView, doubts: Doubts = NOTHING_DOUBTED
+) -> State:
+    """Return what a fit leaves of the readings of a board, from which what is doubted was left
+    out.
+    """
+    errors: list[Pair | None] = [*pairs(fitted.errors)]
+    spans: list[float | None] = [*fitted.distance_errors.tolist()]
     return State(
         title=title,
         fit_rms=fitted.rms,
         noise_rms=fitted.noise_rms,
-        errors=pairs(fitted.errors),
-        chains=ends(view.chains(fitted.errors)),
-        ranked=_ranked(fitted.errors, fitted.noise_rms),
+        errors=among_all(errors, doubts.marks, None),
+        spans=among_all(spans, doubts.spans, None),
+        chains=among_all(ends(view.chains(fitted.errors)), doubts.marks, NO_ENDS),
+        ranked=_ranked(fitted.errors, fitted.noise_rms, doubts.marks),
     )
 
 
-def _ranked(errors: Array, noise_rms: float) -> Ranked:
+def among_all(sure: Sequence[Value], doubted: Collection[int], nothing: Value) -> list[Value]:
+    """Return what is said of sure readings in the places of all readings."""
+    said = iter(sure)
+    count = len(sure) + len(doubted)
+    return [nothing if i in doubted else next(said) for i in range(count)]
+
+
+def _ranked(errors: Array, noise_rms: float, doubted: Collection[int] = ()) -> Ranked:
     """Residuals (k, 2) [mm] against noise that leaves this much of their vectors [mm]."""
     placed = quantiles(errors.reshape(-1, 2), noise_rms)
+    sure = [i for i in range(len(errors) + len(doubted)) if i not in doubted]
     return Ranked(
-        order=placed.order.tolist(),
+        order=[2 * sure[place // 2] + place % 2 for place in placed.order.tolist()],
         at=placed.at.round(MICROMETRE).tolist(),
         low=placed.low.round(MICROMETRE).tolist(),
         high=placed.high.round(MICROMETRE).tolist(),

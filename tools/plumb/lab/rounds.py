@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import re
 import shlex
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Container, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path, PurePath
 
 from plumb import api
 from plumb.fit.inputs import settings_in
-from plumb.fit.problem import PRIORS
+from plumb.fit.problem import PRIORS, Checked
 from plumb.grid import PRESETS, Grid, PlainMachine, marks_list, spans_of, touches_of
 from plumb.grid.cut_with import cut_with_lines, digest_of, with_form
 from plumb.grid.pattern import Touch
@@ -259,6 +259,15 @@ def prior_words(priors: Mapping[str, float], usual: Mapping[str, float] = PRIORS
     for name, sigma in priors.items():
         if usual.get(name) != sigma:
             words += ["--prior", f"{name}={sigma:.12g}"]
+    return words
+
+
+def usual_words(usual: Sequence[Checked], effects: Sequence[str], but: Container[str]) -> list[str]:
+    """Return what is usual of the sizes of these effects, as a command takes it."""
+    words = []
+    for each in usual:
+        if each.name.rpartition(".")[0] in effects and each.name not in but:
+            words += ["--checked", f"{each.name}={each.value:.12g}+-{each.sigma:.12g}"]
     return words
 
 

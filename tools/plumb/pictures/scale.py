@@ -135,6 +135,7 @@ class Panel:
     errors: Array  # (n, 2) measured - predicted
     good: bool = False  # drawn in the colour of success
     names: tuple[str, ...] = ()  # (n,) of the marks, if they are known
+    doubted: tuple[int, ...] = ()  # marks whose readings are wrong: they get a ring, and no scale
 
 
 @dataclass(frozen=True)
@@ -146,6 +147,7 @@ class Spots:
     errors: Array  # (k, 2) [mm] mean of the repeats
     spreads: Array  # (k,) [mm] RMS distance of the repeats from their mean, 0 without repeats
     counts: Array  # (k,) how many readings
+    doubted: Array  # (k,) bool
 
     def __len__(self) -> int:
         """Return how many marks."""
@@ -154,11 +156,18 @@ class Spots:
     @property
     def longest(self) -> float:
         """Length of the largest mean error [mm]."""
-        return float(np.hypot(*self.errors.T).max())
+        return float(np.hypot(*self.sure.T).max(initial=0.0))
+
+    @property
+    def sure(self) -> Array:
+        """The errors, 0 where they are in doubt (k, 2) [mm]: what maps are scaled by."""
+        return np.where(self.doubted[:, None], 0.0, self.errors)
 
     def tips(self, factor: float) -> Array:
-        """Return where the arrows end (k, 2) [mm], drawn this many times life size."""
-        tips: Array = self.places + factor * self.errors
+        """Return where the arrows end (k, 2) [mm], drawn this many times life size; where they
+        begin if they are in doubt, for those may lead anywhere.
+        """
+        tips: Array = self.places + factor * self.sure
         return tips
 
 
@@ -177,6 +186,7 @@ def spots_of(panel: Panel) -> Spots:
         errors=errors,
         spreads=np.array(spreads),
         counts=np.array([len(rows) for rows in groups]),
+        doubted=np.array([any(i in panel.doubted for i in rows) for rows in groups], dtype=bool),
     )
 
 

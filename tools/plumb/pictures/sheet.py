@@ -176,7 +176,12 @@ def draw_errors(
         zorder=4,
     )
     radii = spots.spreads if sigma is None else INSIDE * sigma / np.sqrt(spots.counts)
+    radii = np.where(spots.doubted, 0.0, radii)
     _draw_rings(axis, spots.tips(scale.factor), scale.factor * radii, 0.9 * small)
+    doubted = spots.places[spots.doubted]
+    axis.plot(
+        *doubted.T, "o", mfc="none", mec=BAD, ms=18 * small, mew=2.5 * small, zorder=6, gid="doubt"
+    )
 
 
 def _draw_rings(axis: Axes, tips: Array, radii: Array, line: float) -> None:

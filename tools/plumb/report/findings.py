@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -13,6 +13,7 @@ from plumb.diagnosis.answer import Diagnosis
 from plumb.diagnosis.diagnosis import diagnose
 from plumb.diagnosis.expected_error import ExpectedError, expected_error
 from plumb.diagnosis.explanation import Explanation, measured_board
+from plumb.diagnosis.outliers import Doubts
 from plumb.diagnosis.suspect_curves import SuspectCurves, suspect_curves, view_by
 from plumb.diary.history import DiaryFit
 from plumb.fit.by_hand import to_fill_in, what_to_type
@@ -51,6 +52,16 @@ class Findings:
     expected: ExpectedError | None  # None for a slip: nothing is fitted to a wrong reading
     survey: Survey
     fits: tuple[DiaryFit, ...] = ()  # of the machine's diary, the oldest first
+
+    @property
+    def doubts(self) -> Doubts:
+        """The slips."""
+        return Doubts.of(self.diagnosis.outliers, self.comparison)
+
+    @property
+    def as_set_rms(self) -> float:
+        """Error of the settings as they are, without slips [mm]."""
+        return self.doubts.rms(self.comparison)
 
     @property
     def frame(self) -> Explanation:
@@ -298,14 +309,17 @@ def _scale(findings: Findings, panels: Sequence[Panel]) -> Scale | None:
 
 
 def _stages(findings: Findings) -> list[_Stage]:
-    as_set = _Stage("As set", findings.comparison.rms, _compared(findings.comparison))
+    doubted = findings.doubts.marks
+    panel = replace(_compared(findings.comparison), doubted=doubted)
+    as_set = _Stage("As set", findings.as_set_rms, panel)
     if findings.auto.addition is None:
         view = findings.framed
         slips = {slip.name for slip in findings.diagnosis.outliers}
-        panel = Panel("", view.places, view.errors, good=True, names=view.names)
+        panel = Panel("", view.places, view.errors, True, view.names, doubted)
         left = findings.frame.rms
         noise = findings.diagnosis.noise_rms
-        return [as_set, _Stage(f"Frame fitted without {_listed(slips)}", left, panel, noise)]
+        title = f"Frame fitted without {_listed(slips)}" if slips else "Frame fitted"
+        return [as_set, _Stage(title, left, panel, noise)]
     return [as_set, *_fitted(findings.auto.addition)]
 
 

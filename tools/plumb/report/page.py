@@ -245,7 +245,7 @@ def _verdict(findings: Findings) -> Verdict:
 
 def _figures(findings: Findings) -> tuple[Figure, ...]:
     comparison = findings.comparison
-    figures = [Figure("as set, RMS", worded(comparison.rms))]
+    figures = [Figure("as set, RMS", worded(findings.as_set_rms))]
     if comparison.marks and comparison.distances:
         figures.append(Figure("their distances, as set", worded(comparison.distance_rms)))
     addition = findings.auto.addition
@@ -314,7 +314,7 @@ def _accounts(findings: Findings) -> tuple[Account, ...]:
         return ()
     return tuple(
         Account(
-            plainly(each.effects),
+            findings.diagnosis.called(each),
             odds_words(each.share),
             worded(each.rms_after),
             worded(each.noise_rms),

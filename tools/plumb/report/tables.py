@@ -103,7 +103,7 @@ def rounds_of(findings: Findings) -> tuple[Round, ...]:
         for size in (part.rms if part.rms is not None else part.distance_rms,)
         if size is not None
     ]
-    stages.append(("These readings, as set", comparison.rms))
+    stages.append(("These readings, as set", findings.as_set_rms))
     addition = findings.auto.addition
     if addition:
         stages.append(("With the new settings", addition.after.fit_rms))

@@ -377,3 +377,11 @@ def test_the_command_ends_with_1_where_something_is_wrong(ask, run, tmp_path):
 def test_bad_words_are_refused(run, words, says):
     code, _, complaint = run("check", PROGRAMS / "easel_tabs.nc", SETTINGS, *words)
     assert code == 2 and says in complaint
+
+
+def test_how_far_it_is_ends_with_the_check_and_not_with_the_last_line():
+    lines, shares = [*square(100, 50, 40)] * 500, []
+    check_job(MAKER, lines, progress=shares.append)
+    assert shares == sorted(shares) and shares[-1] == 1.0
+    assert len([share for share in shares if share < 0.5]) > 1  # while lines are sent
+    assert len([share for share in shares if 0.5 < share < 1]) > 1  # and after the last

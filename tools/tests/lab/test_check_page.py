@@ -49,7 +49,12 @@ def test_two_check_marks_hold_then_miss_and_others_are_planned(lab, page):
     circle = page.locator(".sheet g:has(> .place) circle.noise").first.bounding_box()
     expect(page.locator(".legend-of-sheet")).to_contain_text("promised")
     assert 0.05 < circle["width"] / wood["width"] < 0.35
-    offs = page.locator("table.checked tbody td:last-child").all_inner_texts()
+    heads = page.locator("table.checked thead th").all_inner_texts()
+    assert heads[2:] == ["off from what was promised", "off from the target"]
+    of_target = page.locator("table.checked tbody td:last-child").all_inner_texts()
+    assert of_target == ["0.32 mm", "0.45 mm"]  # as they were typed
+    expect(page.locator(JUDGED)).to_contain_text("Measured: off from what was promised by")
+    offs = page.locator("table.checked tbody td:nth-of-type(2)").all_inner_texts()
     assert all(0 < float(off.removesuffix(" mm")) < 1.5 for off in offs) and len(offs) == 2
     fallen = page.locator(".off-target td").all_inner_texts()
     assert [text.strip() for text in fallen] == ["8.95 mm", "0.39 mm"]

@@ -70,8 +70,6 @@ class Said:
             finished(client, name)[name] for name in ("verdict", "correction")
         )
         choice = {"effects": self.added["effects_added"]}
-        # The bench fits what is named, whatever is usual.
-        _, self.named = terminal("add", *words, "--effect", *choice["effects"])
         self.bench = client.post("/api/bench/fit", json=choice).json()
         self.stairs = client.post("/api/bench/stairs", json=choice).json()["stairs"]
 
@@ -188,7 +186,7 @@ def test_what_noise_alone_leaves_is_the_same(said):
         re.findall(rf"noise {LENGTH}", said.parts["fall"])[-1],
         said.verdict["states"][-1]["noise_rms"],
     )
-    named = said.named["after"]["noise_rms_mm"]
+    named = said.added["after"]["noise_rms_mm"]
     assert_same(named, said.bench["noise_rms"], said.stairs[-1]["noise_rms"])
     assert_same(said.diagnosed["noise_rms_mm"], said.added["before"]["noise_rms_mm"])
 
@@ -202,6 +200,7 @@ def chosen(said):
 
 def test_error_of_what_is_added_is_the_same(said):
     together, card = chosen(said)
+    odds = card["odds"].removeprefix("Odds ")
     accounts = said.parts["suspects" if len(said.verdict["cards"]) > 1 else "verdict"]
     assert_same(
         together["rms_after_mm"],
@@ -211,13 +210,11 @@ def test_error_of_what_is_added_is_the_same(said):
         said.figure("effects fitted"),
         match_in(rf"With .*?: {LENGTH} RMS", said.parts["maps"].split("As set:")[1]),
         match_in(rf"With the new settings {LENGTH}", said.parts["history"]),
-        match_in(
-            rf"(?:from [\d.]+ to|{re.escape(card['title'])} {card['odds']}) {LENGTH}", accounts
-        ),
+        match_in(rf"(?:from [\d.]+ to|{re.escape(card['title'])} {odds}) {LENGTH}", accounts),
         said.verdict["states"][-1]["fit_rms"],
         said.correction["whole"]["fit_rms"],
     )
-    named = said.named["after"]["fit_rms_mm"]
+    named = said.added["after"]["fit_rms_mm"]
     assert_same(named, said.bench["fit_rms"], said.stairs[-1]["fit_rms"])
 
 
@@ -229,7 +226,7 @@ def test_error_on_marks_not_used_is_the_same(said):
         re.findall(rf"checked {LENGTH}", said.parts["fall"])[-1],
         match_in(rf"on marks not used {LENGTH}", said.parts["history"]),
     )
-    named = said.named["after"]["left_out_rms_mm"]
+    named = said.added["after"]["left_out_rms_mm"]
     assert_same(named, said.bench["left_out_rms"], said.stairs[-1]["left_out_rms"])
     before = re.findall(rf"checked {LENGTH}", said.parts["fall"])[0]
     assert_same(before, said.added["before"]["left_out_rms_mm"], said.stairs[1]["left_out_rms"])
@@ -281,7 +278,7 @@ def test_sizes_and_their_noise_are_those_of_the_fit(said):
 
 
 def test_sizes_on_the_bench_are_those_of_the_effects_that_are_named(said):
-    for each in said.named["parameters"]:
+    for each in said.added["parameters"]:
         if each["name"] in said.bench["sizes"]:
             size = plain_size(each["name"], each["value"], each["low"], each["high"])
             assert said.bench["sizes"][each["name"]]["said"] == size

@@ -2,9 +2,11 @@
 
 import re
 
+import pytest
+from folder import got, until
 from lab_machine import PATIENCE, bar, start_virtual
 from playwright.sync_api import expect
-from screens import measured_machine
+from screens import at_rest, measured_machine
 
 SPOKEN = """() => {
   window.spoken = [];
@@ -51,6 +53,25 @@ def test_a_screen_reader_is_told_states_and_no_places_or_counts(lab, page):
     assert any("runs grid.nc" in line for line in spoken)
     assert not [line for line in spoken if re.search(r"\d+ of \d+|\d mm", line)]
     assert len(spoken) < 12
+
+
+def test_the_drawing_of_the_machine_has_the_sled_where_the_bar_says(lab, page):
+    measured_machine(lab.folder)
+    with lab.client() as client:
+        got(client.post("/api/machine/virtual", json={"seed": 9, "speed": 1000}))
+        until(client, lambda machine: machine["phase"] == "ready")
+        got(client.post("/api/machine/settings"))
+        got(client.post("/api/grid/cut"))
+        until(client, lambda machine: machine["program"]["outcome"] == "done")
+    for screen in ("known", "open"):
+        page.goto(f"{lab.url}#/{screen}")
+        at_rest(page)
+        said = re.findall(
+            r"-?\d+\.\d", bar(page).locator(".place").inner_text().replace("\u2212", "-")
+        )
+        sled = page.locator(".machine-picture .bit")
+        drawn = [float(sled.get_attribute("cx")), -float(sled.get_attribute("cy"))]
+        assert drawn == pytest.approx([float(mm) for mm in said[:2]], abs=0.06)
 
 
 def test_a_height_has_a_name_that_says_from_where_it_is_measured(lab, page):

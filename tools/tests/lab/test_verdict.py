@@ -1,14 +1,17 @@
 """The verdict of the lab: what the command line says, for each state of the folder."""
 
 import time
+from dataclasses import replace
 
 import numpy as np
 import pytest
-from folder import PATIENCE, choose, example_form, finished, got, with_marks
+from folder import EXAMPLE, PATIENCE, asked, choose, example_form, finished, got, with_marks
 from plumb import api
 from plumb.cli.main import main
+from plumb.cure.auto import AutoAddition
 from plumb.diagnosis.answer import verdict_sentence
 from plumb.fit.observations import rms
+from plumb.lab.routes.verdict import _title
 from plumb.text.errors import read_on_page
 
 
@@ -65,7 +68,8 @@ def test_what_the_frame_leaves_is_the_same_number_in_sentence_and_map(client, tm
     assert main(["add", *board, *both]) == 0
     choose(client, settings="both.toml")
     verdict = finished(client, "verdict")["verdict"]
-    assert verdict["cards"] == []
+    assert verdict["cards"] == [] and verdict["title"] == "Cured"
+    assert verdict["sentence"].startswith("Cured: the machine is now as good as these marks can")
     assert [state["title"] for state in verdict["states"]] == ["as set", "frame fitted"]
     left, noise = (f"{verdict['states'][1][key]:.2f} mm" for key in ("fit_rms", "noise_rms"))
     assert (
@@ -110,3 +114,46 @@ def test_too_few_marks_are_refused_in_a_line(client, tmp_path):
         answer = client.get("/api/verdict")
     assert answer.status_code == 422
     assert "too few" in answer.json()["error"]
+
+
+def test_a_heading_and_a_card_name_what_no_known_effect_draws():
+    diagnosis = replace(
+        api.diagnose(api.read(EXAMPLE / "groundcontrol.ini", EXAMPLE / "marks.toml")),
+        verdict="not_in_library",
+        field_chance=0.9,
+        likely=(),
+    )
+    frame = replace(diagnosis.explanations[0], effects=())
+    assert diagnosis.called(frame) == "only what no known effect draws"
+    assert replace(diagnosis, field_chance=0.3).called(frame) == "the frame alone"
+    assert _title(AutoAddition(diagnosis, None, (), (), None, "")).endswith("odds 9 to 1")
+
+
+def in_a_row(folder):
+    """The example's settings with twelve marks in one row."""
+    (folder / "groundcontrol.ini").write_bytes((EXAMPLE / "groundcontrol.ini").read_bytes())
+    lines = ['frame = "machine"', "tape_sigma_mm = 0.5"]
+    for i in range(12):
+        x = -1100 + 200 * i
+        read = [x + 0.001 * x + 0.3 * (-1) ** i, 1.2 + 1e-6 * x * x]
+        lines += ["[[mark]]", f'name = "{i + 1}"', f"target = [{x}, 0]", f"measured = {read}"]
+    (folder / "marks.toml").write_text("\n".join([*lines, ""]))
+    return [str(folder / name) for name in ("groundcontrol.ini", "marks.toml")]
+
+
+@pytest.mark.parametrize("words", [["diagnose"], ["calibrate"], ["add", "--effect", "chain_pitch"]])
+def test_marks_in_one_row_are_said_not_to_reach_over_the_sheet(tmp_path, capsys, words):
+    command, *more = words
+    main([command, *in_a_row(tmp_path), *more])
+    said = " ".join(capsys.readouterr().out.split())
+    assert "These marks do not reach over the sheet" in said
+
+
+def test_the_page_says_so_too(tmp_path):
+    in_a_row(tmp_path)
+    with asked(tmp_path) as client:
+        choose(client, settings="groundcontrol.ini", marks=["marks.toml"])
+        verdict = finished(client, "verdict")["verdict"]
+        assert verdict["reach"].startswith("These marks do not reach over the sheet")
+        correction = finished(client, "correction")["correction"]
+        assert correction["nothing"] == "First measure marks all over the sheet"

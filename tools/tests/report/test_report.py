@@ -187,6 +187,12 @@ def test_a_slip_changes_no_setting(made):
     assert fall_text.count("not fitted") == 1
 
 
+def test_a_slip_does_not_count(made):
+    _, answer, page = made("slip")
+    as_set = re.search(r"As set: ([\d.]+) mm", Page(page.part("maps")).text)
+    assert float(as_set[1]) < answer["comparison"]["rms_mm"] - 2
+
+
 def test_cards_say_what_diagnose_says(made):
     _, answer, page = made("cannot_tell")
     text = Page(page.part("suspects")).text

@@ -19,6 +19,9 @@ export function Bench() {
   return <OpenBench bench={bench} />;
 }
 
+const ARROWS =
+  "Pale arrows show the state before. Lay an effect over the marks to see what it draws. ";
+
 function OpenBench({ bench }: { bench: Board }) {
   const { project, choose } = useProject();
   const units = project.choices.units ?? "mm";
@@ -32,6 +35,7 @@ function OpenBench({ bench }: { bench: Board }) {
     if (keep) void choose({ bench: next });
   };
   const { now, frame, previous } = live;
+  const hasMarks = bench.marks.length > 0;
   const [laid, lay] = useState("");
   const drawn = useDrawn(laid ? [laid] : [], bench.board);
   // A slider moves more often than a fit comes: what has not changed is not drawn again.
@@ -42,11 +46,13 @@ function OpenBench({ bench }: { bench: Board }) {
     return (
       <Residuals
         marks={bench.marks}
+        spans={bench.spans}
         states={states}
         ghosts={hasEffects ? previous?.fit : undefined}
         sigma={bench.sigma}
         covariates={frame && bench.covariates}
         doubted={bench.doubted}
+        doubtedSpans={bench.doubted_spans}
         drawn={drawn}
         sheet={bench.sheet}
       />
@@ -55,7 +61,7 @@ function OpenBench({ bench }: { bench: Board }) {
   return (
     <Screen
       title="Effects bench"
-      say="Add an effect: all else is refitted at once. Pale arrows show the state before. Lay an effect over the marks to see what it draws. Nothing goes to the machine."
+      say={`Add an effect: all else is refitted at once. ${hasMarks ? ARROWS : ""}Nothing goes to the machine.`}
       why={<Why />}
       {...(now ? { command: now.fit.command } : {})}
       stage={stage}
@@ -77,7 +83,7 @@ function OpenBench({ bench }: { bench: Board }) {
             fit={now?.fit}
             change={change}
             isLaid={laid === effect.name}
-            lay={() => lay(laid === effect.name ? "" : effect.name)}
+            lay={hasMarks ? () => lay(laid === effect.name ? "" : effect.name) : undefined}
           />
         ))}
         {now?.fit.intervals && kept.effects.length > 0 && (

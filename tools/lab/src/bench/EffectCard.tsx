@@ -10,7 +10,7 @@ interface EffectCardParts {
   change: (choice: Choice, keep: boolean) => void;
   /** Whether what it draws lies over the marks. */
   isLaid: boolean;
-  lay: () => void;
+  lay: (() => void) | undefined; // undefined: there is no mark
 }
 
 export function EffectCard({ effect, choice, fit, change, isLaid, lay }: EffectCardParts) {
@@ -35,15 +35,17 @@ export function EffectCard({ effect, choice, fit, change, isLaid, lay }: EffectC
           {effect.where !== "firmware" && <small>no setting holds it</small>}
         </span>
       </label>
-      <button
-        type="button"
-        class="lay"
-        aria-pressed={isLaid}
-        aria-label={`Lay over the marks: ${effect.noun}`}
-        onClick={lay}
-      >
-        Lay over
-      </button>
+      {lay && (
+        <button
+          type="button"
+          class="lay"
+          aria-pressed={isLaid}
+          aria-label={`Lay over the marks: ${effect.noun}`}
+          onClick={lay}
+        >
+          Lay over
+        </button>
+      )}
       {added && (
         <div class="sizes">
           {effect.parameters.map((parameter) => (

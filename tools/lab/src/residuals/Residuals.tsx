@@ -4,12 +4,14 @@ import type { Schemas } from "../api/client";
 import { Sheet } from "../sheet/Sheet";
 import { useProject } from "../shell/project";
 import { type Covariate, type Left, Plots } from "./Plots";
+import { endsOf, type Span, SpanLines, SpanTable } from "./Spans";
 import type { Drawn } from "./useDrawn";
 import { useRested } from "./useRested";
 import "./residuals.css";
 
 interface ResidualsParts {
   marks: readonly Schemas["ComparedMark"][];
+  spans: readonly Span[];
   /** As set, with the frame fitted, and with effects. */
   states: readonly Left[];
   /** The state below that which is shown. */
@@ -21,12 +23,14 @@ interface ResidualsParts {
   sheet: readonly [number, number];
   /** Marks whose readings disagree: they scale nothing. */
   doubted: readonly number[];
+  doubtedSpans: readonly number[];
 }
 
 const FRAME = 1; // the state of the fitted frame
 
 export function Residuals(parts: ResidualsParts) {
-  const { marks, states, ghosts, sigma, covariates, drawn, sheet, doubted } = parts;
+  const { marks, spans, states, ghosts, sigma, covariates, drawn, sheet } = parts;
+  const { doubted, doubtedSpans } = parts;
   const units = useProject().project.choices.units ?? "mm";
   const [chosen, show] = useState<number>();
   const [selected, select] = useState<number>();
@@ -34,16 +38,15 @@ export function Residuals(parts: ResidualsParts) {
   const usual = drawn ? FRAME : states.length - 1;
   const shown = Math.min(chosen ?? usual, states.length - 1);
   const state = states[shown];
-  const drawnMarks = useMemo(
-    () =>
-      marks.map(({ name, target, measured }, i) => ({
-        name,
-        target,
-        measured,
-        isDoubted: doubted.includes(i),
-      })),
-    [marks, doubted],
-  );
+  const drawnMarks = useMemo(() => {
+    const all = marks.map(({ name, target, measured }, i) => ({
+      name,
+      target,
+      measured,
+      isDoubted: doubted.includes(i),
+    }));
+    return [...all, ...endsOf(spans, new Set(marks.map(({ name }) => name)))];
+  }, [marks, spans, doubted]);
   const laid = shown === FRAME ? drawn : undefined;
   // A slider moves the arrows; the plots follow a few times a second.
   const plotted = useRested(state);
@@ -51,6 +54,7 @@ export function Residuals(parts: ResidualsParts) {
   const plots = useMemo(
     () =>
       covariates &&
+      marks.length > 0 &&
       plotted &&
       frame && (
         <Plots
@@ -64,14 +68,15 @@ export function Residuals(parts: ResidualsParts) {
           select={select}
         />
       ),
-    [covariates, plotted, frame, laid, units, selected, doubted],
+    [covariates, marks, plotted, frame, laid, units, selected, doubted],
   );
   if (!state) return null;
+  const taped = { spans, state, doubted: doubtedSpans, sigma, units };
   return (
     <>
       <Sheet
         size={sheet}
-        label={`Errors of ${marks.length} marks, ${state.title}`}
+        label={`Errors of ${countWords(marks.length, spans.length)}, ${state.title}`}
         name="residuals"
         units={units}
         marks={drawnMarks}
@@ -83,8 +88,16 @@ export function Residuals(parts: ResidualsParts) {
         sigma={sigma}
         selected={selected}
         select={select}
-      />
+      >
+        <SpanLines {...taped} scale={frame ?? state} />
+      </Sheet>
+      <SpanTable {...taped} />
       {plots}
     </>
   );
+}
+
+function countWords(marks: number, spans: number): string {
+  const words = [marks > 0 && `${marks} marks`, spans > 0 && `${spans} distances`];
+  return words.filter(Boolean).join(" and ");
 }

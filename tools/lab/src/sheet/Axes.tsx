@@ -76,7 +76,7 @@ interface LegendParts {
   /** How many times longer than life arrows are; undefined without arrows. */
   factor: number | undefined;
   /** What a circle around a mark holds; undefined without circles. */
-  circle: "noise" | "promised" | undefined;
+  circle: "noise" | "promised" | 0 | undefined;
 }
 
 /** What an arrow, a circle and a line of the drawing mean, below it. */

@@ -15,7 +15,7 @@ interface MarksParts {
   state: State | undefined;
   ghosts: readonly (Pair | null)[] | undefined;
   /** What an effect draws, below the errors. */
-  print: readonly Pair[] | undefined;
+  print: readonly (Pair | null)[] | undefined;
   factor: number;
   sigma: number | undefined;
   selected: number | undefined;

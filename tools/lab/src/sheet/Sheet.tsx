@@ -32,7 +32,7 @@ export interface SheetParts {
   show?: (index: number) => void;
   /** Drawn pale, below the state that is shown. */
   ghosts?: State | undefined;
-  print?: readonly Pair[] | undefined;
+  print?: readonly (Pair | null)[] | undefined;
   sigma?: number | undefined; // [mm] of a reading
   selected?: number | undefined;
   select?: (mark: number | undefined) => void;
@@ -54,7 +54,8 @@ export function Sheet(parts: SheetParts) {
   const scale = useMemo(() => scaleOf(size, zoom.view, wide), [size[0], size[1], zoom.view, wide]);
   const [chosen, setFactor] = useState<number>();
   const state = states[shown];
-  const factor = state && (chosen ?? usualFactor(parts, shown));
+  const hasArrows = state?.errors.some((error) => error) ?? false;
+  const factor = hasArrows ? (chosen ?? usualFactor(parts, shown)) : undefined;
   const pointing = usePointing(parts, scale, zoom, factor ?? 0, drawing);
   const { selected } = pointing;
   const frame = {
@@ -63,7 +64,7 @@ export function Sheet(parts: SheetParts) {
     "aria-label": `The sheet: arrow keys choose a mark, plus and minus enlarge${states.length > 1 ? ", [ and ] change the state" : ""}`,
   };
   const { plot } = scale;
-  const high = plot.bottom + legendHeight(wide, state !== undefined);
+  const high = plot.bottom + legendHeight(wide, hasArrows);
   const isWhole = zoom.view.times === 1;
   const title = `${document.title}: ${state?.title ?? label}`;
   return (
@@ -108,13 +109,13 @@ export function Sheet(parts: SheetParts) {
             <Legend
               units={units}
               factor={factor}
-              circle={state?.promised ? "promised" : state && sigma ? "noise" : undefined}
+              circle={!hasArrows ? undefined : state?.promised ? "promised" : sigma && "noise"}
             />
           </ScaleContext.Provider>
         </svg>
         {!acts && (
           <div
-            class={`card-of-mark ${cornerOf(scale, marks[selected ?? -1])} ${state ? "waits" : ""}`}
+            class={`card-of-mark ${cornerOf(scale, marks[selected ?? -1])} ${hasArrows ? "waits" : ""}`}
             role="status"
           >
             {selected !== undefined && marks[selected] ? (
@@ -125,7 +126,7 @@ export function Sheet(parts: SheetParts) {
                 units={units}
               />
             ) : (
-              state && <span>Touch a mark: its numbers stand here.</span>
+              hasArrows && <span>Touch a mark: its numbers stand here.</span>
             )}
           </div>
         )}

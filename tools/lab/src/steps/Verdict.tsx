@@ -62,13 +62,15 @@ export function Verdict() {
       why={<Why noise={verdict.noise} notes={verdict.notes} />}
       command={answer.command}
       stage={
-        verdict.marks.length > 0 && (
+        (verdict.marks.length > 0 || verdict.spans.length > 0) && (
           <Residuals
             marks={verdict.marks}
+            spans={verdict.spans}
             states={verdict.states}
             sigma={verdict.sigma}
             covariates={bench?.covariates}
             doubted={verdict.doubted}
+            doubtedSpans={verdict.doubted_spans}
             drawn={drawn}
             sheet={sheet}
           />
@@ -94,6 +96,7 @@ export function Verdict() {
           </li>
         </ul>
       )}
+      {verdict.reach && <p class="trouble">{verdict.reach}.</p>}
       <HalfTyped />
       <div ref={place}>
         {isNextWanted && <NextStep sheet={sheet} marks={verdict.marks} next={next} />}
@@ -109,7 +112,9 @@ export function Verdict() {
                 card={card}
                 units={units}
                 isLaid={card.title === laid}
-                lay={() => lay(card.title === laid ? undefined : card.title)}
+                {...(verdict.marks.length > 0
+                  ? { lay: () => lay(card.title === laid ? undefined : card.title) }
+                  : {})}
               />
             ))}
           </div>

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from typing import Annotated
 
 import numpy as np
@@ -19,8 +20,27 @@ from plumb.fit.expected import plausible_range
 from plumb.fit.fit import Fit
 from plumb.lab.background import LiveBoards, WarmBoard
 from plumb.lab.project import Choices
-from plumb.lab.residuals import Ends, Pair, State, as_set, doubted_marks, ends, fitted_state, pairs
-from plumb.lab.rounds import board_words, command, inputs_of, known_words, unit_words
+from plumb.lab.residuals import (
+    NO_ENDS,
+    Ends,
+    Pair,
+    Span,
+    State,
+    among_all,
+    as_set,
+    ends,
+    fitted_state,
+    pairs,
+    spans_of,
+)
+from plumb.lab.rounds import (
+    board_words,
+    command,
+    inputs_of,
+    known_words,
+    unit_words,
+    usual_words,
+)
 from plumb.lab.routes.project import ProjectAnswer, TheProject, show
 from plumb.model.catalogue import every_effect, is_sketch, parameter_words
 from plumb.model.plain import noun_of, plain_size, plainly
@@ -72,7 +92,9 @@ class BenchAnswer(BaseModel):
     sigma: float  # [mm] of a reading
     marks: tuple[ComparedMark, ...]
     as_set: State
-    doubted: list[int]  # marks whose readings are to be looked at again
+    spans: list[Span]
+    doubted: list[int]  # marks whose readings are to be looked at again: no fit sees them
+    doubted_spans: list[int]
     effects: list[BenchEffect]
     covariates: list[BenchCovariate]
     new_machine: str  # name of the file that the bench writes
@@ -141,7 +163,7 @@ class BenchDrawn(BaseModel):
     """What effects add to the frame's fit [mm]."""
 
     noun: str
-    moved: list[Pair]
+    moved: list[Pair | None]
     chains: list[Ends]
     curves: dict[str, tuple[BenchCurve, BenchCurve]]
 
@@ -164,16 +186,18 @@ Warm = Annotated[WarmBoard, Depends(_warm)]
 @router.get("/bench")
 def open_bench(project: TheProject, warm: Warm) -> BenchAnswer:
     """Return the marks, the effects, and what errors may depend on."""
-    doubted = doubted_marks(warm.raw, warm.doubted)
+    doubts = warm.doubts
     return BenchAnswer(
         board=warm.key,
         sheet=warm.live.model.sheet,
         sigma=warm.live.noise.sigma,
         marks=warm.raw.marks,
-        as_set=as_set(warm.raw, warm.live.noise.sigma, doubted=doubted),
-        doubted=doubted,
+        spans=spans_of(warm.inputs.measurements),
+        as_set=as_set(warm.raw, warm.live.noise.sigma, doubts=doubts),
+        doubted=list(doubts.marks),
+        doubted_spans=list(doubts.spans),
         effects=_effects(warm),
-        covariates=[_covariate(each) for each in warm.view.covariates],
+        covariates=[_covariate(each, doubts.marks) for each in warm.view.covariates],
         new_machine=NEW_MACHINE,
         new_digest=project.digest(NEW_MACHINE),
     )
@@ -190,7 +214,7 @@ def refit(choice: BenchChoice, project: TheProject, warm: Warm) -> BenchFit:
         intervals = intervals_sentence(fitted.sigma, warm.live.noise.source)
     title = f"+ {plainly(chosen.effects)}" if chosen.effects else "frame fitted"
     return BenchFit(
-        **dict(fitted_state(title, fitted, warm.view)),
+        **dict(fitted_state(title, fitted, warm.view, warm.doubts)),
         left_out_rms=fitted.left_out_rms,
         sizes=sizes,
         intervals=intervals,
@@ -213,7 +237,7 @@ def climb(choice: BenchChoice, project: TheProject, warm: Warm) -> BenchStairs:
         result = add_to(warm.live, warm.raw, chosen)
     qualities = [("frame fitted", result.before, False)]
     qualities += [(f"+ {noun_of(step.effect)}", step, step.only_fit) for step in result.by_effect]
-    shown = as_set(warm.raw, warm.live.noise.sigma, doubted=doubted_marks(warm.raw, warm.doubted))
+    shown = as_set(warm.raw, warm.live.noise.sigma, doubts=warm.doubts)
     first = BenchStair(
         noun="as set", fit_rms=shown.fit_rms, noise_rms=None, left_out_rms=None, only_fit=False
     )
@@ -230,7 +254,7 @@ def climb(choice: BenchChoice, project: TheProject, warm: Warm) -> BenchStairs:
     return BenchStairs(
         stairs=[first, *stairs],
         pays=result.pays or not chosen.effects,
-        warnings=list(result.warnings),
+        warnings=[*(slip.sentence for slip in warm.slips), *result.warnings],
     )
 
 
@@ -240,11 +264,12 @@ def draw(
 ) -> BenchDrawn:
     """Return what effects would draw into what the frame leaves."""
     warm.live.refuse(Chosen(tuple(effects)))
-    drawn = warm.view.drawn(*effects)
+    drawn, doubted = warm.view.drawn(*effects), warm.doubts.marks
+    moved: list[Pair | None] = [*pairs(drawn.moved)]
     return BenchDrawn(
         noun=plainly(effects),
-        moved=pairs(drawn.moved),
-        chains=ends(drawn.curves.chains),
+        moved=among_all(moved, doubted, None),
+        chains=among_all(ends(drawn.curves.chains), doubted, NO_ENDS),
         curves={
             name: (_curve(name, left), _curve(name, right))
             for name, (left, right) in drawn.curves.curves.items()
@@ -253,14 +278,17 @@ def draw(
 
 
 @router.post("/bench/machine")
-def save(change: BenchSave, project: TheProject) -> ProjectAnswer:
+def save(change: BenchSave, project: TheProject, warm: Warm) -> ProjectAnswer:
     """Write the machine with these effects, as `plumb add -o` does."""
-    inputs, chosen = inputs_of(project), change.chosen
+    inputs, chosen = warm.live.inputs, change.chosen
+    if warm.slips:
+        names = ", ".join(dict.fromkeys(slip.called for slip in warm.slips))
+        raise InputError(f"look at {names} again under Readings first, or clear the reading there")
     for name in filter(is_sketch, chosen.effects):
         raise InputError(f"{name} is a sketch, which no firmware has; take it away to write")
-    result = add(inputs, effects=chosen.effects, held=chosen.held)
+    result = add(inputs, effects=chosen.effects, held=chosen.held, noise=warm.live.noise)
     source = inputs.measurements.source
-    content = toml_of(result, source=source, record=record_of(result, inputs))
+    content = toml_of(result, source=source, record=record_of(result, warm.inputs))
     project.save({NEW_MACHINE: content}, read={NEW_MACHINE: change.read})
     return show(project)
 
@@ -297,12 +325,12 @@ def _parameter(name: str, warm: WarmBoard) -> BenchParameter:
     )
 
 
-def _covariate(covariate: Covariate) -> BenchCovariate:
+def _covariate(covariate: Covariate, doubted: Collection[int]) -> BenchCovariate:
     return BenchCovariate(
         name=covariate.name,
         unit="°" if covariate.unit == "rad" else covariate.unit,
         of_chain=covariate.of_chain,
-        values=ends(_in_degrees(covariate.name, covariate.values)),
+        values=among_all(ends(_in_degrees(covariate.name, covariate.values)), doubted, NO_ENDS),
     )
 
 
@@ -341,6 +369,10 @@ def _command(choices: Choices, chosen: Chosen, warm: WarmBoard, *, can_be: bool)
     """
     held = [word for item in chosen.held.items() for word in ("--hold", "{}={:.12g}".format(*item))]
     known = known_words(choices, effects=chosen.effects, held=chosen.held)
+    usual = warm.live.inputs.checked[len(warm.inputs.checked) :]
+    known += usual_words(usual, chosen.effects, {*chosen.held, *choices.known})
+    names = [slip.name for slip in warm.slips if len(slip.read) == 2]
+    known += [word for name in dict.fromkeys(names) for word in ("--without", name)]
     return command(
         *("add", *warm.words, *known),
         *unit_words(choices, warm.live.inputs.measurements.typed.unit),

@@ -29,7 +29,7 @@ from plumb.lab.background import Progress, key_of
 from plumb.lab.machine_line import TheLine, refuse_unanswered
 from plumb.lab.project import FILE, Choices, Project, choices_text
 from plumb.lab.residuals import State, as_set, fitted_state
-from plumb.lab.rounds import board_words, command, inputs_of, known_words, unit_words
+from plumb.lab.rounds import board_words, command, inputs_of, known_words, unit_words, usual_words
 from plumb.lab.routes.project import TheProject
 from plumb.lab.routes.verdict import TheBackground
 from plumb.model.plain import plain_change, plain_range
@@ -153,7 +153,7 @@ def _nothing_to_change(auto: AutoAddition) -> tuple[str, str]:
         return "Nothing to change", "verdict"
     if auto.diagnosis.outliers:
         return "First look at a reading again", "readings"
-    return "First measure more marks", "measure"
+    return "First measure marks all over the sheet", "measure"
 
 
 @router.post("/correction")
@@ -251,12 +251,7 @@ def _add_words(made: Correction, usual: Sequence[Checked], choices: Choices) -> 
         return _auto_words(choices)
     gone = {*made.held, *made.fixed}
     words = known_words(choices, effects=made.effects, held=gone)
-    for each in usual:
-        if each.name.rpartition(".")[0] in made.effects and each.name not in {
-            *gone,
-            *choices.known,
-        }:
-            words += ["--checked", f"{each.name}={each.value:.12g}+-{each.sigma:.12g}"]
+    words += usual_words(usual, made.effects, {*gone, *choices.known})
     for name in made.fixed:
         words += ["--prior", f"{name}=0"]
     words += ["--effect", *(made.effects or ["none"])]

@@ -12,6 +12,7 @@ from plumb.cure.auto import AutoAddition, add_auto
 from plumb.cure.live_board import BoardView, Chosen, LiveBoard
 from plumb.diagnosis.answer import SHOWN, Diagnosis, Together, odds_words
 from plumb.diagnosis.diagnosis import diagnose
+from plumb.diagnosis.outliers import Doubts
 from plumb.diagnosis.priors import LIKELIER
 from plumb.diagnosis.sizes import Size
 from plumb.diagnosis.unseen import Unseen, share_words, unseen_by
@@ -19,7 +20,7 @@ from plumb.fit.compare import ComparedMark, Comparison
 from plumb.fit.expected import plausible_range
 from plumb.lab.background import Background, Progress, key_of
 from plumb.lab.project import Project
-from plumb.lab.residuals import State, as_set, doubted_marks, fitted_state
+from plumb.lab.residuals import Span, State, as_set, fitted_state, spans_of
 from plumb.lab.rounds import board_words, command, inputs_of, known_words, unit_words
 from plumb.lab.routes.project import TheProject
 from plumb.model.catalogue import every_effect
@@ -73,9 +74,12 @@ class Verdict(BaseModel):
 
     title: str
     sentence: str
+    reach: str  # a sentence, where the marks do not reach over the sheet
     marks: tuple[ComparedMark, ...]
     states: list[State]  # as set, with the frame fitted, with what is added
+    spans: list[Span]
     doubted: list[int]  # marks whose readings are to be looked at again
+    doubted_spans: list[int]
     apart: str  # a sentence, where rivals would cut elsewhere by more than the noise
     sigma: float  # [mm] of a reading
     noise: str  # a sentence
@@ -141,13 +145,16 @@ def verdict_of(inputs: api.Inputs, diagnosis: Diagnosis, auto: AutoAddition) -> 
     """Return a diagnosis as the page shows it."""
     raw = api.compare(inputs)
     shown = list(diagnosis.explanations)[:MOST_CARDS]
-    doubted = doubted_marks(raw, {(slip.name, slip.read) for slip in diagnosis.outliers})
+    doubts = Doubts.of(diagnosis.outliers, raw)
     return Verdict(
         title=_title(auto),
         sentence=diagnosis.sentence,
+        reach=diagnosis.left_open.sentence,
         marks=raw.marks,
-        states=_states(raw, auto, doubted),
-        doubted=doubted,
+        spans=spans_of(inputs.measurements),
+        states=_states(raw, auto, doubts),
+        doubted=list(doubts.marks),
+        doubted_spans=list(doubts.spans),
         apart=auto.apart.sentence if auto.apart else "",
         sigma=diagnosis.noise.sigma,
         noise=diagnosis.noise.sentence,
@@ -167,7 +174,7 @@ def _title(auto: AutoAddition) -> str:
     if diagnosis.disagreements:
         return "The rounds do not go together"
     if diagnosis.is_good:
-        return "As good as these marks can show"
+        return "Cured" if diagnosis.is_cured else "As good as these marks can show"
     if diagnosis.verdict == "nothing_provable":
         may_act = diagnosis.nothing_chance <= LIKELIER
         return "Something may act" if may_act else "The frame may be all of it"
@@ -175,14 +182,15 @@ def _title(auto: AutoAddition) -> str:
         return diagnosis.sentence.partition(".")[0]
     if diagnosis.verdict == "not_in_library":
         known = diagnosis.field_chance <= LIKELIER
-        return "Something is left over" if known else "No known effect draws this"
+        odds = odds_words(diagnosis.field_chance)
+        return "Something is left over" if known else f"Something unknown acts, odds {odds}"
     return "One suspect" if diagnosis.verdict == "one_suspect" else "Several things could be it"
 
 
-def _states(raw: Comparison, auto: AutoAddition, doubted: list[int]) -> list[State]:
+def _states(raw: Comparison, auto: AutoAddition, doubts: Doubts) -> list[State]:
     """Return what is left of the marks: as set, with the frame, with what is added."""
     addition, noise = auto.addition, auto.diagnosis.noise
-    states = [as_set(raw, noise.sigma, doubted=doubted)]
+    states = [as_set(raw, noise.sigma, doubts=doubts)]
     if auto.diagnosis.outliers:
         return states
     live = LiveBoard(auto.inputs, noise=noise)
@@ -195,7 +203,7 @@ def _states(raw: Comparison, auto: AutoAddition, doubted: list[int]) -> list[Sta
 
 def _card(diagnosis: Diagnosis, index: int, together: Together) -> Card:
     return Card(
-        title=plainly(together.effects),
+        title=diagnosis.called(together),
         effects=[_effect(diagnosis, name, together) for name in together.effects],
         odds="" if diagnosis.is_finding else odds_words(together.share),
         rms_after=together.rms_after,

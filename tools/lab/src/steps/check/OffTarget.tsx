@@ -12,7 +12,7 @@ export function OffTarget({ rounds, units }: OffTargetParts) {
   const most = Math.max(...rounds.map(({ off_target }) => off_target), 0.1);
   return (
     <table class="off-target">
-      <caption>How far the marks are from where they were sent</caption>
+      <caption>Off from the target, RMS: how far the marks are from where they were sent</caption>
       <tbody>
         {rounds.map(({ form, off_target, is_check }) => (
           <tr key={form}>

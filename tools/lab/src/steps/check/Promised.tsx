@@ -14,7 +14,8 @@ export function Promised({ marks, units }: PromisedParts) {
         <tr>
           <th scope="col">mark</th>
           <th scope="col">promised within</th>
-          <th scope="col">off where it was promised</th>
+          <th scope="col">off from what was promised</th>
+          <th scope="col">off from the target</th>
         </tr>
       </thead>
       <tbody>
@@ -23,6 +24,7 @@ export function Promised({ marks, units }: PromisedParts) {
             <th scope="row">{mark.name}</th>
             <td>{namedLength(mark.promised, units, 2)}</td>
             <td>{namedLength(mark.off, units, 2)}</td>
+            <td>{namedLength(mark.error, units, 2)}</td>
           </tr>
         ))}
       </tbody>

@@ -8,7 +8,8 @@ interface CardParts {
   units: Unit;
   /** Whether what it draws lies over the marks. */
   isLaid: boolean;
-  lay: () => void;
+  /** Lays it over the marks, if there are any. */
+  lay?: () => void;
 }
 
 export function SuspectCard({ card, units, isLaid, lay }: CardParts) {
@@ -16,9 +17,11 @@ export function SuspectCard({ card, units, isLaid, lay }: CardParts) {
     <article class="card" aria-label={card.title}>
       <h3>{card.title}</h3>
       {card.odds && <p class="odds">Odds {card.odds}</p>}
-      <button type="button" aria-pressed={isLaid} onClick={lay}>
-        {isLaid ? "Laid over the marks" : "Lay it over the marks"}
-      </button>
+      {lay && (
+        <button type="button" aria-pressed={isLaid} onClick={lay}>
+          {isLaid ? "Laid over the marks" : "Lay it over the marks"}
+        </button>
+      )}
       {card.effects.map((effect) => (
         <div key={effect.name} class="cause">
           <p>{capital(effect.summary)}.</p>

@@ -1,0 +1,106 @@
+// Measured distances: a line for each, the thicker the farther it is off, and the same as a table.
+import type { Schemas } from "../api/client";
+import { shownLength, type Unit } from "../controls/lengths";
+import type { Mark } from "../sheet/marks";
+import { useScale } from "../sheet/scale";
+import type { Pair } from "../sheet/view";
+
+export type Span = Schemas["Span"];
+type State = Schemas["State"];
+
+const BEYOND_NOISE = 1.96; // sigmas: noise alone makes a larger error in 5 % of the distances
+const [THIN, THICK] = [2, 12]; // [px]
+
+interface SpanParts {
+  spans: readonly Span[];
+  state: State;
+  doubted: readonly number[];
+  sigma: number; // [mm] of a reading
+  units: Unit;
+}
+
+/** How a distance is drawn, by its error. */
+function kindOf(error: number | null | undefined, isDoubted: boolean, sigma: number): string {
+  if (isDoubted || error == null) return "doubted";
+  if (Math.abs(error) <= BEYOND_NOISE * sigma) return "within";
+  return error > 0 ? "longer" : "shorter";
+}
+
+/** The lines; `scale` is the state whose largest error is the thickest. */
+export function SpanLines({ spans, state, doubted, sigma, scale }: SpanParts & { scale: State }) {
+  const { at } = useScale();
+  const sure = [scale, state].flatMap((each) =>
+    each.spans.filter((_, i) => !doubted.includes(i)).map((error) => Math.abs(error ?? 0)),
+  );
+  const most = Math.max(...sure, BEYOND_NOISE * sigma);
+  return (
+    <g class="spans">
+      {spans.map(({ ends: [from, to] }, i) => {
+        const [error, isDoubted] = [state.spans[i], doubted.includes(i)];
+        const [[x1, y1], [x2, y2]] = [at(from), at(to)];
+        const share = isDoubted ? 0 : Math.min(1, Math.abs(error ?? 0) / most);
+        return (
+          <g key={i} class={kindOf(error, isDoubted, sigma)}>
+            <line {...{ x1, y1, x2, y2 }} stroke-width={THIN + (THICK - THIN) * share} />
+            {isDoubted && <circle class="doubt" cx={(x1 + x2) / 2} cy={(y1 + y2) / 2} r={14} />}
+          </g>
+        );
+      })}
+    </g>
+  );
+}
+
+/** The ends of distances that are no marks with an error. */
+export function endsOf(spans: readonly Span[], known: ReadonlySet<string>): Mark[] {
+  const places = new Map<string, Pair>();
+  for (const { between, ends } of spans) {
+    for (const i of [0, 1] as const) if (!known.has(between[i])) places.set(between[i], ends[i]);
+  }
+  return [...places].map(([name, target]) => ({ name, target, look: "faint" }));
+}
+
+/** The errors in figures, the largest first. */
+export function SpanTable({ spans, state, doubted, sigma, units }: SpanParts) {
+  if (spans.length === 0) return null;
+  const rows = spans.map((span, i) => ({
+    span,
+    error: state.spans[i],
+    kind: kindOf(state.spans[i], doubted.includes(i), sigma),
+  }));
+  rows.sort((a, b) => Math.abs(b.error ?? 0) - Math.abs(a.error ?? 0));
+  return (
+    <section class="taped-errors" aria-labelledby="taped-title">
+      <h2 id="taped-title">
+        Distances: {state.title} [{units}]
+      </h2>
+      <p class="keys">
+        <span class="key longer">longer than it should be</span>
+        <span class="key shorter">shorter</span>
+        <span class="key within">within noise</span>
+        {doubted.length > 0 && <span class="key doubted">to be read again</span>}
+      </p>
+      <table>
+        <thead>
+          <tr>
+            <th scope="col">between</th>
+            <th scope="col">measured</th>
+            <th scope="col">off by</th>
+          </tr>
+        </thead>
+        <tbody>
+          {rows.map(({ span, error, kind }) => (
+            <tr key={`${span.between} ${span.measured}`} class={kind}>
+              <th scope="row">{span.between.join(" and ")}</th>
+              <td>{shownLength(span.measured, units)}</td>
+              <td>{error == null ? "read it again" : signed(error, units)}</td>
+            </tr>
+          ))}
+        </tbody>
+      </table>
+    </section>
+  );
+}
+
+function signed(mm: number, units: Unit): string {
+  return `${mm > 0 ? "+" : ""}${shownLength(mm, units, 2).replace("-", "\u2212")}`;
+}
