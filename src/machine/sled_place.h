@@ -61,7 +61,7 @@ class SledPlace {
   /// At the start: takes over the stored position.
   void restore(const settings::Started& started);
   void sayUnset(bool has_defaults);
-  /// From now on the chains are not trusted; says why.
+  /// From now on the chains are not trusted, nor is z unless the reason spares it; says why.
   void lose(settings::Doubt why);
   /// Takes over which axes' counts were proved wrong.
   void doubtCounts();

@@ -179,11 +179,15 @@ void PositionSlots::beginMoving() {
 }
 
 void PositionSlots::doubt(Doubt why) {
-  if (wanted_ == kMoved) wanted_ = uint8_t(why);
-  tried_ = false;
+  if (wanted_ == kMoved) want(uint8_t(why));
   beginMoving();
+}
+
+void PositionSlots::want(uint8_t mark) {
+  wanted_ = mark;
+  tried_ = false;
   // Without a record there is nothing to mark.
-  if (!exists_ && !writing_) mark_ = wanted_;
+  if (!exists_ && !writing_) mark_ = mark;
 }
 
 void PositionSlots::step() {
