@@ -54,27 +54,10 @@ bool Answers::refuseBare(uint8_t number) {
 
 bool Answers::refuseStatement() { return refuse(FLASH("Invalid statement")); }
 
-bool Answers::refuseWords(FlashText why) {
-  beginRefusal(false, grbl::kUnsupported);
+bool Answers::refuseLine(bool is_motion, uint8_t number, FlashText why, char letter) {
+  beginRefusal(is_motion, number);
   out_ << why;
-  return endRefusal();
-}
-
-bool Answers::refuseWords(FlashText why, char letter) {
-  beginRefusal(false, grbl::kUnsupported);
-  out_ << why << letter;
-  return endRefusal();
-}
-
-bool Answers::refuseMotion(FlashText why) {
-  beginRefusal(true, grbl::kTravel);
-  out_ << why;
-  return endRefusal();
-}
-
-bool Answers::refuseMotion(FlashText why, char letter) {
-  beginRefusal(true, grbl::kTravel);
-  out_ << why << letter;
+  if (letter != '\0') out_ << letter;
   return endRefusal();
 }
 
@@ -93,9 +76,7 @@ bool Answers::refuseCode(const gcode::Piece& piece) {
 }
 
 bool Answers::refuseMistake(gcode::Mistake mistake) {
-  beginRefusal(false, numberOf(mistake.fault));
-  out_ << textOf(mistake.fault) << mistake.letter;
-  return endRefusal();
+  return refuseLine(false, numberOf(mistake.fault), textOf(mistake.fault), mistake.letter);
 }
 
 /// Begins the words. A halt is an alarm, but to a sender of Grbl a mistake in a line stays an

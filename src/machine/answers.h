@@ -48,12 +48,14 @@ class Answers {
   bool refuseBare(uint8_t number);
   /// Refuses a motion that cannot be done, so that the machine is not where the program thinks:
   /// asks for a halt or answers `error:`, as setting $70 says.
-  bool refuseMotion(FlashText why);
-  /// Refuses a motion with a sentence that ends in `letter`.
-  bool refuseMotion(FlashText why, char letter);
+  /// The sentence ends in `letter`, if there is one.
+  bool refuseMotion(FlashText why, char letter = '\0') {
+    return refuseLine(true, grbl::kTravel, why, letter);
+  }
   /// Refuses a line whose words make no sense; asks for a halt as above.
-  bool refuseWords(FlashText why);
-  bool refuseWords(FlashText why, char letter);
+  bool refuseWords(FlashText why, char letter = '\0') {
+    return refuseLine(false, grbl::kUnsupported, why, letter);
+  }
   /// Refuses a motion with a sentence around a length [mm].
   bool refuseMotion(FlashText why, float mm, FlashText more);
   /// Refuses a line without meaning, in the words of the published firmware.
@@ -63,6 +65,7 @@ class Answers {
 
  private:
   bool halts() const { return values_.at(kRefusedMotion) == 0 && !is_serving_; }
+  bool refuseLine(bool is_motion, uint8_t number, FlashText why, char letter);
   void beginRefusal(bool is_motion, uint8_t number);
   bool endRefusal();
   void quoteLine();

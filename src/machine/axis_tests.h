@@ -39,7 +39,9 @@ class AxisTests {
   bool testDirection(Axis axis, int8_t direction);
   bool measureTaut(Axis axis, int16_t most_duty, uint32_t ms);
   void sayGap(const ChainPull& pull);
+  void lookAgain();
   // loop_tests.cpp
+  bool runLoopTest(uint8_t code, const LoopTest& test);
   void sayGains(Axis axis, bool position);
   bool sampleSpeed(Axis axis, float rpm, uint8_t version);
   bool testSpeeds(const LoopTest& test);

@@ -28,7 +28,7 @@ bool GrblFront::isOfMaslow(const char* line) const {
 
 /// Some senders of Grbl begin with these, and no client of Maslow's does.
 bool GrblFront::isGreetedBy(const char* line) {
-  if ((line[1] != 'I' && line[1] != 'G') || line[2] != '\0') return false;
+  if (line[1] == '\0' || line[2] != '\0' || strchr("IGX", line[1]) == nullptr) return false;
   is_sure_ = true;
   parts_.out.speak(Dialect::kGrbl);
   return true;

@@ -30,10 +30,25 @@ void AxisTests::sayGains(Axis axis, bool position) {
 
 bool AxisTests::testLoop(uint8_t code, const LoopTest& test) {
   is_testing_ = true;
+  const bool completed = base_.waiting.drain() && motors_.wake() && runLoopTest(code, test);
+  is_testing_ = false;
+  return completed;
+}
+
+bool AxisTests::runLoopTest(uint8_t code, const LoopTest& test) {
+  const FlashText name = code == 13   ? FLASH("--PID Velocity Test ")
+                         : code == 14 ? FLASH("--PID Position Test ")
+                                      : FLASH("--Voltage Test ");
+  base_.out << name;
+  base_.out.line(FLASH("Start--"));
   const bool completed = code == 13   ? testSpeeds(test)
                          : code == 14 ? testLengths(test)
                                       : testDuties(test);
-  is_testing_ = false;
+  base_.axes.release(test.axis);
+  base_.out << name;
+  base_.out.line(FLASH("Stop--"));
+  base_.out.end();
+  lookAgain();
   return completed;
 }
 
@@ -55,18 +70,11 @@ bool AxisTests::sampleSpeed(Axis axis, float rpm, uint8_t version) {
 }
 
 bool AxisTests::testSpeeds(const LoopTest& test) {
-  if (!base_.waiting.drain() || !motors_.wake()) return false;
-  base_.out.line(FLASH("--PID Velocity Test Start--"));
   sayGains(test.axis, false);
   if (test.version == 2) base_.out.line(FLASH("setpoint,input,output"));
   bool completed = true;
   for (uint8_t i = 0; i < test.steps && completed; ++i)
     completed = sampleSpeed(test.axis, stepOf(test, i), test.version);
-  base_.axes.release(test.axis);
-  base_.out.line(FLASH("--PID Velocity Test Stop--"));
-  base_.out.end();
-  base_.waiting.awaitStandstill();
-  place_.search(Search::kChainsDriven);
   return completed;
 }
 
@@ -91,8 +99,6 @@ bool AxisTests::sampleLength(Axis axis, float goal, uint16_t ms, uint8_t version
 }
 
 bool AxisTests::testLengths(const LoopTest& test) {
-  if (!base_.waiting.drain() || !motors_.wake()) return false;
-  base_.out.line(FLASH("--PID Position Test Start--"));
   sayGains(test.axis, true);
   if (test.version == 2) base_.out.line(FLASH("setpoint,input,output,rpminput,voltage"));
   const float from = base_.axes.length(test.axis);
@@ -100,17 +106,10 @@ bool AxisTests::testLengths(const LoopTest& test) {
   for (uint8_t i = 0; i < test.steps && completed; ++i)
     completed = sampleLength(test.axis, from + stepOf(test, i),
                              test.step_ms ? test.step_ms : kStepMs, test.version);
-  base_.axes.release(test.axis);
-  base_.out.line(FLASH("--PID Position Test Stop--"));
-  base_.out.end();
-  base_.waiting.awaitStandstill();
-  place_.search(Search::kChainsDriven);
   return completed;
 }
 
 bool AxisTests::testDuties(const LoopTest& test) {
-  if (!base_.waiting.drain() || !motors_.wake()) return false;
-  base_.out.line(FLASH("--Voltage Test Start--"));
   const int16_t last = int16_t(test.last), step = test.last < test.first ? -1 : 1;
   bool completed = true;
   for (int16_t duty = int16_t(test.first); completed; duty = int16_t(duty + step)) {
@@ -123,11 +122,6 @@ bool AxisTests::testDuties(const LoopTest& test) {
     }
     if (duty == last) break;
   }
-  base_.axes.release(test.axis);
-  base_.out.line(FLASH("--Voltage Test Stop--"));
-  base_.out.end();
-  base_.waiting.awaitStandstill();
-  place_.search(Search::kChainsDriven);
   return completed;
 }
 

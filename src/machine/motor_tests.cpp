@@ -11,8 +11,13 @@ const uint16_t kRampMs = 500, kHoldMs = 2000;
 
 bool AxisTests::driveFor(Axis axis, int16_t duty, uint32_t ms) {
   base_.axes.driveOpen(axis, duty);
-  const bool completed = base_.waiting.waitFor(ms);
-  return completed;
+  return base_.waiting.waitFor(ms);
+}
+
+/// A test is over: works out where it left the sled.
+void AxisTests::lookAgain() {
+  base_.waiting.awaitStandstill();
+  place_.search(Search::kChainsDriven);
 }
 
 bool AxisTests::rampMotor(Axis axis, int8_t sign) {
@@ -31,7 +36,7 @@ bool AxisTests::testDirection(Axis axis, int8_t direction) {
   if (!rampMotor(axis, sign)) return false;
   // A positive drive winds chain in and must lower the count.
   const int32_t wound = (before - base_.axes.counts(axis)) * sign;
-  if (wound <= kPassCounts) place_.doubt(axis, settings::Doubt::kCounts);
+  if (wound <= kPassCounts) base_.keeper.doubt(axis, settings::Doubt::kCounts);
   base_.out << FLASH("Direction ") << int32_t(direction);
   base_.out.line(wound > kPassCounts ? FLASH(" - Pass") : FLASH(" - Fail"));
   return true;
@@ -47,8 +52,7 @@ bool AxisTests::testMotors() {
     base_.axes.release(Axis(i));
   }
   if (completed) base_.out.line(FLASH("Tests complete."));
-  base_.waiting.awaitStandstill();
-  place_.search(Search::kChainsDriven);
+  lookAgain();
   return completed;
 }
 
@@ -63,8 +67,7 @@ bool AxisTests::pullChain(Axis axis, int16_t duty, float seconds) {
   else
     completed = driveFor(axis, duty < kGentleDuty ? duty : kGentleDuty, ms);
   base_.axes.release(axis);
-  base_.waiting.awaitStandstill();
-  place_.search(Search::kChainsDriven);
+  lookAgain();
   return completed;
 }
 
@@ -83,7 +86,7 @@ bool AxisTests::measureTaut(Axis axis, int16_t most_duty, uint32_t ms) {
           FLASH("The chain is not tight yet: hook it on the other sprocket, send B11 again."));
       break;
     case ChainPull::Result::kDead:
-      place_.doubt(axis, settings::Doubt::kCounts);
+      base_.keeper.doubt(axis, settings::Doubt::kCounts);
       base_.out << (axis == kLeftAxis ? FLASH("The left") : FLASH("The right"));
       base_.out.line(FLASH(" motor hardly turns: check its supply, its cables and its encoder."));
       break;

@@ -26,7 +26,7 @@ void NewValues::takeAll() {
 void NewValues::take(uint8_t touches) {
   using namespace settings;
   if (touches & kDrives) arrangeDrives();
-  if ((touches & (kScale | kLoops)) && base_.axes.prepare(base_.values)) place_.reconsider();
+  if ((touches & (kScale | kLoops)) && base_.axes.prepare(base_.values)) base_.keeper.reconsider();
   if (touches & kLimits) base_.planner.prepare(base_.values, base_.axes.secondsPerTick());
   if (touches & kCutter) base_.cutter.off();
   if (!(touches & kGeometry)) return;
@@ -71,7 +71,7 @@ void NewValues::refreshGeometry(Search why) {
   prepareGeometry();
   sayCarriedTwice();
   place_.search(why);
-  place_.reconsider();
+  base_.keeper.reconsider();
 }
 
 void NewValues::refreshBeforeLine() {

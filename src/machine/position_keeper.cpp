@@ -27,6 +27,7 @@ void PositionKeeper::doubt(Axis axis, settings::Doubt why) {
 
 void PositionKeeper::declareChains() {
   lost_ = uint8_t(lost_ & kLostZ);
+  if (!axes_.isSimulated()) memory_.endDoubt();
   reconsider();
 }
 

@@ -34,8 +34,6 @@ class PositionKeeper {
 
   /// The counts of an axis were proved wrong: stores nothing until it is declared.
   void doubt(Axis axis, settings::Doubt why);
-  /// The counts of the chains were proved wrong, or a record says so.
-  void doubtChains(settings::Doubt why) { doubt(kLeftAxis, why); }
   /// The position was never known, or was erased: there is no record.
   void startAfresh() { lost_ = kUnset; }
 

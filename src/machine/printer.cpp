@@ -21,13 +21,14 @@ const char* digitsOf(uint32_t number, char (&room)[12], uint8_t decimals) {
   return at;
 }
 
-void Printer::put(char character) {
+Printer& Printer::operator<<(char character) {
   if (line_ == Line::kNothing) {
     const bool is_data = character == '[' || character == '<' || character == '$';
     line_ = Line::kData;
     if (!is_data && speaksGrbl()) beginMessage();
   }
   wire_.write(character);
+  return *this;
 }
 
 void Printer::beginMessage() {
@@ -54,23 +55,18 @@ Printer& Printer::operator<<(FlashText text) {
   for (const char* at = text.at;; ++at) {
     const char character = char(pgm_read_byte(at));
     if (character == '\0') return *this;
-    put(character);
+    *this << character;
   }
 }
 
 Printer& Printer::operator<<(const char* text) {
-  for (; *text != '\0'; ++text) put(*text);
-  return *this;
-}
-
-Printer& Printer::operator<<(char character) {
-  put(character);
+  for (; *text != '\0'; ++text) *this << *text;
   return *this;
 }
 
 Printer& Printer::operator<<(int32_t number) {
   char room[12];
-  if (number < 0) put('-');
+  if (number < 0) *this << '-';
   return *this << digitsOf(number < 0 ? 0u - uint32_t(number) : uint32_t(number), room);
 }
 
@@ -80,7 +76,7 @@ Printer& Printer::fixed(float number, uint8_t decimals) {
   uint32_t scale = 1;
   for (uint8_t i = 0; i < decimals; ++i) scale *= 10;
   const uint32_t scaled = uint32_t(lround(fabs(number) * float(scale)));
-  if (number < 0 && scaled != 0) put('-');
+  if (number < 0 && scaled != 0) *this << '-';
   char room[12];
   return *this << digitsOf(scaled, room, decimals);
 }
@@ -92,10 +88,7 @@ void Printer::end() {
   if (number_ == 0) return;
   const uint8_t number = number_;
   number_ = 0;
-  putText(verdict_);
-  line_ = Line::kData;
-  *this << int32_t(number);
-  endOnWire();
+  sayVerdict(verdict_, number);
 }
 
 void Printer::line(FlashText text) {
@@ -116,8 +109,8 @@ Printer& Printer::begin(FlashText words, FlashText verdict, uint8_t number) {
   return *this;
 }
 
-void Printer::bareError(uint8_t number) {
-  putText(FLASH("error:"));
+void Printer::sayVerdict(FlashText verdict, uint8_t number) {
+  putText(verdict);
   line_ = Line::kData;
   *this << int32_t(number);
   endOnWire();

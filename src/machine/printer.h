@@ -53,7 +53,7 @@ class Printer {
   /// A whole line that is the same in both dialects.
   void plain(FlashText text);
   /// `error:N` without words, for a sender of Grbl.
-  void bareError(uint8_t number);
+  void bareError(uint8_t number) { sayVerdict(FLASH("error:"), number); }
 
   Printer& operator<<(FlashText text);
   Printer& operator<<(const char* text);
@@ -76,9 +76,9 @@ class Printer {
 
   Printer& begin(FlashText words, FlashText verdict, uint8_t number);
   void beginMessage();
-  void put(char character);
   void putText(FlashText text);
   void endOnWire();
+  void sayVerdict(FlashText verdict, uint8_t number);
 
   Wire& wire_;
   Dialect dialect_ = Dialect::kMaslow;

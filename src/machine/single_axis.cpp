@@ -67,7 +67,7 @@ bool SingleAxis::setChains(float left, float right) {
   base_.out.fixed(base_.axes.length(kLeftAxis), 2).line(FLASH("mm"));
   base_.out << FLASH("Right: ");
   base_.out.fixed(base_.axes.length(kRightAxis), 2).line(FLASH("mm"));
-  place_.trustChains();
+  base_.keeper.declareChains();
   place_.search(Search::kDeclared);
   return true;
 }
@@ -139,7 +139,7 @@ bool SingleAxis::probe(float target, bool until_touch, bool must) {
   sayProbing(target, feed);
   has_probed_ = move(kZAxis, target, feed, until_touch ? Until::kTouch : Until::kLetGo);
   if (base_.waiting.isStopping()) return false;
-  if (has_probed_ && (!base_.out.speaksGrbl() || !place_.trustsZ())) {
+  if (has_probed_ && (!base_.out.speaksGrbl() || !base_.keeper.trusts(kZAxis))) {
     // The axis ran on for a moment.
     z_.declare(base_.axes.length(kZAxis) - probed_.z);
     probed_.z = 0;

@@ -125,7 +125,9 @@ void SledPlace::sayUnset(bool has_defaults) {
 }
 
 void SledPlace::lose(settings::Doubt why) {
-  base_.keeper.doubtChains(why);
+  base_.keeper.doubt(kLeftAxis, why);
+  // A place that the chains contradict says nothing about z. Else nothing tells which axis moved.
+  if (why != settings::Doubt::kPlace) base_.keeper.doubt(kZAxis, why);
   base_.axes.standStill();
   // Else the next move of z would start from chains of no length.
   standHere();

@@ -48,24 +48,14 @@ class SledPlace {
   void standHere();
   /// Declares that the tool is at this z [mm].
   void declareZ(float z);
-  /// Somebody said how long both chains are.
-  void trustChains() { base_.keeper.declareChains(); }
-  /// Lengths stay, but now counts mean other lengths, or the chains mean another place.
-  void reconsider() { base_.keeper.reconsider(); }
-  /// Whether the lengths of both chains can be trusted.
-  bool trustsChains() const { return base_.keeper.trustsChains(); }
-  bool trustsZ() const { return base_.keeper.trusts(kZAxis); }
-  /// Somebody said where z is; nothing else changes.
-  void trustZ() { base_.keeper.declareZ(); }
 
   /// At the start: takes over the stored position.
   void restore(const settings::Started& started);
   void sayUnset(bool has_defaults);
-  /// From now on the chains are not trusted; says why.
+  /// From now on the chains are not trusted, nor is z unless the reason spares it; says why.
   void lose(settings::Doubt why);
   /// Takes over which axes' counts were proved wrong.
   void doubtCounts();
-  void doubt(Axis axis, settings::Doubt why) { base_.keeper.doubt(axis, why); }
   /// What must be set before the sled can cross the sheet.
   FlashText whatIsLost() const;
   /// Stores the position once everything rests; to be called often.

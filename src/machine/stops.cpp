@@ -87,7 +87,7 @@ void Stops::watchStack() {
   if (parts_.clock.isStackWhole() || parts_.course.is(State::kFalling) ||
       parts_.course.is(State::kAlarm))
     return;
-  parts_.place.doubt(kLeftAxis, settings::Doubt::kStack);
+  parts_.keeper.doubt(kLeftAxis, settings::Doubt::kStack);
   raise(Remedy::kSwitchOff, FLASH("The firmware's stack ran into its data"));
 }
 

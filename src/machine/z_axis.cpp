@@ -55,7 +55,7 @@ void ZAxis::declare(float z) {
 void ZAxis::declareInHold(float z) {
   const float shift = z - base_.axes.length(kZAxis);
   base_.axes.declareLifted(z);
-  place_.trustZ();
+  base_.keeper.declareZ();
   shiftLimits(shift);
 }
 

@@ -16,6 +16,12 @@
 <- ok
 -> B05
 <* ok
+; pygrbl-streamer unlocks before it asks anything.
+-> $X
+<- [MSG:Caution: Unlocked]
+<- ok
+-> B05
+<* ok
 ; A dump that a question cuts begins again: the last number that comes is Grbl's.
 -> $$
 <- $0=2438.4 (*

@@ -91,6 +91,8 @@
 ~~ hang X0 Y0
 ~~ declare
 <* ok
+-> G10 Z0
+<* ok
 -> G0 X5
 <- ok
 -> G4 P0

@@ -39,7 +39,7 @@ TEST_F(MovesAlone, KeepToTheSheetWhileTheProgramCountsBeyondIt) {
 }
 
 TEST_F(MovesAlone, AreRefusedWhereThePlaceIsNotKnown) {
-  keeper.doubtChains(settings::Doubt::kCounts);
+  keeper.doubt(kLeftAxis, settings::Doubt::kCounts);
   EXPECT_FALSE(moves.move(0, words("G0 X1")));
   expectSaid("Position Lost: set the chain lengths first");
   EXPECT_TRUE(answers.mustHalt());
@@ -153,7 +153,7 @@ TEST_F(CoordinatesAlone, RefuseWhatHasNoMeaning) {
 struct SingleAxisAlone : PartsAtRest {};
 
 TEST_F(SingleAxisAlone, TakesTheChainsLengthsAndLooksForThePlace) {
-  keeper.doubtChains(settings::Doubt::kCounts);
+  keeper.doubt(kLeftAxis, settings::Doubt::kCounts);
   EXPECT_TRUE(single_axis.setChains(1700, 1700));
   EXPECT_TRUE(place.isKnown());
   EXPECT_NEAR(0, program.aim().x, 0.01);

@@ -13,13 +13,13 @@ struct PlaceAlone : PartsAtRest {};
 TEST_F(PlaceAlone, IsNoneWithoutTrustAndSaysWhy) {
   EXPECT_TRUE(place.isKnown());
   place.lose(settings::Doubt::kSimulated);
-  EXPECT_FALSE(place.isKnown() || place.trustsChains());
+  EXPECT_FALSE(place.isKnown() || keeper.trustsChains());
   expectSaid(
       "ALARM: Position Lost. Motion was simulated, so the chains are elsewhere. Last known chain "
       "lengths: ");
   EXPECT_TRUE(place.search(Search::kHalted));
   EXPECT_FALSE(place.isKnown());
-  place.trustChains();
+  keeper.declareChains();
   EXPECT_TRUE(place.search(Search::kDeclared));
   EXPECT_TRUE(place.isKnown());
   expectSaid("position loaded at:\r\n0.00\r\n0.00\r\n");
@@ -37,7 +37,7 @@ TEST_F(PlaceAlone, IsKeptAsNoneWhereTheChainsPutTheSledNowhere) {
   EXPECT_TRUE(isPlaceKept());
   axes.declare(kLeftAxis, 100);
   axes.declare(kRightAxis, 100);
-  place.trustChains();
+  keeper.declareChains();
   EXPECT_FALSE(isPlaceKept());
 }
 

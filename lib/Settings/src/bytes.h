@@ -2,6 +2,7 @@
 #pragma once
 
 #include <stdint.h>
+#include <string.h>
 
 namespace settings {
 
@@ -19,5 +20,27 @@ class Bytes {
  protected:
   ~Bytes() {}
 };
+
+/// The number in `size` bytes, low byte first.
+inline uint32_t numberAt(const Bytes& bytes, uint16_t address, uint8_t size) {
+  uint32_t number = 0;
+  for (uint8_t i = 0; i < size; ++i)
+    number |= uint32_t(bytes.read(uint16_t(address + i))) << (8 * i);
+  return number;
+}
+
+/// A float's bits, as they are stored.
+inline uint32_t bitsOf(float value) {
+  uint32_t bits;
+  memcpy(&bits, &value, sizeof bits);
+  return bits;
+}
+
+/// The float of these bits.
+inline float floatOf(uint32_t bits) {
+  float value;
+  memcpy(&value, &bits, sizeof value);
+  return value;
+}
 
 }  // namespace settings

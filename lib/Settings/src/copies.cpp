@@ -4,34 +4,12 @@
 // $-number and its float (4 bytes, low first); CRC-32 of all that (4 bytes, low first).
 #include "copies.h"
 
-#include <string.h>
-
 namespace settings {
 
 namespace {
 
 const uint8_t kMark[2] = {'P', 'm'};
 const uint8_t kLayout = 1;
-
-uint32_t bitsOf(float value) {
-  uint32_t bits;
-  memcpy(&bits, &value, sizeof bits);
-  return bits;
-}
-
-/// The number in four bytes, low byte first.
-uint32_t longAt(const Bytes& bytes, uint16_t address) {
-  uint32_t number = 0;
-  for (uint8_t i = 0; i < 4; ++i) number |= uint32_t(bytes.read(uint16_t(address + i))) << (8 * i);
-  return number;
-}
-
-float floatAt(const Bytes& bytes, uint16_t address) {
-  const uint32_t bits = longAt(bytes, address);
-  float value;
-  memcpy(&value, &bits, sizeof value);
-  return value;
-}
 
 }  // namespace
 
@@ -56,11 +34,11 @@ bool Copies::isValid(uint8_t copy) const {
   if (size > apart_) return false;
   Checksum sum;
   for (uint16_t i = 0; i < size - kSum; ++i) sum.add(bytes_.read(uint16_t(start + i)));
-  return sum.value() == longAt(bytes_, uint16_t(start + size - kSum));
+  return sum.value() == numberAt(bytes_, uint16_t(start + size - kSum), 4);
 }
 
 uint16_t Copies::sequenceOf(uint8_t copy) const {
-  return uint16_t(longAt(bytes_, uint16_t(addressOf(copy) + 4)));
+  return uint16_t(numberAt(bytes_, uint16_t(addressOf(copy) + 4), 2));
 }
 
 Loaded Copies::read(uint8_t copy, Values& values) const {
@@ -75,7 +53,7 @@ Loaded Copies::read(uint8_t copy, Values& values) const {
     while (index < values.count() && values.table().at(index).number < number) ++index;
     if (index == values.count()) break;
     if (values.table().at(index).number != number) continue;
-    if (values.setRow(index, floatAt(bytes_, uint16_t(pair + 1))) != Refusal::kNone)
+    if (values.setRow(index, floatOf(numberAt(bytes_, uint16_t(pair + 1), 4))) != Refusal::kNone)
       loaded = Loaded::kSome;
   }
   return loaded;

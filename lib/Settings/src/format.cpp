@@ -1,7 +1,7 @@
 // The decimal digits of a float, by whole-number arithmetic.
 #include "format.h"
 
-#include <string.h>
+#include "bytes.h"
 
 namespace settings {
 
@@ -143,8 +143,7 @@ void putPositive(Writer& out, const Digits& digits) {
 }  // namespace
 
 ValueText formatValue(float value) {
-  uint32_t bits;
-  memcpy(&bits, &value, sizeof bits);
+  uint32_t bits = bitsOf(value);
   ValueText result;
   Writer out = {result.text};
   const bool negative = bits >> 31;

@@ -1,8 +1,6 @@
 // What the start reads, and who writes next.
 #include "memory.h"
 
-#include <string.h>
-
 #include "checksum.h"
 
 namespace settings {
@@ -14,9 +12,7 @@ uint16_t scaleOf(const Values& values) {
   Checksum sum;
   for (uint8_t row = 0; row < values.count(); ++row) {
     if ((values.table().at(row).touches & kScale) == 0) continue;
-    const float value = values.at(row);
-    uint32_t bits;
-    memcpy(&bits, &value, sizeof bits);
+    const uint32_t bits = bitsOf(values.at(row));
     for (uint8_t i = 0; i < 4; ++i) sum.add(uint8_t(bits >> (8 * i)));
   }
   return uint16_t(sum.value());

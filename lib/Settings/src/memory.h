@@ -75,6 +75,8 @@ class Memory {
   /// To be called when the counts are proved wrong: until keepPosition() the stored position counts
   /// as doubted, even after a power cut.
   void doubtPosition(Doubt why) { slots_.doubt(why); }
+  /// To be called when chains are declared again.
+  void endDoubt() { slots_.endDoubt(); }
   Doubt doubted() const { return slots_.doubted(); }
 
   /// Counts an event in the log, which no reset erases.

@@ -5,7 +5,6 @@
 #include "position.h"
 
 #include <math.h>
-#include <string.h>
 
 #include "checksum.h"
 
@@ -33,23 +32,10 @@ void store(uint8_t* at, uint32_t number, uint8_t bytes) {
   for (uint8_t i = 0; i < bytes; ++i) at[i] = uint8_t(number >> (8 * i));
 }
 
-void storeFloat(uint8_t* at, float value) {
-  uint32_t bits;
-  memcpy(&bits, &value, sizeof bits);
-  store(at, bits, 4);
-}
-
 uint32_t fetch(const uint8_t* at, uint8_t bytes) {
   uint32_t number = 0;
   for (uint8_t i = 0; i < bytes; ++i) number |= uint32_t(at[i]) << (8 * i);
   return number;
-}
-
-float fetchFloat(const uint8_t* at) {
-  const uint32_t bits = fetch(at, 4);
-  float value;
-  memcpy(&value, &bits, sizeof value);
-  return value;
 }
 
 Position positionIn(const uint8_t* record) {
@@ -57,8 +43,8 @@ Position positionIn(const uint8_t* record) {
   position.left = int32_t(fetch(record + kCountsAt, 4));
   position.right = int32_t(fetch(record + kCountsAt + 4, 4));
   position.z = int32_t(fetch(record + kCountsAt + 8, 4));
-  position.x = fetchFloat(record + kPlaceAt);
-  position.y = fetchFloat(record + kPlaceAt + 4);
+  position.x = floatOf(fetch(record + kPlaceAt, 4));
+  position.y = floatOf(fetch(record + kPlaceAt + 4, 4));
   position.scale = uint16_t(fetch(record + kScaleAt, 2));
   position.has_place = record[kKnownAt] & kHasPlace;
   return position;
@@ -105,7 +91,7 @@ Known PositionSlots::load(Position& position) {
   for (uint8_t slot = 0; slot < slots_; ++slot) {
     if (!isValid(slot)) continue;
     const uint16_t start = addressOf(slot);
-    const uint16_t number = uint16_t(bytes_.read(start) | bytes_.read(uint16_t(start + 1)) << 8);
+    const uint16_t number = uint16_t(numberAt(bytes_, start, 2));
     if (found && int16_t(number - sequence_) < 0) continue;
     found = true;
     sequence_ = number;
@@ -149,8 +135,8 @@ void PositionSlots::keep(const Position& position) {
   store(fresh + kCountsAt, uint32_t(position.left), 4);
   store(fresh + kCountsAt + 4, uint32_t(position.right), 4);
   store(fresh + kCountsAt + 8, uint32_t(position.z), 4);
-  storeFloat(fresh + kPlaceAt, position.x);
-  storeFloat(fresh + kPlaceAt + 4, position.y);
+  store(fresh + kPlaceAt, bitsOf(position.x), 4);
+  store(fresh + kPlaceAt + 4, bitsOf(position.y), 4);
   store(fresh + kScaleAt, position.scale, 2);
   moving_ = false;
   wanted_ = kMoved;
@@ -179,11 +165,15 @@ void PositionSlots::beginMoving() {
 }
 
 void PositionSlots::doubt(Doubt why) {
-  if (wanted_ == kMoved) wanted_ = uint8_t(why);
-  tried_ = false;
+  if (wanted_ == kMoved) want(uint8_t(why));
   beginMoving();
+}
+
+void PositionSlots::want(uint8_t mark) {
+  wanted_ = mark;
+  tried_ = false;
   // Without a record there is nothing to mark.
-  if (!exists_ && !writing_) mark_ = wanted_;
+  if (!exists_ && !writing_) mark_ = mark;
 }
 
 void PositionSlots::step() {

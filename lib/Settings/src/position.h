@@ -73,8 +73,11 @@ class PositionSlots {
   void beginMoving();
 
   /// Marks the newest record as wrong. Of several reasons the first counts; beginMoving() keeps
-  /// that mark, keep() ends it.
+  /// that mark, endDoubt() and keep() end it.
   void doubt(Doubt why);
+
+  /// The reason holds no longer: what was doubted is declared, and not yet kept.
+  void endDoubt() { want(kMoved); }
 
   /// Why the position of a record that says kDoubted is wrong.
   Doubt doubted() const { return Doubt(mark_); }
@@ -96,6 +99,7 @@ class PositionSlots {
   bool isValid(uint8_t slot) const;
   void readNewest();
   void begin(const uint8_t* record, uint8_t mark);
+  void want(uint8_t mark);
   void writeRecord();
   void writeMark();
 

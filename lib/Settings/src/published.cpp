@@ -2,8 +2,6 @@
 // of the settings' numbers.
 #include "published.h"
 
-#include <string.h>
-
 namespace settings {
 
 namespace {
@@ -15,13 +13,6 @@ const uint8_t kMarker = 56, kVersion = 5;
 const uint8_t kLastNumber = 44, kUnused = 14;
 
 bool isMarked(const Bytes& bytes, uint16_t address) { return bytes.read(address) == kMarker; }
-
-uint32_t numberAt(const Bytes& bytes, uint16_t address, uint8_t size) {
-  uint32_t number = 0;
-  for (uint8_t i = 0; i < size; ++i)
-    number |= uint32_t(bytes.read(uint16_t(address + i))) << (8 * i);
-  return number;
-}
 
 /// Bytes that a setting takes there.
 uint8_t sizeOf(uint8_t number) {
@@ -90,10 +81,7 @@ float publishedValue(const Bytes& bytes, uint8_t number) {
   for (uint8_t before = 0; before < number; ++before) address = uint16_t(address + sizeOf(before));
   const uint8_t size = sizeOf(number);
   const uint32_t bits = numberAt(bytes, address, size);
-  if (size < 4) return float(bits);
-  float value;
-  memcpy(&value, &bits, sizeof value);
-  return value;
+  return size < 4 ? float(bits) : floatOf(bits);
 }
 
 uint8_t importSettings(const Bytes& bytes, const Recognised& found, Values& values) {

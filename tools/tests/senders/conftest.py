@@ -8,13 +8,14 @@ import pytest
 from bcnc_program import Bcnc
 from cncjs_program import Cncjs
 from grbl_board import Board
+from streamer_programs import GrblStreamer, PygrblStreamer
 from ugs_program import Ugs
 
 ROOT = Path(__file__).resolve().parents[3]
 sys.path.insert(0, str(ROOT / "tools/bench"))
 from board import built_firmware  # noqa: E402
 
-SENDERS = {each.name: each for each in (Cncjs, Bcnc, Ugs)}
+SENDERS = {each.name: each for each in (Cncjs, Bcnc, Ugs, GrblStreamer, PygrblStreamer)}
 INSTALLED, FAILURE = (ROOT / ".build/senders" / name for name in ("note", "failure"))
 NAME = re.compile(rf"\btest_(\w+)\[(?:host|Mega)-({'|'.join(SENDERS)})\]")
 
@@ -34,8 +35,8 @@ def board(brain):
 
 
 @pytest.fixture(params=list(SENDERS))
-def sender(request, tmp_path):
-    """A sender that runs and is not yet connected."""
+def sender(request, tmp_path, board):
+    """A sender that runs and is not yet connected; it ends before its port goes."""
     if request.param != Ugs.name and not INSTALLED.is_file():
         why = FAILURE.read_text() if FAILURE.is_file() else "not installed: run tools/setup senders"
         pytest.fail(f"{request.param}: {why}", pytrace=False)
