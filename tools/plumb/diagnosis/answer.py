@@ -156,7 +156,7 @@ class Diagnosis:
         return is_unknown and bool(self.likely) and _takes_most(self.best, self.readings.frame)
 
     def called(self, together: Together) -> str:
-        """An explanation by the nouns of its effects, for people."""
+        """Return an explanation by the nouns of its effects, for people."""
         is_unknown = self.verdict == "not_in_library" and self.field_chance > LIKELIER
         if is_unknown and not together.effects:
             return "only what no known effect draws"

@@ -102,7 +102,7 @@ def sure_readings(measurements: Measurements, outliers: Collection[Outlier]) -> 
 
 @dataclass(frozen=True)
 class Doubts:
-    """Readings to look at again, by their places among the marks and distances that are compared."""
+    """Readings to look at again, by their places among the compared marks and distances."""
 
     marks: tuple[int, ...] = ()
     spans: tuple[int, ...] = ()
