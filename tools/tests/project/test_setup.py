@@ -166,7 +166,7 @@ def senders(tmp_path):
 
 
 def test_the_senders_are_installed_once(senders):
-    assert senders(npm="true", pip="true") == ["says: installs CNCjs and bCNC, which tests drive"]
+    assert senders(npm="true", pip="true") == ["says: installs CNCjs, bCNC and two libraries, which tests drive"]
     assert senders() == []
 
 
@@ -174,7 +174,7 @@ def test_the_senders_are_installed_once(senders):
     ("npm", "pip", "why"),
     [
         ("echo npm error ENOTFOUND; exit 1", "true", "CNCjs: npm error ENOTFOUND"),
-        ("true", "echo ERROR: no such host; exit 1", "bCNC: ERROR: no such host"),
+        ("true", "echo ERROR: no such host; exit 1", "what comes from PyPI: ERROR: no such host"),
     ],
 )
 def test_a_registry_that_cannot_be_reached_is_a_line_that_the_tests_repeat(
@@ -184,5 +184,5 @@ def test_a_registry_that_cannot_be_reached_is_a_line_that_the_tests_repeat(
     assert senders(npm=npm, pip=pip)[-1] == f"stops: {line}"
     assert (tmp_path / ".build/senders/failure").read_text() == f"{line}\n"
     assert not (tmp_path / ".build/senders/note").exists()
-    assert senders(npm="true", pip="true") == ["says: installs CNCjs and bCNC, which tests drive"]
+    assert senders(npm="true", pip="true") == ["says: installs CNCjs, bCNC and two libraries, which tests drive"]
     assert not (tmp_path / ".build/senders/failure").exists()
