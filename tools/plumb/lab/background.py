@@ -159,4 +159,6 @@ def _diagnosed(inputs: Inputs) -> tuple[LiveBoard, tuple[Outlier, ...]]:
     slips, usual = found.readings.outliers, found.best.board.usual_checks
     sure = sure_readings(inputs.measurements, slips)
     sure_inputs = replace(inputs, measurements=sure, checked=(*inputs.checked, *usual))
-    return LiveBoard(sure_inputs, noise=found.readings.noise), slips
+    # As plumb add has it: what is known of effects tells it nothing of the noise.
+    of_effects = any("." in check.name for check in inputs.checked)
+    return LiveBoard(sure_inputs, noise=None if of_effects else found.readings.noise), slips
