@@ -71,6 +71,8 @@ def _next(diagnosis: Diagnosis, arguments: argparse.Namespace) -> str:
         return next_step("When the file is corrected:", corrected)
     if diagnosis.left_open.is_too_much:
         return next_step("What to measure next:", ["next", *same_inputs(arguments)])
+    if diagnosis.is_good:
+        return sentences(["Nothing to change: cut your jobs."], mark="")
     if diagnosis.verdict == "nothing_provable":
         return next_step("Fit the frame:", auto_words(arguments))
     if diagnosis.is_finding:

@@ -187,7 +187,8 @@ class NextStep:
 
 def next_step_of(findings: Findings, commands: Sequence[Command]) -> NextStep:
     """Return what the verdict asks for first."""
-    best = findings.advice.proposals[0] if findings.advice.proposals else None
+    proposals = () if findings.diagnosis.is_good else findings.advice.proposals
+    best = proposals[0] if proposals else None
     return NextStep(
         headline=_headline(findings, best),
         measure=headline_of(best) if best else "",
@@ -196,13 +197,15 @@ def next_step_of(findings: Findings, commands: Sequence[Command]) -> NextStep:
         commands=tuple(commands),
         others=tuple(
             Other(each.option.title, f"{each.option.minutes:.0f}", promise_of(each))
-            for each in findings.advice.proposals[1 : MOST_OTHERS + 1]
+            for each in proposals[1 : MOST_OTHERS + 1]
         ),
     )
 
 
 def _headline(findings: Findings, best: Proposal | None) -> str:
     diagnosis, chosen = findings.diagnosis, findings.auto.chosen
+    if diagnosis.is_good:
+        return "nothing to change: cut your jobs."
     if diagnosis.verdict == "slip":
         names = ", ".join(dict.fromkeys(slip.called for slip in diagnosis.outliers))
         return f"read {names} again, and correct the file."

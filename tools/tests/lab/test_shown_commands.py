@@ -64,7 +64,7 @@ def test_the_verdict_and_the_next_measurement(client, capsys):
     said = said_by(shown["command"], capsys)
     assert said["sentence"] == shown["verdict"]["sentence"]
     odds = [odds_words(each["share"]) for each in said["explanations"]]
-    assert odds == [card["odds"].removeprefix("Odds ") for card in shown["verdict"]["cards"]]
+    assert odds == [card["odds"] for card in shown["verdict"]["cards"]]
     assert got(client.get("/api/known"))["command"] == shown["command"]
     words = shlex.split(got(client.get("/api/next"))["command"])
     assert ["diagnose", *words[2:]] == shlex.split(shown["command"])[1:]

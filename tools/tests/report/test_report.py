@@ -396,5 +396,5 @@ def test_settings_that_are_right_need_nothing(tmp_path):
     marks = board(tmp_path, marks_on(TRUE, TRUE, grid(3, 3), noise=0.3), settings=TRUE)
     answer, page = reported(*marks, folder=tmp_path)
     assert answer["diagnosis"]["verdict"] == "nothing_provable"
-    assert "use the fitted frame" in Page(page.part("verdict")).text
+    assert "nothing to change: cut your jobs" in Page(page.part("verdict")).text
     assert not page.source.count('class="card"')
