@@ -115,6 +115,12 @@ void Answers::dropLines() {
 void Answers::said(const std::string& line) {
   // B05 is echoed once it has turned the dialect off.
   if (startsWith(line, "B05")) is_of_grbl_ = false;
+  // The answers to $I, $G and $X, which turn it on: what came since may have no answer.
+  for (const char* greeting : {"[VER:", "[GC:", "[MSG:Caution: Unlocked]"}) {
+    if (is_of_grbl_ || !startsWith(line, greeting)) continue;
+    broken_ = lines_ + quick_ - answered_;
+    is_of_grbl_ = true;
+  }
   checkLine(line);
   if (is_of_grbl_)
     saidToGrbl(line);

@@ -34,7 +34,8 @@ class Found:
 
 def find(inputs: Inputs) -> Found:
     """Weigh all accounts of the marks. Raises InputError as diagnose() does."""
-    readings = clean_readings(measured_board(inputs), inputs)
+    board = measured_board(inputs)
+    readings = clean_readings(board, inputs)
     judgement = judge(readings, inputs.stated)
     return Found(readings, judgement, readings.explained(judgement.best))
 
