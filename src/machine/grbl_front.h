@@ -15,7 +15,7 @@ class GrblFront {
   void askStatus(bool is_in_line);
   /// Says the status if it was asked for.
   void answerStatus(bool is_executing);
-  /// Whether a line of a client of Maslow's takes this one for a sender of Grbl: `$I`, `$G` and `$X`.
+  /// Whether a line of a client of Maslow's takes this one for a sender of Grbl: `$I`, `$G`, `$X`.
   bool isGreetedBy(const char* line);
   bool isOfMaslow(const char* line) const;
   void speakMaslow();
