@@ -319,7 +319,7 @@ def test_a_hundred_thousand_lines_are_checked_and_the_share_that_is_done_grows()
     shares = []
     checked = check_job(MAKER, lines, progress=shares.append)
     assert checked.is_good and len(checked.done.moves) > 99_000
-    assert shares == sorted(shares) and len(shares) == 50 and shares[-1] == 1
+    assert shares == sorted(shares) and 20 < len(shares) < 200 and shares[-1] == 1
 
 
 def test_the_command_says_all_of_it(ask, run, tmp_path):

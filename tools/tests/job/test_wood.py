@@ -1,6 +1,5 @@
 """What a job takes out of the sheet, and moves that spoil the piece, the bit or the sheet."""
 
-
 import numpy as np
 import pytest
 from plumb.bench.causes import MAKER
