@@ -220,7 +220,7 @@ def test_marks_in_a_row_are_too_little_and_more_marks_are_asked_for(run, file):
     code, said, _ = run("calibrate", MADGRIZZLE, row)
     assert code == 1 and not Path("machine.toml").exists()
     text = " ".join(said.split())
-    assert "these marks leave 1.1 mm open" in text
+    assert "they leave 1.1 mm open" in text
     assert re.search(r"Not yet: first measure \d+ more marks, about \d+ minutes; nothing", text)
     cut, again = printed(said)
     assert cut[0] == "next" and "--output" in cut and again[0] == "calibrate"
@@ -230,7 +230,10 @@ def test_marks_in_a_row_are_too_little_and_more_marks_are_asked_for(run, file):
     assert printed(run("diagnose", MADGRIZZLE, row)[1])[-1][0] == "next"
     assert run("report", MADGRIZZLE, row, "-o", "report.html")[0] == 0
     page = " ".join(Path("report.html").read_text().split())
-    assert "Nothing was added: of the" in page and "Write the new settings" not in page
+    assert (
+        "Nothing was added. These marks do not reach over the sheet" in page
+        and "Write the new settings" not in page
+    )
     assert "use the fitted frame" not in page
     # Two more, near the lower corners, are enough.
     code, said, _ = run("calibrate", MADGRIZZLE, file("more.csv", ROW + CORNERS))

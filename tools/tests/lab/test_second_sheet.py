@@ -30,7 +30,7 @@ def test_planned_cut_read_and_judged(client, tmp_path):
     type_in(client, FORM, (0.3, 0.1), (-0.2, 0.4))
     good = got(client.get("/api/check"))
     assert good["holds"] and good["sentence"].startswith("Promised: within 1.")
-    assert "off by 0." in good["sentence"]
+    assert "off from what was promised by 0." in good["sentence"]
     type_in(client, FORM, (0.3, 0.1), (-4, 0.4))
     bad = got(client.get("/api/check"))
     assert not bad["holds"] and "at mark 2" in bad["sentence"]
