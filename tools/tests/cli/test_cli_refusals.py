@@ -23,7 +23,6 @@ BAD = [
     ("settings as marks", ["compare", SETTINGS, SETTINGS], "holds settings, not marks"),
     ("program as settings", ["check", SETTINGS, JOB], "a program, not settings; give JOB first"),
     ("program as marks", ["compare", SETTINGS, JOB], "holds a program, not marks; give the form"),
-    ("a file as folder", ["lab", SETTINGS], "is a file; name a folder"),
     ("holey needs more", ["compare", *BOARD, "--controller", "holey"], "sledWeight"),
     ("a folder", ["compare", SETTINGS.parent, MARKS], "is a folder"),
     ("unknown effect", ["add", *BOARD, "--effect", "chain_sog"], "known are "),
