@@ -220,8 +220,3 @@ def test_what_was_fitted_outside_of_the_machine_is_said_where_the_error_counts_i
     for command in ("compare", "calibrate"):
         assert counted in " ".join(run(command, "tape.toml", "marks.toml")[1].split())
         assert "counts what" not in run(command, "machine.toml", "marks.toml")[1]
-
-
-def test_marks_that_a_fit_has_seen_check_nothing(run, fitted):
-    code, _, error = run("recheck", "machine.toml", "marks.toml", "--check", "marks.toml")
-    assert code == 2 and "marks.toml: is given twice" in error
