@@ -34,7 +34,7 @@ export function SpanLines({ spans, state, doubted, sigma, scale }: SpanParts & {
   );
   const most = Math.max(...sure, BEYOND_NOISE * sigma);
   return (
-    <g class="spans">
+    <g class="span-errors">
       {spans.map(({ ends: [from, to] }, i) => {
         const [error, isDoubted] = [state.spans[i], doubted.includes(i)];
         const [[x1, y1], [x2, y2]] = [at(from), at(to)];
