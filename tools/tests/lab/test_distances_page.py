@@ -12,7 +12,7 @@ from plumb.lab.rounds import inputs_of
 from plumb.marks.read import read_marks
 from screens import at_rest, measured_machine
 
-LINES = ".sheet .spans line"
+LINES = ".sheet .span-errors line"
 SMALL = (0.9, -0.7, 0.3, -1.4, 0.1, 0.8, -0.2, 1.1, -0.6, 0.5, -0.9, 0.4)  # [mm] off, in turn
 
 
@@ -62,7 +62,7 @@ def test_a_distance_in_doubt_is_ringed_and_makes_no_other_line_thinner(lab, page
     page.goto(f"{lab.url}#/{screen}")
     at_rest(page)
     page.get_by_role("radio", name="as set").check() if screen == "bench" else None
-    expect(page.locator(".sheet .spans .doubted circle.doubt")).to_have_count(1)
+    expect(page.locator(".sheet .span-errors .doubted circle.doubt")).to_have_count(1)
     expect(page.locator(".taped-errors tr.doubted")).to_contain_text("3 and 4")
     widths = [float(each.get_attribute("stroke-width")) for each in page.locator(LINES).all()]
     assert sorted(widths)[-1] == 12 and sorted(widths)[6] > 4
