@@ -123,7 +123,9 @@ def show_correction(project: TheProject, background: TheBackground) -> Correctio
         auto = add_auto(inputs)
         progress(0.6)
         with shown_in(choices.units):
-            if auto.addition is None:
+            # What was written stays in view: it goes to the machine, or is taken back.
+            is_written = _is_fit_of(inputs)
+            if auto.addition is None and not (auto.is_good and is_written):
                 nothing, instead = _nothing_to_change(auto)
                 return CorrectionParts(
                     reasons=list(auto.said),
@@ -132,7 +134,7 @@ def show_correction(project: TheProject, background: TheBackground) -> Correctio
                     add=_auto_words(choices),
                 )
             made = correct(auto.inputs, auto.chosen, choices.accepted, noise=auto.diagnosis.noise)
-            return _parts(made, auto, choices, is_written=_is_fit_of(inputs))
+            return _parts(made, auto, choices, is_written=is_written)
 
     answer = background.ask("correction", key, work)
     file = project.free_name("machine", *WRITTEN)
