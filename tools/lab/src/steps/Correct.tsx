@@ -47,6 +47,7 @@ export function Correct() {
     return (
       <Screen title={made.nothing} say={made.reasons.join(" ")}>
         <a href={`#/${made.instead}`}>{WAYS[made.instead]}</a>
+        <GoBack writing={writing} />
       </Screen>
     );
   }
