@@ -67,7 +67,8 @@ class AutoAddition:
     @property
     def done(self) -> bool:
         """Whether the marks ask for nothing more once the chosen effects are there."""
-        is_known = self.diagnosis.verdict != "not_in_library" or self.diagnosis.is_finding
+        is_named = self.diagnosis.is_finding and bool(self.chosen)
+        is_known = self.diagnosis.verdict != "not_in_library" or is_named
         return self.is_good or (self.addition is not None and is_known)
 
     @property

@@ -374,8 +374,7 @@ def judge(readings: CleanReadings, stated: Stated | None) -> Judgement:
         posterior = posterior.weighing(first)
         listed = tuple(posterior.listed_nearest_first(first))
         best = listed[0].account
-        disagrees = any(chance > LIKELIER for chance in posterior.moved_chances.values())
-        if first and not disagrees and _takes_most(readings.explained(best), readings.frame):
+        if first and not posterior.apart and _takes_most(readings.explained(best), readings.frame):
             listed = listed[:1]
         return Judgement("not_in_library", posterior, listed, best)
     listed = tuple(posterior.listed())

@@ -210,14 +210,12 @@ _WAYS_OUT = {
 
 def _round_warnings(readings: CleanReadings, names: Sequence[str]) -> list[str]:
     """Return a sentence for each round that likely does not go with the others."""
-    chances: dict[int, float] = {}
+    posterior = readings.posterior
     causes: dict[int, tuple[float, str]] = {}
-    for move, chance in readings.posterior.moved_chances.items():
-        chances[move.number] = chances.get(move.number, 0.0) + chance
+    for move, chance in posterior.moved_chances.items():
         causes[move.number] = max(causes.get(move.number, (0.0, "")), (chance, move.cause))
     return [
         f"{names[number]} does not go with the other rounds: do not pool them; "
         + _WAYS_OUT[causes[number][1]].format(name=names[number])
-        for number, chance in chances.items()
-        if chance > LIKELIER
+        for number in posterior.apart
     ]

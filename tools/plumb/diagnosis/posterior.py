@@ -40,6 +40,7 @@ from plumb.diagnosis.outliers import Reading, readings_of
 from plumb.diagnosis.priors import (
     FIELD,
     FIELD_SPREADS,
+    LIKELIER,
     MOVED,
     OUTLIER,
     PITCH,
@@ -113,6 +114,14 @@ class Posterior:
     def moved_chances(self) -> Mapping[MovedRound, float]:
         """How likely each way is in which a later round does not go with the others."""
         return {move: float(np.exp(weight - self._whole)) for move, weight in self.moved}
+
+    @property
+    def apart(self) -> tuple[int, ...]:
+        """Numbers of the rounds that likely do not go with the others."""
+        chances: dict[int, float] = {}
+        for move, chance in self.moved_chances.items():
+            chances[move.number] = chances.get(move.number, 0.0) + chance
+        return tuple(number for number, chance in chances.items() if chance > LIKELIER)
 
     @property
     def outlier_chances(self) -> Array:

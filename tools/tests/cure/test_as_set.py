@@ -1,44 +1,63 @@
 """Machines that are right already: calibrate leaves them as they are; machines that are off."""
 
-from dataclasses import replace
-
+import numpy as np
 import pytest
-from plumb.bench.boards import plan
-from plumb.bench.causes import MAKER
+from plumb.bench.boards import TrueMachine, chains_for, plan
+from plumb.bench.causes import MAKER, Hidden
 from plumb.cli.main import main
 from plumb.cure.auto import add_auto
 from plumb.fit.inputs import Inputs
-from plumb.marks.read import Measurements
+from plumb.marks.read import Mark, Measurements
 from plumb.settings.toml import write_machine_toml
-from synthetic import csv_of, marks_on
+from synthetic import csv_of
+
+PLAN = plan(5, 3)
+NOISE = 0.5  # [mm]
 
 
-def marks_of(true, seed):
-    return marks_on(true, MAKER, plan(5, 3).targets, noise=0.5, seed=seed)
+def marks_of(wider, seed):
+    """What a tape reads of fifteen marks where the motors stand farther apart [mm] than is set."""
+    machine = TrueMachine(Hidden(), motor_gap=MAKER.motor_gap + wider)
+    chains = chains_for(PLAN, MAKER)
+    where = machine.read(chains, approaches=PLAN.approaches, weights=PLAN.sled_weights)
+    read = where + NOISE * np.random.default_rng(seed).standard_normal(where.shape)
+    return tuple(
+        Mark(str(i), tuple(target), tuple(place), approach=tuple(approach))
+        for i, (target, place, approach) in enumerate(
+            zip(PLAN.targets.tolist(), read.tolist(), PLAN.approaches.tolist(), strict=True)
+        )
+    )
 
 
-def answered(true, seed):
-    measured = Measurements(marks_of(true, seed), (), tape_sigma=0.5, source="marks.toml")
+def answered(wider, seed):
+    measured = Measurements(marks_of(wider, seed), (), tape_sigma=NOISE, source="marks.toml")
     return add_auto(Inputs(MAKER, measured))
 
 
-def test_a_machine_that_is_right_is_left_as_it_is():
-    answers = [answered(MAKER, seed) for seed in range(10)]
-    assert sum(not answer.is_good for answer in answers) <= 1
-    assert all(answer.addition is None for answer in answers if answer.is_good)
+def good_of(wider, count):
+    """How many of so many machines are called good."""
+    return sum(answered(wider, seed).is_good for seed in range(count))
 
 
-@pytest.mark.parametrize("seed", range(4))
-def test_a_machine_that_is_off_by_more_than_noise_is_not_called_good(seed):
-    off = replace(MAKER, motor_gap=MAKER.motor_gap + 3.0)
-    answer = answered(off, seed)
-    assert not answer.is_good and answer.addition and answer.expected_mm < 0.3
+def test_a_machine_that_is_right_is_left_as_it_is_and_a_machine_that_is_off_is_not():
+    assert good_of(0.0, 8) >= 7 and good_of(3.0, 4) == 0
+    answer = answered(3.0, 1)
+    assert answer.addition and answer.expected_mm < 0.3
+
+
+@pytest.mark.slow
+def test_of_a_hundred_machines_few_are_taken_for_what_they_are_not(capsys):
+    """How many are called good stands on the page of plumb calibrate."""
+    good = {wider: good_of(wider, 100) for wider in (0.0, 1.0, 2.0)}
+    with capsys.disabled():
+        print(f"\n  called good of 100, by how much wider the motors stand [mm]: {good}")
+    assert good[0.0] >= 95 and good[1.0] <= 5 and good[2.0] == 0
 
 
 def test_calibrate_says_that_nothing_is_to_be_done_and_ends(tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
     write_machine_toml("machine.toml", MAKER)
-    (tmp_path / "marks.csv").write_text(csv_of(marks_of(MAKER, 1)))
+    (tmp_path / "marks.csv").write_text(csv_of(marks_of(0.0, 1)))
     assert main(["calibrate", "machine.toml", "marks.csv"]) == 0
     said = " ".join(capsys.readouterr().out.split())
     assert said.endswith("Your machine is as good as these marks can show. Nothing to change.")
