@@ -6,6 +6,7 @@ A kind is there twice: on machines whose settings know them, and on machines as 
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 from itertools import combinations
 
 import numpy as np
@@ -121,6 +122,15 @@ def usual_machine(source: Source, index: int, marks: Plan) -> Hidden:
     )
 
 
+def besides(millimetres: float, draw: Draw) -> Draw:
+    """Return the same with a bump that the library has no word for."""
+
+    def both(source: Source, index: int, marks: Plan) -> Hidden:
+        return replace(draw(source, index, marks), outside="bump", outside_mm=millimetres)
+
+    return both
+
+
 def outside(millimetres: float) -> Draw:
     """Return what the library has no word for, in turns."""
 
@@ -198,6 +208,11 @@ def _kinds_of(world: str) -> Iterator[Kind]:
     yield Kind(f"{world}/two-25", two, several(2, 1.0, 3.0, SMALL), is_cured=True)
     for marks in (9, 15, 25):
         yield Kind(f"{world}/field-{marks}", "2 mm of no effect", outside(2.0), marks)
+    for count in (1, 2, 3):
+        for bump in (0.3, 0.7):
+            what = f"{count} of 1 to 3 usual sizes, and {bump:g} mm of no effect; noise 0.2"
+            draw = besides(bump, several(count, 1.0, 3.0, SMALL))
+            yield Kind(f"{world}/bump-{count}-{bump:g}", what, draw, noise=0.2, is_cured=True)
     yield from _slips_of(world)
     for marks in (15, 25):
         what = "effects, a field, a slip, drawn from the prior"

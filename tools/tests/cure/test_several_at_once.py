@@ -5,7 +5,6 @@ from pathlib import Path
 import pytest
 from plumb.cure.auto import add_auto
 from plumb.fit.inputs import read_inputs
-from plumb.model.catalogue import EVERY_MACHINE
 
 BOARDS = Path(__file__).resolve().parents[1] / "data/boards"
 
@@ -26,19 +25,13 @@ def test_three_effects_of_a_real_machine_are_named_and_written():
     assert result.done and result.addition.after.left_out_rms < 0.65
 
 
-# What is hidden in all three: motor arms that bend, a sled that swings; a skew in 5 and 11.
-@pytest.mark.parametrize(
-    ("name", "left"), [("several-5", 0.45), ("several-6", 0.40), ("several-11", 0.35)]
-)
-def test_what_predicts_best_is_written_though_a_bump_acts_too(name, left):
-    result = cured(name)
-    # A tape that reads wrong looks like a swinging sled here.
-    alike = {"frame_flex", "sled_swing", "sheet_skew", "tape_scale", *EVERY_MACHINE}
-    assert "frame_flex" in result.named and {*result.named} <= alike
-    assert result.done and result.addition.after.left_out_rms < left
+def test_what_predicts_best_is_written_though_a_bump_acts_too():
+    result = cured("several-11")
+    assert {*result.named} == {"frame_flex", "sled_swing", "sheet_skew"}
+    assert result.done and result.addition.after.left_out_rms < 0.35
 
 
-@pytest.mark.parametrize("name", ["real-25", "several-5", "several-6", "several-11"])
+@pytest.mark.parametrize("name", ["real-25", "several-11"])
 def test_no_effect_has_a_chance_that_the_shares_contradict(name):
     diagnosis = cured(name).diagnosis
     for effect in diagnosis.ranking:
