@@ -12,6 +12,7 @@ from plumb.marks.read import read_marks
 from plumb.model.plain import noun_of
 from plumb.settings.files import read_settings
 from plumb.vm.garage import RANDOM, hide
+from screens import at_rest
 
 PATIENCE = 300_000  # [ms] of a busy computer
 MACHINE = 9  # the number of a virtual machine whose sheet lies turned
@@ -29,6 +30,8 @@ class Visit:
         self.page.get_by_role("navigation").get_by_role("link", name=step).click()
 
     def press(self, name):
+        # A button that is asked while its numbers are fitted again may be shut as the press falls.
+        at_rest(self.page)
         self.page.get_by_role("button", name=name).click(timeout=PATIENCE)
 
     def see(self, text):
