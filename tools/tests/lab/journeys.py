@@ -107,6 +107,7 @@ class Person:
     def press(self, name):
         button = self.page.get_by_role("button", name=re.compile(name))
         expect(button).to_be_enabled(timeout=PATIENCE)
+        at_rest(self.page)
         button.click()
 
     def go_to(self, step):

@@ -6,6 +6,7 @@ from journeys import Person
 from lab_machine import PATIENCE
 from playwright.sync_api import expect
 from plumb.model.plain import noun_of
+from screens import at_rest
 
 MOST_STOPS = 300  # of the Tab key on a screen
 FOCUSED = """() => {
@@ -32,6 +33,7 @@ class Keys(Person):
     def press(self, name):
         button = self.page.get_by_role("button", name=re.compile(name))
         expect(button).to_be_enabled(timeout=PATIENCE)
+        at_rest(self.page)
         self._enter(name)
 
     def go_to(self, step):
