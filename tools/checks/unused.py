@@ -23,7 +23,7 @@ DECLARED = re.compile(
 BY_OTHERS = {"main", "setup", "loop", "init", "serialEvent", "keepResetFlags"}
 # The lab, and what may be all that uses a function of it. Templates use what writes pages.
 LAB = "tools/plumb"
-PYTHON = (LAB, "docs/written_by", "tools/research")
+PYTHON = (LAB, "docs/written_by")
 # Called by Python and argparse; by FastAPI and pydantic.
 PYTHON_BY_OTHERS = ["__getattr__", "__dir__", "_check_value", "field_title_should_be_set"]
 DECORATORS = [
