@@ -116,9 +116,6 @@ SCREENS = ("steps", "bench", "practice")
 LIST_OF_SCREENS = "tools/lab/src/shell/steps.ts"
 SCRIPT_IMPORT = re.compile(r"^\s*(?:import|export)\b[^;]*?[\"']([^\"']+)[\"']", re.MULTILINE)
 
-# Its scripts import the package, which is installed without them.
-RESEARCH = "tools/research"
-
 # What tools/calibration_grid.py runs without an installation.
 STANDARD_LIBRARY_ONLY = (
     "tools/plumb/grid",
@@ -132,7 +129,6 @@ ONLY = {"_dry_run": "job", "_judge": "bench", "_vm": "vm"}
 
 def violations(root: Path) -> Iterator[str]:
     """Yield each forbidden include and import, one line each."""
-    research = {"research", *(script.stem for script in (root / RESEARCH).glob("*.py"))}
     for path in tree.own_files(root):
         name = path.relative_to(root)
         part, rule = part_of(name)
@@ -144,7 +140,7 @@ def violations(root: Path) -> Iterator[str]:
         elif name.is_relative_to(PAGE) and path.suffix in tree.SCRIPT:
             yield from (f"{name}:{line}: {why}" for line, why in across(path, name))
         elif name.is_relative_to(PACKAGE) and path.suffix == ".py":
-            refused = in_package(path, name, research)
+            refused = in_package(path, name)
             yield from (f"{name}:{line}: {why}" for line, why in refused)
 
 
@@ -176,7 +172,7 @@ def imports(path: Path) -> Iterator[tuple[int, str]]:
             yield node.lineno, "." * node.level + (node.module or "")
 
 
-def in_package(path: Path, name: Path, research: set[str]) -> Iterator[tuple[int, str]]:
+def in_package(path: Path, name: Path) -> Iterator[tuple[int, str]]:
     """Line number and reason for each import that a file of the package may not make."""
     floor_of = {room: floor for floor, rooms in enumerate(FLOORS) for room in rooms}
     room = name.relative_to(PACKAGE).parts[0]
@@ -186,9 +182,7 @@ def in_package(path: Path, name: Path, research: set[str]) -> Iterator[tuple[int
     for line, module in imports(path):
         top, _, rest = module.partition(".")
         to = rest.partition(".")[0]
-        if top in research:
-            yield line, f"imports {top} of {RESEARCH}, which nobody installs"
-        elif is_bare and top not in (*sys.stdlib_module_names, "plumb"):
+        if is_bare and top not in (*sys.stdlib_module_names, "plumb"):
             yield line, f"imports {module}, not of the standard library"
         elif is_bare and top == "plumb" and not runs_bare(module):
             yield line, f"imports {module}, which runs only where plumb is installed"

@@ -9,9 +9,7 @@ import tree
 
 # Commands for the .venv's Python; with --check each exits 1 when its page is stale.
 GENERATORS = [
-    ["tools/research/effects_page.py"],
-    ["tools/research/real_data_page.py"],
-    ["tools/research/settings_page.py"],
+    ["docs/written_by/write.py"],
     ["-m", "plumb.cli.answers"],
 ]
 

@@ -21,8 +21,9 @@ DECLARED = re.compile(
 )
 # Called by the compiler, Arduino or avr-libc; the last is in a section that runs before main().
 BY_OTHERS = {"main", "setup", "loop", "init", "serialEvent", "keepResetFlags"}
-# The lab and the research, which may be all that uses a function of it.
-PYTHON = ("tools/plumb", "tools/research")
+# The lab, and what may be all that uses a function of it. Templates use what writes pages.
+LAB = "tools/plumb"
+PYTHON = (LAB, "docs/written_by")
 # Called by Python and argparse; by FastAPI and pydantic.
 PYTHON_BY_OTHERS = ["__getattr__", "__dir__", "_check_value", "field_title_should_be_set"]
 DECORATORS = [
@@ -61,8 +62,9 @@ def unused_python(root: Path) -> Iterator[str]:
     reader = vulture.Vulture(ignore_names=PYTHON_BY_OTHERS, ignore_decorators=DECORATORS)
     reader.scavenge([root / room for room in PYTHON if (root / room).is_dir()])
     for item in reader.get_unused_code():
-        if item.typ in FUNCTIONS:
-            place = f"{item.filename.relative_to(root)}:{item.first_lineno}"
+        name = item.filename.relative_to(root)
+        if item.typ in FUNCTIONS and name.is_relative_to(LAB):
+            place = f"{name}:{item.first_lineno}"
             yield f"{place}: only tests use {item.name}(): use it, or remove it with its test"
 
 

@@ -121,7 +121,7 @@ def cut(
     hidden: Hidden,
     plan: Plan,
     *,
-    seed: int,
+    seed: int | np.random.Generator,
     noise: float = 0.5,
     tape_sigma: float | None = 0.5,
     settings: MachineSettings = MAKER,
@@ -138,14 +138,16 @@ def cut(
         motor_center_x=POSE_SIGMA * source.standard_normal(),
         turn=TURN_SIGMA * source.standard_normal(),
     )
-    where = _read(machine, plan, settings)
+    where = read(machine, plan, settings)
     if hidden.outside:
         where = where + hidden.outside_mm * _unit(OUTSIDE[hidden.outside](plan.targets, source))
     return BoardCut(machine, _measured(where, plan, source, noise, tape_sigma))
 
 
-def _read(machine: TrueMachine, plan: Plan, settings: MachineSettings = MAKER) -> Array:
-    """Return where marks would be read (n, 2) [mm] without noise."""
+def read(machine: TrueMachine, plan: Plan, settings: MachineSettings = MAKER) -> Array:
+    """Return where marks would be read (n, 2) [mm] without noise; ValueError if the sled cannot
+    hang there.
+    """
     where = machine.read(
         chains_for(plan, settings), approaches=plan.approaches, weights=plan.sled_weights
     )
@@ -210,8 +212,8 @@ def chains_for(plan: Plan, settings: MachineSettings = MAKER) -> Array:
 
 def raw_field(cause: Cause, size: float, plan: Plan) -> Array:
     """Return how far marks (n, 2) [mm] move by a cause of some typical sizes, nothing refitted."""
-    there = _read(TrueMachine(Hidden(((cause, size),))), plan)
-    moved: Array = there - _read(TrueMachine(Hidden()), plan)
+    there = read(TrueMachine(Hidden(((cause, size),))), plan)
+    moved: Array = there - read(TrueMachine(Hidden()), plan)
     return moved
 
 

@@ -1,173 +1,156 @@
-"""What is hidden in the boards of a scenario, one board after the other, and slips of the pen."""
+"""What is hidden in boards, drawn by chance or in turns, and slips of the pen."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from itertools import combinations
 
 import numpy as np
 
 from plumb.bench.boards import BoardCut, size_for
 from plumb.bench.causes import CAUSES, OUTSIDE, Cause, Hidden, Plan, causes_of
+from plumb.fit.expected import plausible_range
+from plumb.model.catalogue import EVERY_MACHINE
 
-LARGEST_DRAG = 1.5  # typical sizes of friction beyond which lower corners stick for centimetres
-SLIP_MM = 5.0
+Source = np.random.Generator
+# What is hidden in board number i, on this plan.
+Draw = Callable[[Source, int, Plan], Hidden]
 
-# What is hidden in board number i of a scenario, on this plan.
-Hide = Callable[[int, Plan], Hidden]
-REAL_MM, LARGE_MM = 3.0, 6.0  # how far marks are moved
+REAL_MM = 3.0  # how far an effect moves marks that should be found
 # What real machines can have by so much; friction by millimetres sticks for centimetres elsewhere.
-OUTSIDE_FRAME = tuple(cause for cause in CAUSES if not cause.in_frame)
-REAL = tuple(cause for cause in OUTSIDE_FRAME if cause.most >= REAL_MM and not cause.drag)
-HUGE = tuple(cause for cause in OUTSIDE_FRAME if cause.most < REAL_MM)
-LARGE = tuple(cause for cause in REAL if cause.most >= LARGE_MM)
-SMALL = OUTSIDE_FRAME
+USUAL = tuple(cause for cause in CAUSES if not cause.in_frame)
+REAL = tuple(cause for cause in USUAL if cause.most >= REAL_MM and not cause.drag)
+LEAST, MOST = 1.0, 3.0  # usual sizes of an effect
+LARGEST_DRAG = 1.5  # typical sizes of friction beyond which lower corners stick for centimetres
+BEYOND = 1.5  # times the largest size that was met, at most
+RUBS, BACKLASH = 0.3, 0.2  # of a usual machine: typical sizes of friction, [mm] at most
 
 
-def nothing(index: int, plan: Plan) -> Hidden:
+def nothing(source: Source, index: int, plan: Plan) -> Hidden:
     """Only the frame is off."""
     return Hidden()
 
 
-def by_effect(causes: tuple[Cause, ...]) -> tuple[tuple[Cause, ...], ...]:
-    """Return the causes of each effect."""
-    return tuple(
-        tuple(cause for cause in causes if cause.effect == effect)
-        for effect in dict.fromkeys(cause.effect for cause in causes)
+def raw(source: Source, index: int, plan: Plan) -> Hidden:
+    """Return one cause after the other, each as large as moves marks by REAL_MM RMS."""
+    cause = _turn(REAL, index)
+    return Hidden(((cause, size_for(cause, plan, REAL_MM)),))
+
+
+def beyond(source: Source, index: int, plan: Plan) -> Hidden:
+    """Return one cause after the other, larger than the largest that was met."""
+    cause = _turn(tuple(cause for cause in USUAL if not cause.drag), index)
+    share = float(source.uniform(1.0, BEYOND))
+    believed, there = cause.sizes(0.0), cause.sizes(1.0)
+    sizes = []
+    for name, start in believed.items():
+        met, step = plausible_range(f"{cause.effect}.{name}"), there[name] - start
+        if step:
+            sizes.append((share * (met.high if step > 0 else met.low) - start) / step)
+    return Hidden(((cause, min(sizes)),))
+
+
+def several(count: int) -> Draw:
+    """Return different effects at once, each of usual size; a single effect is taken in turns."""
+
+    def draw(source: Source, index: int, plan: Plan) -> Hidden:
+        effects = list(dict.fromkeys(cause.effect for cause in USUAL))
+        if count == 1:
+            causes = [_turn(USUAL, index)]
+        else:
+            chosen = [effects[i] for i in source.choice(len(effects), count, replace=False)]
+            causes = [_one_of(effect, source) for effect in chosen]
+        return Hidden(tuple((cause, _size(cause, source)) for cause in causes))
+
+    return draw
+
+
+def usual_machine(source: Source, index: int, plan: Plan) -> Hidden:
+    """Return one effect of usual size on a machine that rubs and has backlash."""
+    there = (*EVERY_MACHINE, "sled_friction")
+    causes = tuple(cause for cause in USUAL if cause.effect not in there)
+    return Hidden(
+        ((_turn(causes, index), float(source.uniform(1.0, 2.0))),),
+        usual=((causes_of("sled_friction")[0], RUBS),),
+        backlash=float(source.uniform(0.0, BACKLASH)),
     )
 
 
-def _turns(causes: tuple[Cause, ...], index: int) -> Cause:
+def outside(source: Source, index: int, plan: Plan) -> Hidden:
+    """Return 2 mm of what the library has no word for, in turns."""
+    return Hidden(outside=list(OUTSIDE)[index % len(OUTSIDE)], outside_mm=2.0)
+
+
+def besides(millimetres: float, draw: Draw) -> Draw:
+    """Return the same with a bump that the library has no word for."""
+
+    def both(source: Source, index: int, plan: Plan) -> Hidden:
+        return replace(draw(source, index, plan), outside="bump", outside_mm=millimetres)
+
+    return both
+
+
+def _turn(causes: tuple[Cause, ...], index: int) -> Cause:
     """Effects take turns, and so do the causes of each."""
-    effects = by_effect(causes)
-    of_effect = effects[index % len(effects)]
+    effects = list(dict.fromkeys(cause.effect for cause in causes))
+    of_effect = [cause for cause in causes if cause.effect == effects[index % len(effects)]]
     return of_effect[index // len(effects) % len(of_effect)]
 
 
-def raw(millimetres: float, causes: tuple[Cause, ...]) -> Hide:
-    """Return one cause after the other, as large as moves marks by so much RMS before any refit."""
-
-    def hide(index: int, plan: Plan) -> Hidden:
-        cause = _turns(causes, index)
-        return Hidden(((cause, size_for(cause, plan, millimetres)),))
-
-    return hide
+def _one_of(effect: str, source: Source) -> Cause:
+    causes = [cause for cause in USUAL if cause.effect == effect]
+    return causes[int(source.integers(len(causes)))]
 
 
-def typical(low: float, high: float, causes: tuple[Cause, ...]) -> Hide:
-    """Return one cause after the other, of some typical sizes."""
-
-    def hide(index: int, plan: Plan) -> Hidden:
-        cause = _turns(causes, index)
-        share = np.random.default_rng(index).uniform()
-        size = low + (high - low) * share
-        return Hidden(((cause, min(size, LARGEST_DRAG) if cause.drag else size),))
-
-    return hide
+def _size(cause: Cause, source: Source) -> float:
+    size = float(source.uniform(LEAST, MOST))
+    return min(size, LARGEST_DRAG) if cause.drag else size
 
 
-def pairs(millimetres: float, causes: tuple[Cause, ...]) -> Hide:
-    """Two effects at once, each of so much RMS; all pairs take turns."""
-    both = list(combinations(causes, 2))
-    both = [both[i] for i in np.random.default_rng(7).permutation(len(both))]
-    both = [(a, b) for a, b in both if a.effect != b.effect]
+# What every machine with published settings has.
 
-    def hide(index: int, plan: Plan) -> Hidden:
-        return Hidden(
-            tuple((cause, size_for(cause, plan, millimetres)) for cause in both[index % len(both)])
-        )
-
-    return hide
+STRETCH, STRETCH_SIGMA, LEAST_STRETCH = 5.2e-6, 1.5e-6, 5e-7  # [1/N] of a chain
+SAG_SHARE = 0.1  # by which a chain is heavier or lighter than the settings say, at most
+PITCH_CHANCE, PITCH_SIGMA = 0.5, 5e-4
 
 
-def several(count: int, low: float, high: float, causes: tuple[Cause, ...]) -> Hide:
-    """Several effects at once, drawn by chance, each of some typical sizes."""
-    effects = by_effect(causes)
-
-    def hide(index: int, plan: Plan) -> Hidden:
-        source = np.random.default_rng(1000 + index)
-        hidden = []
-        for i in source.choice(len(effects), count, replace=False):
-            cause = effects[i][int(source.integers(len(effects[i])))]
-            size = float(source.uniform(low, high))
-            hidden.append((cause, min(size, LARGEST_DRAG) if cause.drag else size))
-        return Hidden(tuple(hidden))
-
-    return hide
-
-
-def usual_machine(index: int, plan: Plan) -> Hidden:
-    """Return what every machine has: a chain that stretches more or less than usual, which
-    published settings leave out, a chain a bit heavier or lighter, friction and backlash; and next
-    to that one or two effects of usual size.
+def as_bought(hidden: Hidden, source: Source) -> Hidden:
+    """Return the same on a chain that stretches, weighs nearly what it should, and is often too
+    long; what is hidden goes before what is usual.
     """
-    source = np.random.default_rng(5000 + index)
     (stretch,), (sag,) = causes_of("chain_stretch"), causes_of("chain_sag")
-    friction = causes_of("sled_friction")[0]
-    others = tuple(cause for cause in SMALL if cause.effect not in ("chain_stretch", "chain_sag"))
-    anomalies = several(1 + index % 2, 1.0, 2.0, others)(index, plan)
-    rubs = 0.0 if friction.effect in anomalies.effects else 0.3
-    return Hidden(
-        ((stretch, float(source.uniform(-0.4, 0.6))), *anomalies.causes),
-        usual=((sag, float(source.uniform(-0.1, 0.1))), (friction, rubs)),
-        backlash=float(source.uniform(0.0, 0.2)),
-    )
-
-
-def outside(millimetres: float) -> Hide:
-    """Return what the library has no word for."""
-
-    def hide(index: int, plan: Plan) -> Hidden:
-        return Hidden(outside=list(OUTSIDE)[index % len(OUTSIDE)], outside_mm=millimetres)
-
-    return hide
+    believed, typical = (stretch.sizes(size)["compliance"] for size in (0.0, 1.0))
+    truth = max(STRETCH + STRETCH_SIGMA * source.standard_normal(), LEAST_STRETCH)
+    usual = [
+        (stretch, (truth - believed) / (typical - believed)),
+        (sag, float(source.uniform(-SAG_SHARE, SAG_SHARE))),
+    ]
+    if source.uniform() < PITCH_CHANCE:
+        left, right = (PITCH_SIGMA * source.standard_normal(2)).tolist()
+        both = {"left": left, "right": right}
+        usual.append((Cause("chain_pitch", "drawn", sizes=lambda _: both), 1.0))
+    more = tuple(each for each in usual if each[0].effect not in hidden.effects)
+    return replace(hidden, usual=(*hidden.usual, *more))
 
 
 @dataclass(frozen=True)
 class Slip:
-    """How a reading is written down wrongly."""
+    """A reading that is written down some millimetres away, in any direction."""
 
-    kind: str  # "turned": by `millimetres` in any direction; "digits"; "axes"
-    millimetres: float = SLIP_MM
+    millimetres: float = 5.0
     where: str = ""  # "once": at a mark that is read once; "repeated": at one read again
 
 
-def slip(
-    board: BoardCut, kind: Slip, source: np.random.Generator
-) -> tuple[BoardCut, tuple[str, ...]]:
+def slip(board: BoardCut, kind: Slip, source: Source) -> tuple[BoardCut, str]:
     """Return the board with one reading written down wrongly, and the mark's name."""
     marks = list(board.measurements.marks)
-    index = _slipped(board, kind.where, source)
+    names = [mark.name for mark in marks]
+    again = np.array([names.count(name) > 1 for name in names])
+    allowed = np.ones(len(names)) if not kind.where else again == (kind.where == "repeated")
+    index = int(source.choice(np.flatnonzero(allowed)))
     x, y = marks[index].measured or marks[index].target
-    if kind.kind == "axes":
-        moved = (y, x)
-    elif kind.kind == "digits":
-        moved = (_digits_swapped(x, source), y)
-    else:
-        turn, length = source.uniform(0, 2 * np.pi), kind.millimetres
-        moved = (x + length * np.cos(turn), y + length * np.sin(turn))
+    turn = source.uniform(0, 2 * np.pi)
+    moved = (x + kind.millimetres * np.cos(turn), y + kind.millimetres * np.sin(turn))
     marks[index] = replace(marks[index], measured=moved)
-    return replace(board, measurements=replace(board.measurements, marks=tuple(marks))), (
-        marks[index].name,
-    )
-
-
-def _slipped(board: BoardCut, where: str, source: np.random.Generator) -> int:
-    """Return the mark whose reading is wrong."""
-    names = [mark.name for mark in board.measurements.marks]
-    if not where:
-        return int(source.integers(len(names)))
-    again = [names.count(name) > 1 for name in names]
-    return int(source.choice(np.flatnonzero(np.array(again) == (where == "repeated"))))
-
-
-def _digits_swapped(number: float, source: np.random.Generator) -> float:
-    """Two neighbouring digits before the point exchanged, so that the number changes."""
-    digits = list(f"{abs(number):.0f}".zfill(3))
-    places = [i for i in range(len(digits) - 1) if digits[i] != digits[i + 1]] or [0]
-    i = int(source.choice(places))
-    digits[i], digits[i + 1] = digits[i + 1], digits[i]
-    if digits[i] == digits[i + 1]:
-        digits[-1] = str((int(digits[-1]) + 5) % 10)
-    return float(np.copysign(float("".join(digits)), number))
+    measurements = replace(board.measurements, marks=tuple(marks))
+    return replace(board, measurements=measurements), names[index]

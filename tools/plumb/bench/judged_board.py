@@ -1,18 +1,19 @@
-"""One board of a scenario: made, diagnosed, and judged."""
+"""One board of a kind: made, diagnosed, cured, and held against what is hidden in it."""
 
 from __future__ import annotations
 
+import time
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from zlib import crc32
 
 import numpy as np
 
-from plumb.bench.boards import BoardCut, TrueMachine, cut
+from plumb.bench.boards import BoardCut, TrueMachine
 from plumb.bench.causes import CHAIN, HALF, MAKER
-from plumb.bench.hiding import slip
-from plumb.bench.outcome import Outcome, look_alikes, outcome_of
-from plumb.bench.scenarios import Scenario
+from plumb.bench.kinds import KINDS, board_of
+from plumb.bench.shown import Truth, truth_of
+from plumb.cure.auto import add_auto
 from plumb.diagnosis import Checked, Diagnosis, diagnose
 from plumb.fit.compare import best_pose
 from plumb.fit.fit import fit
@@ -24,57 +25,85 @@ from plumb.plan.case import Check
 from plumb.plan.planned_visits import Visits
 from plumb.settings.machine import MachineSettings
 
-MOST_ALIKE = 3  # causes of a board whose look-alikes are asked for
-LARGE_SLIP = 10.0  # [mm]
-SEEDS = 1_000_003  # boards of one seed before those of the next
+NAMED = ("one_suspect", "cannot_tell")
+WORSE = 0.05  # [mm] by which the error must grow to be called worse
+SMALL = "chain_sag"  # a tenth of it is not worth a fit
 
 
 @dataclass(frozen=True)
 class JudgedBoard:
-    """What came of a board."""
+    """A board, what was said of it, and what the sled is worth with what was written."""
 
-    outcome: Outcome
-    cure: Cure | None  # where the sled was measured too
-    readings: int = 0  # of marks that were proposed, beyond those of the board
-    checks: int = 0  # numbers that were measured directly
+    kind: str
+    index: int
+    effects: tuple[str, ...]  # hidden
+    verdict: str
+    said: tuple[str, ...]  # effects named in the first explanation
+    outliers: tuple[str, ...]  # readings set aside
+    named: bool  # an effect is named
+    exact: bool  # named is all that the marks can show, and nothing that is not there
+    holds: bool  # the best explanation has all that the marks can show
+    needless: int  # effects named that are not there
+    unknown: bool  # it is said that the machine does what the library does not know
+    readings: bool  # the readings set aside are those that are wrong
+    # RMS [mm] of the shape of the sled's errors all over the sheet:
+    before: float  # by the settings as they were
+    after: float  # by those that `plumb add --effect auto` leaves
+    fitted: float  # by a fit of what is there
+    worse: bool
+    cpu: float  # [s] of diagnosing and adding
 
 
-def judge_board(scenario: Scenario, index: int, *, seed: int) -> JudgedBoard:
-    """Board number `index` of a scenario."""
-    plan = scenario.plan
-    hidden = scenario.hide(index, plan)
-    # Each scenario draws by itself, or one odd board would show in all of them.
-    number = SEEDS * seed + crc32(scenario.name.encode()) + index
-    board = cut(
-        hidden,
-        plan,
-        seed=number,
-        noise=scenario.noise,
-        tape_sigma=scenario.stated,
-        settings=scenario.settings,
+def judge_board(kind: str, index: int, *, marks: int, seed: int, rounds: int = 0) -> JudgedBoard:
+    """Return what comes of board number `index` of a kind, after some rounds of `plumb next`."""
+    hidden = board_of(KINDS[kind], index, marks=marks, seed=seed)
+    settings, truth = hidden.kind.settings, truth_of(hidden)
+    source = np.random.default_rng([seed, crc32(kind.encode()), index, OWNER])
+    start = time.process_time()
+    owner = BoardOwner(source, hidden.kind.noise)
+    loop = followed(hidden.board, settings, owner, rounds=rounds)
+    diagnosis, inputs = loop.diagnosis, loop.inputs(settings)
+    addition = add_auto(inputs, diagnosis=diagnosis).addition
+    cpu = time.process_time() - start
+    best = set(diagnosis.explanations[0].effects) if diagnosis.explanations else set[str]()
+    said = best if diagnosis.verdict in NAMED or diagnosis.is_finding else set[str]()
+    outliers = tuple(outlier.name for outlier in diagnosis.outliers)
+    machine = loop.board.machine
+    before = shape_error(machine, settings)
+    after = shape_error(machine, addition.settings) if addition else before
+    return JudgedBoard(
+        kind=kind,
+        index=index,
+        effects=truth.effects,
+        verdict=diagnosis.verdict,
+        said=tuple(sorted(said)),
+        outliers=outliers,
+        named=bool(said),
+        exact=truth.is_held_by(said) and said <= truth.allowed,
+        holds=truth.is_held_by(best),
+        needless=len(said - truth.allowed),
+        unknown=diagnosis.verdict == "not_in_library",
+        readings=set(outliers) == set(hidden.slipped),
+        before=before,
+        after=after,
+        fitted=shape_error(machine, _with_what_is_there(inputs, diagnosis, truth)),
+        worse=after > before + WORSE,
+        cpu=cpu,
     )
-    slipped: tuple[str, ...] = ()
-    kind = scenario.slips[index % len(scenario.slips)] if scenario.slips else None
-    if kind:
-        board, slipped = slip(board, kind, np.random.default_rng(number + 17))
-    owner = BoardOwner(np.random.default_rng(number + 29), scenario.noise)
-    loop = followed(board, scenario.settings, owner, rounds=scenario.rounds)
-    board, diagnosis = loop.board, loop.diagnosis
-    alike = frozenset[str]().union(
-        *(look_alikes(*cause, plan, scenario.noise) for cause in hidden.causes[:MOST_ALIKE])
-    )
-    cure = None
-    if scenario.cured:
-        inputs, sigma = loop.inputs(scenario.settings), diagnosis.noise.sigma
-        cure = cure_of(board.machine, inputs, diagnosis.to_add, sigma=sigma)
-    small = kind is not None and kind.millimetres < LARGE_SLIP
-    outcome = outcome_of(diagnosis, board, alike=alike, slipped=slipped, small_slip=small)
-    return JudgedBoard(outcome, cure, loop.readings, len(loop.checked))
+
+
+def _with_what_is_there(inputs: Inputs, diagnosis: Diagnosis, truth: Truth) -> MachineSettings:
+    """Return the settings with the frame and all that is there fitted, as `plumb add` does it."""
+    usual = (name for name in truth.usual if name != SMALL)
+    there = tuple(dict.fromkeys([*usual, *truth.effects]))
+    model, rows = inputs.model_and_observations()
+    sigma, checked = diagnosis.noise.sigma, inputs.checked
+    return fit(model, rows, effects=there, sigma=sigma, checked=checked).settings
 
 
 # The owner of a board of the bench: measures more of the same machine, as it is proposed.
 
-Array = np.ndarray
+OWNER = 29  # of seeds
 
 
 @dataclass(frozen=True)
@@ -125,20 +154,10 @@ def true_value(board: BoardCut, name: str) -> float:
     return float(getattr(board.machine, name, getattr(MAKER, name, 0.0)))
 
 
-# What a diagnosis is worth at the sled: the shape error over the whole sheet before and after.
+# What settings are worth at the sled: the shape of its errors over the whole sheet.
 
 COLUMNS, ROWS = 15, 9  # places of the sheet at which the sled is asked for
 MARGIN = 50.0  # [mm] of the sheet's edge that is left out
-
-
-@dataclass(frozen=True)
-class Cure:
-    """RMS shape errors [mm] of the judge's sled over the whole sheet."""
-
-    before: float  # by the maker's settings
-    frame: float  # by a fit of the frame alone
-    after: float  # by a fit with what was named
-    known: float  # by a fit with what was hidden
 
 
 def sheet() -> np.ndarray:
@@ -157,23 +176,6 @@ def shape_error(machine: TrueMachine, settings: MachineSettings) -> float:
         return float("inf")
     pose = best_pose(wanted, machine.sleds(chains))
     return rms(pose.errors) if pose else 0.0
-
-
-def refitted(inputs: Inputs, effects: Sequence[str], sigma: float) -> MachineSettings:
-    """Return the settings with the frame and these effects fitted, as `plumb add` does it."""
-    model, rows = inputs.model_and_observations()
-    return fit(model, rows, effects=effects, sigma=sigma, checked=inputs.checked).settings
-
-
-def cure_of(machine: TrueMachine, inputs: Inputs, effects: Sequence[str], *, sigma: float) -> Cure:
-    """Return what naming these effects is worth on a board; sigma [mm] as the diagnosis took it."""
-    truth = machine.hidden.effects
-    fits = {
-        named: shape_error(machine, refitted(inputs, named, sigma))
-        for named in {(), tuple(effects), truth}
-    }
-    before = shape_error(machine, inputs.settings)
-    return Cure(before, fits[()], fits[tuple(effects)], fits[truth])
 
 
 # The loop: what `plumb next` proposes is measured on the same board, round after round.

@@ -1,305 +1,210 @@
-"""The bench run through, and the tables of its rates next to the lines to be reached."""
+"""The bench run through: boards played side by side, and a row of rates for each kind."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
-from typing import Annotated
+import json
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import Annotated, Any
 
 import joblib  # type: ignore[import-untyped]  # it brings no types
 import numpy as np
-from pydantic import computed_field
 
 from plumb.bench.judged_board import JudgedBoard, judge_board
-from plumb.bench.outcome import JUDGED, Line, Outcome, Rate, rate_of
-from plumb.bench.scenarios import CURE, LOOP, SCENARIOS, Scenario
-from plumb.text.answers import Internal, Number, among, key
+from plumb.bench.kinds import KINDS
+from plumb.text.answers import Number, key
+from plumb.text.errors import InputError
 
-Progress = Callable[[str, int], None]  # called with each scenario and how many more boards are done
-AT_ONCE = 4  # boards between two steps of the progress
+Progress = Callable[[str], None]  # called with the kind of each board that is done
+Boards = dict[tuple[str, int], JudgedBoard]
+SURE = 2.0  # standard errors by which a rate must change to be called another
+LEAST = 1e-3
+CPU = "cpu"  # no rate of the diagnosis: it hangs on the computer too
+AT_ONCE = 4  # boards of a kind that a process takes
 
 
 @dataclass(frozen=True)
-class Row(Rate):
-    """One rate of one scenario; line and judged are None where there is nothing to reach."""
+class Wanted:
+    """Which boards are played."""
 
-    scenario: str
-    hidden: str
+    kinds: tuple[str, ...]
+    boards: int  # of each kind
     marks: int
-    noise: Annotated[float, key("noise_mm")]
-    least: float | None
-    most: float | None
-    judged: Annotated[str | None, among((*JUDGED, None))]
-    kind: Internal[Scenario]
-    line: Internal[Line | None]
+    seed: int
+    rounds: int = 0  # of what `plumb next` proposes
 
 
 @dataclass(frozen=True)
-class RateOfCause(Rate):
-    """The share that was right of the boards with a cause."""
+class Row:
+    """Rates over the boards of a kind: shares, and means a board."""
 
-    scenario: str
+    kind: str
     hidden: str
+    boards: int
+    named: float
+    exact: float
+    holds: Annotated[float, key("truth_in_best")]
+    needless: float
+    unknown: Annotated[float, key("not_in_library")]
+    readings: Annotated[float, key("readings_right")]
+    before: Annotated[Number, key("before_mm")]
+    after: Annotated[Number, key("after_mm")]
+    fitted: Annotated[Number, key("truth_fitted_mm")]
+    worse: float
+    cpu: Annotated[float, key("cpu_s")]
 
 
 @dataclass(frozen=True)
-class Cured:
-    """Mean errors [mm] of the judge's sled over the sheet, over the boards of a scenario."""
+class Change:
+    """A rate that is not as it was on the same boards, by more than chance."""
 
-    scenario: str
+    kind: str
+    rate: str
     boards: int
-    before: Number
-    frame: Number
-    after: Number
-    known: Number
-    error: Annotated[Number, key("ratio_error")]
-    # mean number of marks that were proposed and read
-    readings: Annotated[float, key("readings_more")] = 0.0
-    checks: float = 0.0  # mean number of direct measurements
-
-    @computed_field(alias="ratio")
-    @property
-    def ratio_value(self) -> Number:
-        """The ratio alone."""
-        return self.ratio.value
-
-    @property
-    def ratio(self) -> Rate:
-        """Error with what was named over that with the truth known."""
-        return Rate(CURE.name, self.after / self.known, self.error, self.boards)
+    was: float
+    now: float
+    error: float  # standard error of the difference
 
 
 @dataclass(frozen=True)
 class Report:
-    """All rates."""
+    """All rates, and how to draw the same boards again."""
 
-    rows: Annotated[tuple[Row, ...], key("rates")]
-    by_kind: tuple[RateOfCause, ...]
-    cures: Internal[tuple[Cured, ...]]  # the last is that of all boards together
-    loops: Internal[tuple[Cured, ...]]  # the same after rounds of proposals
-    boards: int  # of each scenario
+    rows: tuple[Row, ...]
+    marks: int
     seed: int
-    counted: int  # boards of all scenarios; fewer than asked for if the bench was interrupted
+    rounds: int
+    changes: tuple[Change, ...] = ()  # against boards that were played before
     interrupted: bool = False
 
-    @property
-    def missed(self) -> tuple[Row, ...]:
-        """Rates that miss their lines by more than chance."""
-        return tuple(row for row in self.rows if row.judged == "missed")
 
-    @property
-    def cure_judged(self) -> str:
-        """How all cures together stand against their line; empty if none was measured."""
-        return CURE.judge(self.cures[-1].ratio) if self.cures else ""
-
-    @property
-    def loop_judged(self) -> str:
-        """The same after rounds of proposals."""
-        return LOOP.judge(self.loops[-1].ratio) if self.loops else ""
-
-    @computed_field
-    @property
-    def errors_mm(self) -> tuple[Cured, ...]:
-        """Errors at the sled, before and after rounds of proposals."""
-        return (*self.cures, *self.loops)
-
-    @computed_field(alias="missed")
-    @property
-    def missed_words(self) -> list[str]:
-        """The rates that miss their lines, in words."""
-        return (
-            [f"{row.scenario}: {row.name}" for row in self.missed]
-            + ["error at the sled"] * (self.cure_judged == "missed")
-            + ["error at the sled after two rounds"] * (self.loop_judged == "missed")
-        )
+RATES = tuple(Row.__annotations__)[3:]
 
 
-def run(
-    scenarios: Sequence[Scenario], *, boards: int, seed: int, progress: Progress, jobs: int = 1
+def play(
+    wanted: Wanted,
+    *,
+    progress: Progress = lambda kind: None,
+    jobs: int = 1,
+    file: Path | None = None,
+    against: Path | None = None,
+    cluster: str = "",
 ) -> Report:
-    """Diagnose boards of each scenario, in `jobs` programs at once.
+    """Play all boards, in `jobs` programs at once or on a Dask cluster, and count.
 
-    joblib carries the boards, so a backend that the caller sets (a Dask cluster) carries them too.
-    An interruption keeps what is done; with nothing done it goes on up.
+    Boards that `file` has are not played again; it gets those that are. `against` has the same
+    boards as they were judged before. An interruption keeps what is done; with nothing done it goes
+    on up.
     """
+    if against and not against.exists():
+        raise InputError(against, "there is no such file")
+    old, done = _saved(against, wanted), _saved(file, wanted)
     tasks = [
-        (scenario.name, tuple(range(start, min(start + AT_ONCE, boards))), seed)
-        for start in range(0, boards, AT_ONCE)
-        for scenario in scenarios
+        (kind, [index for index in some if (kind, index) not in done])
+        for some in np.array_split(np.arange(wanted.boards), -(-wanted.boards // AT_ONCE))
+        for kind in wanted.kinds
     ]
-    trials: dict[str, list[JudgedBoard]] = {scenario.name: [] for scenario in scenarios}
     interrupted = False
     try:
-        parallel = joblib.Parallel(n_jobs=jobs, return_as="generator")
-        done = parallel(joblib.delayed(_some)(task) for task in tasks)
-        for (name, indices, _), trials_done in zip(tasks, done, strict=True):
-            trials[name] += trials_done
-            progress(name, len(indices))
+        with _handed_out(cluster):
+            parallel = joblib.Parallel(n_jobs=-1 if cluster else jobs, return_as="generator")
+            played = parallel(
+                joblib.delayed(_some)(kind, [int(index) for index in some], wanted)
+                for kind, some in tasks
+                if len(some)
+            )
+            for judged in (each for several in played for each in several):
+                done[judged.kind, judged.index] = judged
+                _save(file, wanted, judged)
+                progress(judged.kind)
     except KeyboardInterrupt:
         interrupted = True
-        if not any(trials.values()):
+        if not done:
             raise
-    begun = [scenario for scenario in scenarios if trials[scenario.name]]
-    return _report(begun, trials, boards, seed, interrupted=interrupted)
-
-
-def _some(task: tuple[str, tuple[int, ...], int]) -> list[JudgedBoard]:
-    """Return some boards of the scenario of a name."""
-    name, indices, seed = task
-    scenario = next(scenario for scenario in SCENARIOS if scenario.name == name)
-    return [judge_board(scenario, index, seed=seed) for index in indices]
-
-
-def _report(
-    scenarios: Sequence[Scenario],
-    trials: Mapping[str, Sequence[JudgedBoard]],
-    boards: int,
-    seed: int,
-    *,
-    interrupted: bool,
-) -> Report:
-    rows: list[Row] = []
-    kinds: list[RateOfCause] = []
-    for scenario in scenarios:
-        outcomes = [trial.outcome for trial in trials[scenario.name]]
-        rows += rows_of(scenario, outcomes)
-        kinds += _by_kind(scenario, outcomes)
+    begun = {kind: [done[each] for each in done if each[0] == kind] for kind in wanted.kinds}
     return Report(
-        tuple(rows),
-        tuple(kinds),
-        _all_cured([each for each in scenarios if each.cured and not each.rounds], trials),
-        _all_cured([each for each in scenarios if each.cured and each.rounds], trials),
-        boards,
-        seed,
-        sum(map(len, trials.values())),
+        tuple(row_of(kind, boards) for kind, boards in begun.items() if boards),
+        wanted.marks,
+        wanted.seed,
+        wanted.rounds,
+        tuple(each for kind in wanted.kinds for each in _changes(kind, old, done)),
         interrupted,
     )
 
 
-def rows_of(scenario: Scenario, outcomes: Sequence[Outcome]) -> list[Row]:
-    """Return the rates of a scenario, those with a line first."""
-    rows = []
-    for line in scenario.lines:
-        rate = rate_of(line.name, outcomes)
-        rows.append(_row(scenario, rate, line))
-    return rows + [_row(scenario, rate_of(name, outcomes), None) for name in scenario.shown]
+def _some(kind: str, indices: Sequence[int], wanted: Wanted) -> list[JudgedBoard]:
+    how = {"marks": wanted.marks, "seed": wanted.seed, "rounds": wanted.rounds}
+    return [judge_board(kind, index, **how) for index in indices]
 
 
-def _row(scenario: Scenario, rate: Rate, line: Line | None) -> Row:
-    """Return the rate, as it stands against its line."""
-    return Row(
-        **vars(rate),
-        scenario=scenario.name,
-        hidden=scenario.what,
-        marks=scenario.marks,
-        noise=scenario.noise,
-        least=line.least if line else None,
-        most=line.most if line else None,
-        judged=line.judge(rate) if line else None,
-        kind=scenario,
-        line=line,
-    )
+@contextmanager
+def _handed_out(cluster: str) -> Iterator[None]:
+    """Let joblib hand boards to programs beside this, or to the workers of a Dask cluster."""
+    if not cluster:
+        # Boards fill the cores; threads of numpy would only queue for them.
+        with joblib.parallel_config(backend="loky", inner_max_num_threads=1):
+            yield
+        return
+    try:
+        from distributed import Client
+    except ModuleNotFoundError:
+        raise InputError("--cluster needs Dask: pip install 'plumb[cluster]'") from None
+    try:
+        client = Client(cluster, timeout=10)  # type: ignore[no-untyped-call]  # it has no types
+    except (OSError, ValueError) as error:
+        raise InputError(f"--cluster {cluster}: {error}") from None
+    with client, joblib.parallel_config(backend="dask"):
+        yield
 
 
-def _by_kind(scenario: Scenario, outcomes: Sequence[Outcome]) -> list[RateOfCause]:
-    """Return the first rate with a line, by what was hidden."""
-    causes = dict.fromkeys(outcome.cause.partition(",")[0] for outcome in outcomes)
-    if not scenario.lines or len(causes) < 2 or scenario.name.startswith("pairs"):
-        return []
-    rates = {
-        cause: rate_of(
-            scenario.lines[0].name,
-            [outcome for outcome in outcomes if outcome.cause.partition(",")[0] == cause],
-        )
-        for cause in causes
-    }
-    return [
-        RateOfCause(**vars(rate), scenario=scenario.name, hidden=cause)
-        for cause, rate in rates.items()
-    ]
+def row_of(kind: str, boards: Sequence[JudgedBoard]) -> Row:
+    """Return the rates of a kind."""
+    means = {name: float(np.mean([getattr(each, name) for each in boards])) for name in RATES}
+    return Row(kind, KINDS[kind].what, len(boards), **means)
 
 
-def _all_cured(
-    scenarios: Sequence[Scenario], trials: Mapping[str, Sequence[JudgedBoard]]
-) -> tuple[Cured, ...]:
-    """Return the errors at the sled of each scenario, and of all together where there are
-    several.
-    """
-    each = [(scenario.name, trials[scenario.name]) for scenario in scenarios]
-    if len(each) > 1:
-        each.append(("all of these", [trial for _, of_scenario in each for trial in of_scenario]))
-    return tuple(_cured(name, of_scenario) for name, of_scenario in each)
+def _changes(kind: str, old: Boards, new: Boards) -> Iterator[Change]:
+    """Yield what changed on boards of a kind that were played twice."""
+    both = [(old[each], new[each]) for each in new if each[0] == kind and each in old]
+    for rate in RATES:
+        pairs = np.array([[getattr(board, rate) for board in pair] for pair in both], dtype=float)
+        if rate == CPU or not len(pairs):
+            continue
+        apart = pairs[:, 1] - pairs[:, 0]
+        error = float(np.std(apart)) / np.sqrt(len(apart))
+        if abs(np.mean(apart)) > max(SURE * error, LEAST):
+            was, now = np.mean(pairs, axis=0).tolist()
+            yield Change(kind, rate, len(pairs), was, now, error)
 
 
-def _cured(name: str, trials: Sequence[JudgedBoard]) -> Cured:
-    cures = [trial.cure for trial in trials if trial.cure]
-    errors = np.array([(cure.before, cure.frame, cure.after, cure.known) for cure in cures])
-    before, frame, after, known = errors.mean(axis=0).tolist()
-    apart = errors[:, 2] - after / known * errors[:, 3]
-    error = float(np.sqrt(np.sum(apart**2))) / (len(errors) * known)
-    more = np.array([(trial.readings, trial.checks) for trial in trials]).mean(axis=0).tolist()
-    return Cured(name, len(errors), before, frame, after, known, error, *more)
+# Boards in a file: a line of JSON each, with what they were drawn from.
 
 
-def value_words(rate: Rate) -> str:
-    """Return a rate with its uncertainty."""
-    if not rate.count:
-        return "-"
-    if rate.name in ("suspects", CURE.name):
-        return f"{rate.value:.2f} +- {rate.error:.2f}"
-    return f"{100 * rate.value:.1f} +- {100 * rate.error:.1f} %"
+def _drawn_from(wanted: Wanted) -> dict[str, int]:
+    return {"marks": wanted.marks, "seed": wanted.seed, "rounds": wanted.rounds}
 
 
-def line_words(line: Line | None) -> str:
-    """Return a line to be reached."""
-    if line is None:
-        return ""
-    if line.name in ("suspects", CURE.name):
-        return line.words
-    ends = [(">=", line.least), ("<=", line.most)]
-    given = [f"{sign} {100 * end:g} %" for sign, end in ends if end is not None]
-    return ", ".join(given)
+def _saved(file: Path | None, wanted: Wanted) -> Boards:
+    """Return the boards of a file that are wanted."""
+    boards: Boards = {}
+    if not file or not file.exists():
+        return boards
+    for number, line in enumerate(file.read_text("utf-8").splitlines(), 1):
+        try:
+            words: Mapping[str, Any] = json.loads(line)
+            drawn_from = {name: words[name] for name in _drawn_from(wanted)}
+            board = JudgedBoard(**{name: words[name] for name in words if name not in drawn_from})
+        except (ValueError, KeyError, TypeError):
+            raise InputError(file, f"line {number} is no board of the bench") from None
+        is_wanted = board.kind in wanted.kinds and board.index < wanted.boards
+        if is_wanted and drawn_from == _drawn_from(wanted):
+            boards[board.kind, board.index] = board
+    return boards
 
 
-HEADER = ("scenario", "hidden", "marks", "noise", "rate", "seen", "line", "")
-CURE_HEADER = ("scenario", "boards", "before", "frame only", "after", "truth known", "ratio")
-LOOP_HEADER = (*CURE_HEADER, "marks more", "checks")
-
-
-def cells(report: Report) -> list[list[str]]:
-    """Return the rows of the table."""
-    return [
-        [
-            row.scenario,
-            row.hidden,
-            f"{row.marks}{' spans' if row.kind.spans else ''}",
-            row.kind.noise_words,
-            row.name,
-            value_words(row),
-            line_words(row.line),
-            row.judged or "",
-        ]
-        for row in report.rows
-    ]
-
-
-def cure_cells(cures: Sequence[Cured]) -> list[list[str]]:
-    """Return the rows of the table of errors at the sled."""
-    return [
-        [
-            cured.scenario,
-            str(cured.boards),
-            *(f"{value:.2f} mm" for value in (cured.before, cured.frame, cured.after, cured.known)),
-            value_words(cured.ratio),
-        ]
-        for cured in cures
-    ]
-
-
-def loop_cells(loops: Sequence[Cured]) -> list[list[str]]:
-    """Return the same after rounds of proposals, with what was measured for it."""
-    rows = cure_cells(loops)
-    return [
-        [*row, f"{cured.readings:.1f}", f"{cured.checks:.1f}"]
-        for row, cured in zip(rows, loops, strict=True)
-    ]
+def _save(file: Path | None, wanted: Wanted, board: JudgedBoard) -> None:
+    if file:
+        with file.open("a", encoding="utf-8") as out:
+            out.write(json.dumps({**_drawn_from(wanted), **asdict(board)}) + "\n")

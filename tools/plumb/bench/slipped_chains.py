@@ -20,7 +20,7 @@ import numpy as np
 
 from plumb.bench.boards import BoardCut, TrueMachine, cut, plan
 from plumb.bench.causes import MAKER, OUTSIDE
-from plumb.bench.hiding import usual_machine
+from plumb.bench.hiding import as_bought, usual_machine
 from plumb.fit.fit import fit
 from plumb.fit.inputs import Inputs
 from plumb.job.home import Touch
@@ -90,12 +90,12 @@ def fitted_machine(number: int, *, noise: float = 0.5, outside: float = 0.0) -> 
 
     outside [mm]: the size of a shape in its marks that no effect of the library makes.
     """
-    sites = plan(5, 3)
-    hidden = usual_machine(number, sites)
+    sites, source = plan(5, 3), np.random.default_rng(number)
+    hidden = as_bought(usual_machine(source, number, sites), source)
     if outside:
         shape = list(OUTSIDE)[number % len(OUTSIDE)]
         hidden = replace(hidden, outside=shape, outside_mm=outside)
-    board = cut(hidden, sites, seed=number, noise=noise)
+    board = cut(hidden, sites, seed=source, noise=noise)
     model, rows = Inputs(MAKER, board.measurements).model_and_observations()
     fitted = fit(model, rows, effects=FITTED, sigma=noise)
     record = FitRecord(

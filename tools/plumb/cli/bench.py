@@ -4,20 +4,10 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Callable, Sequence
+from pathlib import Path
 
-from plumb.bench.report import (
-    CURE_HEADER,
-    HEADER,
-    LOOP_HEADER,
-    Report,
-    cells,
-    cure_cells,
-    line_words,
-    loop_cells,
-    value_words,
-)
-from plumb.bench.report import run as run_bench
-from plumb.bench.scenarios import CURE, LOOP, NAMES, SCENARIOS, Scenario
+from plumb.bench.kinds import GRIDS, KINDS
+from plumb.bench.report import Change, Report, Row, Wanted, play
 from plumb.cli.arguments import add_json, count
 from plumb.cli.output import INTERRUPTED
 from plumb.cli.screen import Bar, print_json, sentences, table
@@ -26,14 +16,24 @@ from plumb.text.errors import InputError
 
 def run(arguments: argparse.Namespace) -> int:
     """Run the bench, print its table, and return the exit code."""
-    chosen = chosen_of(arguments.scenario)
-    boards = arguments.boards or (FAST if arguments.fast else BOARDS)
-    report = run_bench(
-        chosen,
-        boards=boards,
-        seed=arguments.seed,
-        progress=counted(len(chosen) * boards),
+    if arguments.list:
+        print(
+            table(
+                ("kind", "what is hidden"),
+                [[each.name, each.what] for each in KINDS.values()],
+                words=[-1],
+            )
+        )
+        return 0
+    kinds = chosen_of(arguments.kinds)
+    wanted = Wanted(kinds, arguments.boards, arguments.marks, arguments.seed, arguments.rounds)
+    report = play(
+        wanted,
+        progress=counted(len(kinds) * wanted.boards),
         jobs=arguments.jobs,
+        file=arguments.save,
+        against=arguments.against,
+        cluster=arguments.cluster,
     )
     if arguments.json:
         print_json(report)
@@ -42,80 +42,98 @@ def run(arguments: argparse.Namespace) -> int:
     return INTERRUPTED if report.interrupted else 0
 
 
-def chosen_of(names: Sequence[str]) -> tuple[Scenario, ...]:
-    """Return the scenarios of these names or beginnings of names; all if there are none."""
-    for name in names:
-        if not any(known.startswith(name) for known in NAMES):
-            raise InputError(
-                f"--scenario {name}: there is no scenario of that name; known are "
-                f"{', '.join(NAMES)}"
-            )
+def chosen_of(beginnings: Sequence[str]) -> tuple[str, ...]:
+    """Return the kinds whose names begin so, with or without their world; all if none is given."""
+    names = {name: (name, name.partition("/")[2]) for name in KINDS}
+    for beginning in beginnings:
+        if not any(each.startswith(beginning) for both in names.values() for each in both):
+            raise InputError(f"--kinds {beginning}: no kind begins so; --list prints them")
+    chosen = tuple(beginnings) or ("",)
     return tuple(
-        scenario
-        for scenario in SCENARIOS
-        if not names or any(scenario.name.startswith(known) for known in names)
+        name for name, both in names.items() if any(each.startswith(chosen) for each in both)
     )
 
 
-def counted(total: int) -> Callable[[str, int], None]:
-    """Return a bar that is moved on by a number of boards of a scenario."""
+def counted(total: int) -> Callable[[str], None]:
+    """Return a bar that is moved on by each board of a kind."""
     bar, done = Bar("boards", patience=0.0), 0
 
-    def step(name: str, boards: int) -> None:
+    def step(kind: str) -> None:
         nonlocal done
-        done += boards
-        bar.show(done / total, f"{done} of {total} boards, {name}")
+        done += 1
+        bar.show(done / total, f"{done} of {total} boards, {kind}")
 
     return step
 
 
+HEADER = (
+    "kind",
+    "n",
+    "named",
+    "exact",
+    "truth",
+    "extra",
+    "new",
+    "slips",
+    "before",
+    "after",
+    "fitted",
+    "worse",
+    "CPU",
+)
+LEGEND = (
+    "Percent of n boards. named: an effect; exact: all that the marks can show of what is there, "
+    "and nothing else; truth: the best explanation has all of that; new: it is said that the "
+    "machine does what the library does not know; slips: the readings set aside are just those "
+    "that are wrong; worse: the sled errs more than before.",
+    "extra: effects named a board that are not there. CPU: seconds a board.",
+    "before, after, fitted: mean error of the judge's sled over the sheet [mm RMS] by the settings "
+    "as they were, by those that plumb add --effect auto leaves, and with what is there fitted.",
+)
+
+
 def as_text(report: Report) -> str:
-    """Return the tables for people, what is missed last."""
-    parts = [_rates_of(name, report) for name in dict.fromkeys(row[0] for row in cells(report))]
-    if report.cures:
-        parts.append(table(CURE_HEADER, cure_cells(report.cures)))
-        parts.append(
-            sentences(
-                [
-                    "Error of the judge's sled over the whole sheet, RMS of its shape: by the "
-                    "settings as they were, with the frame refitted, with what was named added, "
-                    f"and with the truth added. Line for the ratio: {line_words(CURE)}, "
-                    f"{report.cure_judged}."
-                ],
-                mark="",
-            )
-        )
-    if report.loops:
-        parts.append(table(LOOP_HEADER, loop_cells(report.loops)))
-        said = f"Line for the ratio: {line_words(LOOP)}, {report.loop_judged}."
-        parts.append(
-            sentences([f"The same after two rounds of what plumb next proposes. {said}"], mark="")
-        )
-    missed = [
-        f"missed: {row.scenario}, {row.name} {value_words(row)}, line {line_words(row.line)}"
-        for row in report.missed
+    """Return the table for people."""
+    rounds = f", after {report.rounds} rounds of what plumb next proposes" if report.rounds else ""
+    parts = [
+        table(HEADER, [cells(row) for row in report.rows], gap=1),
+        sentences(LEGEND, mark=""),
+        sentences([f"Boards of {report.marks} marks, seed {report.seed}{rounds}."], mark=""),
     ]
-    reached = f"{report.boards} boards of each scenario, seed {report.seed}: no line is missed"
-    parts.append(sentences(missed or [reached], mark=""))
+    if report.changes:
+        parts.append(table(CHANGED, [changed(each) for each in report.changes]))
     if report.interrupted:
-        parts.append(f"Interrupted: {report.counted} boards are counted.")
+        parts.append("Interrupted: what is done is counted.")
     return "\n\n".join(parts)
 
 
-def _rates_of(name: str, report: Report) -> str:
-    """Return the rates of a scenario, below what it hides."""
-    rows = [row for row in cells(report) if row[0] == name]
-    _, hidden, marks, noise, *_ = rows[0]
-    said = f"{name}: {hidden}, {marks} marks, noise {noise}"
-    return f"{said}\n{table(HEADER[4:], [row[4:] for row in rows], words=[-2, -1])}"
+def cells(row: Row) -> list[str]:
+    """Return the cells of a row."""
+    shares = (row.named, row.exact, row.holds, row.unknown, row.readings, row.worse)
+    named, exact, holds, unknown, readings, worse = (f"{100 * share:.0f}" for share in shares)
+    lengths = [f"{value:.2f}" for value in (row.before, row.after, row.fitted)]
+    extra = f"{row.needless:.2f}"
+    if KINDS[row.kind].slips:  # no effect is named before the reading is taken again
+        named = exact = holds = extra = "-"
+    said = [row.kind, f"{row.boards}", named, exact, holds, extra, unknown, readings]
+    return [*said, *lengths, worse, f"{row.cpu:.2f}"]
+
+
+CHANGED = ("kind", "rate", "n", "was", "now")
+
+
+def changed(change: Change) -> list[str]:
+    """Return the cells of a change."""
+    now = f"{change.now:.2f} +- {change.error:.2f}"
+    return [change.kind, change.rate, f"{change.boards}", f"{change.was:.2f}", now]
 
 
 # The arguments of `plumb bench`.
 
-BOARDS, FAST = 200, 10  # of each scenario
+BOARDS = 20  # of each kind
 EXAMPLES = (
-    "plumb bench --fast",
-    "plumb bench --scenario one-9 --boards 100",
+    "plumb bench --kinds none one several --boards 8 --jobs 2",
+    "plumb bench --marks 9 --seed 7 --save boards.jsonl",
 )
 EXIT = "Exit: 0 done, whatever the rates; 2 it cannot run; 130 interrupted, what is done is kept."
 
@@ -123,17 +141,18 @@ EXIT = "Exit: 0 done, whatever the rates; 2 it cannot run; 130 interrupted, what
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the arguments of `plumb bench`."""
     parser.add_argument(
-        "--scenario",
-        metavar="NAME",
+        "--kinds",
+        metavar="KIND",
         nargs="+",
         action="extend",
         default=[],
-        help="only scenarios whose names begin like this (docs/bench.md lists them)",
+        help="only kinds whose names begin like this, with or without known/ or stock/",
     )
+    parser.add_argument("--list", action="store_true", help="print the kinds")
     parser.add_argument(
-        "--boards", metavar="N", type=count, help=f"boards of each scenario [{BOARDS}]"
+        "--boards", metavar="N", type=count, default=BOARDS, help=f"boards of each kind [{BOARDS}]"
     )
-    parser.add_argument("--fast", action="store_true", help=f"{FAST} boards of each scenario")
+    parser.add_argument("--marks", type=int, choices=GRIDS, default=25, help="of a board [25]")
     parser.add_argument(
         "--seed",
         metavar="S",
@@ -141,5 +160,30 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         default=1,
         help="draws the boards; the same seed, the same boards [1]",
     )
+    parser.add_argument(
+        "--rounds",
+        metavar="N",
+        type=count,
+        default=0,
+        help="rounds in which what plumb next puts first is measured [0]",
+    )
+    parser.add_argument(
+        "--save",
+        metavar="FILE",
+        type=Path,
+        help="boards as lines of JSON; those that FILE has are not played again",
+    )
+    parser.add_argument(
+        "--against",
+        metavar="FILE",
+        type=Path,
+        help="the same boards as judged before: print what changed by more than chance",
+    )
     parser.add_argument("--jobs", metavar="N", type=count, default=1, help="processes at once [1]")
+    parser.add_argument(
+        "--cluster",
+        metavar="ADDRESS",
+        default="",
+        help="a Dask scheduler that has the boards played",
+    )
     add_json(parser)

@@ -5,8 +5,6 @@ import pytest
 from plumb.bench.boards import cut, plan
 from plumb.bench.causes import MAKER, SLED, Hidden, causes_of
 from plumb.bench.judged_board import BoardOwner, followed
-from plumb.bench.report import loop_cells, run
-from plumb.bench.scenarios import SCENARIOS
 from plumb.plan.case import Check
 from plumb.plan.planned_visits import sent
 
@@ -73,12 +71,3 @@ def test_what_is_proposed_is_measured_once_each_round():
     assert loop.readings == len(loop.board.measurements.marks) - 9
     assert loop.readings or loop.checked
     assert followed(board, MAKER, owner, rounds=0).done == ()
-
-
-def test_the_report_says_what_a_loop_cost():
-    scenario = next(scenario for scenario in SCENARIOS if scenario.name == "loop-one-9")
-    report = run([scenario], boards=1, seed=3, progress=lambda name, count: None)
-    assert not report.cures and report.loop_judged
-    (cured,) = report.loops
-    assert cured.readings + cured.checks > 0 and cured.known > 0
-    assert loop_cells([cured])[0][-2:] == [f"{cured.readings:.1f}", f"{cured.checks:.1f}"]

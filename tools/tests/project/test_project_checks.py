@@ -31,7 +31,6 @@ GOOD = {
     "tools/plumb/__init__.py": '"""The lab."""\n',
     "tools/plumb/model/__init__.py": '"""The model."""\n',
     "tools/plumb/model/predict.py": "from plumb import _core\nimport plumb.text.errors\n",
-    "tools/research/curves.py": "from plumb.model import predict\n",
     "tools/plumb/fit/problem.py": "from plumb.model import predict\nimport plumb.marks.model\n",
 }
 
@@ -97,8 +96,6 @@ HANG, BARE = "tools/judge/reference/hang.h", "tools/plumb/grid/pattern.py"
         (MODEL, "import plumb.marks.read"),
         (MODEL, "import plumb"),
         (MODEL, "from . import reach"),
-        (MODEL, "import curves"),
-        (MODEL, "from research.curves import sag"),
         ("tools/plumb/attic/old.py", "import numpy"),
         ("tools/plumb/loose.py", "import numpy"),
     ],

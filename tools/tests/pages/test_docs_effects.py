@@ -1,25 +1,17 @@
-"""docs_effects: the page and pictures of all effects, complete, repeatable, and checked."""
+"""The page and pictures of all effects: complete, and repeatable."""
 
 import re
 from xml.etree import ElementTree
 
 import numpy as np
 import pytest
-from effects_page import PAGE, PICTURES, main, pages, picture_name
+from effects_page import PAGE, pages, picture_name
 from plumb.model.catalogue import every_effect
 from plumb.pictures.fingerprints import LONGEST, SCALE, Picture, drawing, factor_for
 
 TEXTS = pages()
 EFFECTS = {element["name"]: element for element in every_effect()}
 SVG = "{http://www.w3.org/2000/svg}"
-
-
-@pytest.fixture
-def written(tmp_path):
-    """A folder in which the pages have been written."""
-    (tmp_path / "docs").mkdir()
-    assert main(["--folder", str(tmp_path)]) == 0
-    return tmp_path
 
 
 def section_of(name: str) -> str:
@@ -63,37 +55,6 @@ def test_every_picture_is_an_svg_with_its_scale_told(name):
 
 def test_the_same_registry_gives_the_same_bytes():
     assert pages() == TEXTS
-
-
-def test_fresh_pages_pass(written, capsys):
-    assert main(["--check", "--folder", str(written)]) == 0
-    assert capsys.readouterr().out == ""
-
-
-@pytest.mark.parametrize("name", [PAGE, picture_name("chain_sag")])
-def test_a_changed_or_missing_file_is_told(written, capsys, name):
-    path = written / name
-    path.write_text(path.read_text().replace("mm", "cm", 1))
-    assert main(["--check", "--folder", str(written)]) == 1
-    assert capsys.readouterr().out.startswith(f"{name}: stale; run ")
-    path.unlink()
-    assert main(["--check", "--folder", str(written)]) == 1
-    assert main(["--folder", str(written)]) == 0
-    assert main(["--check", "--folder", str(written)]) == 0
-
-
-def test_the_picture_of_an_effect_that_is_no_more_is_told_and_taken_away(written, capsys):
-    old = written / PICTURES / "chain_rust.svg"
-    old.write_text("<svg/>")
-    assert main(["--check", "--folder", str(written)]) == 1
-    assert "chain_rust.svg: stale" in capsys.readouterr().out
-    assert main(["--folder", str(written)]) == 0 and not old.exists()
-
-
-def test_a_folder_that_cannot_be_written_is_refused(tmp_path, capsys):
-    (tmp_path / "docs").write_text("a file")
-    assert main(["--folder", str(tmp_path)]) == 2
-    assert capsys.readouterr().err.startswith("effects_page: ")
 
 
 def test_arrows_point_where_the_marks_went():

@@ -8,7 +8,7 @@ from plumb.firmware.settings import every_setting, format_value
 from plumb.model.predict import frame_words, library
 from plumb.settings.ini import SOURCES, groundcontrol_changes
 from plumb.settings.machine import FRAME_LIMITS, PUBLISHED_LIMITS, MachineSettings
-from settings_page import PAGE, main, page
+from settings_page import page
 
 SETTINGS = {setting.number: setting for setting in every_setting()}
 BY_NAME = {setting.name: setting for setting in SETTINGS.values()}
@@ -115,23 +115,6 @@ def test_every_setting_has_a_row_and_a_sentence(number):
         if number in EXTENDED
         else (("new" in setting.change) == is_own)
     )
-
-
-def test_check_tells_a_stale_page(tmp_path, capsys):
-    (tmp_path / "docs").mkdir()
-    assert main(["--check", "--folder", str(tmp_path)]) == 1
-    assert main(["--folder", str(tmp_path)]) == 0
-    assert main(["--check", "--folder", str(tmp_path)]) == 0
-    path = tmp_path / PAGE
-    path.write_text(path.read_text().replace("2978.4", "2978.5"))
-    assert main(["--check", "--folder", str(tmp_path)]) == 1
-    assert "stale; run" in capsys.readouterr().out
-
-
-def test_a_folder_that_cannot_be_written_is_refused(tmp_path, capsys):
-    (tmp_path / "docs").write_text("a file")
-    assert main(["--folder", str(tmp_path)]) == 2
-    assert capsys.readouterr().err.startswith("settings_page: ")
 
 
 def test_every_row_says_when_it_takes_effect():

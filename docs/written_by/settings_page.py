@@ -1,0 +1,66 @@
+"""What docs/settings.md shows of the firmware's table."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from plumb.firmware.settings import Setting, every_setting, format_value
+from template import filled
+
+PAGE = "docs/settings.md"
+ANY_BUT_ZERO = 255
+LAST_PUBLISHED, FIRST_OF_OURS, FIRST_EFFECT = 44, 60, 100
+
+
+def pages() -> dict[str, str]:
+    """Return the page by its name below the project's root."""
+    return {PAGE: page(every_setting())}
+
+
+def page(settings: Sequence[Setting]) -> str:
+    """Return the text of docs/settings.md."""
+    listed = [setting for setting in settings if setting.access == "listed"]
+    return filled(
+        "settings.md",
+        published=[setting for setting in listed if setting.number <= LAST_PUBLISHED],
+        own=[setting for setting in listed if FIRST_OF_OURS <= setting.number < FIRST_EFFECT],
+        effects=[setting for setting in listed if setting.number >= FIRST_EFFECT],
+        hidden=[setting for setting in settings if setting.access != "listed"],
+        format_value=format_value,
+        limits=limits,
+        takes_effect=takes_effect,
+        in_programs=in_programs,
+        sentence=sentence,
+    )
+
+
+def limits(setting: Setting) -> str:
+    """Return the allowed values in words."""
+    words = f"{format_value(setting.low)} to {format_value(setting.high)}"
+    if setting.step == ANY_BUT_ZERO:
+        return f"{words}, not 0"
+    return f"{words} in steps of {setting.step}" if setting.step > 1 else words
+
+
+def takes_effect(setting: Setting) -> str:
+    """When a new value counts, and what is worked out again."""
+    if not setting.touches:
+        return "at once"
+    if "restart" in setting.touches:
+        return "after a restart"
+    return "at rest: " + ", ".join(setting.touches)
+
+
+def in_programs(setting: Setting) -> str:
+    """Return section and key of a setting in the clients' files."""
+    return setting.key.replace(": ", ": `") + "`" if setting.key else "none"
+
+
+def sentence(setting: Setting) -> str:
+    """Return what a setting is, and what is not as published."""
+    said = setting.sentence
+    if setting.number >= FIRST_EFFECT:
+        said = said[0].upper() + said[1:] + "."
+    if setting.change and setting.change != "new":
+        said += f" *Change: {setting.change}.*"
+    return said
