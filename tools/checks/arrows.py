@@ -85,7 +85,7 @@ FLOORS = (
     ("cli",),
     ("lab",),
     ("api", "guide"),
-    ("report", "vm"),
+    ("vm",),
     ("bench", "diary", "pictures"),
     ("cure", "job", "plan"),
     ("diagnosis",),
@@ -110,6 +110,7 @@ PAGE_ARROWS = {
     "steps": ("api", "controls", "sheet", "shell", "machine", "readings", "residuals"),
     "bench": ("api", "controls", "sheet", "shell", "machine", "residuals"),
     "practice": ("api", "controls", "sheet", "shell", "machine", "readings", "bench"),
+    "report": ("api", "controls", "shell", "steps"),
 }
 # In the shell only the list of screens knows the screens.
 SCREENS = ("steps", "bench", "practice")

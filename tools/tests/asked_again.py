@@ -7,8 +7,8 @@ from plumb.diagnosis import diagnose
 from plumb.model.catalogue import effect_names
 from plumb.plan import propose
 
-DIAGNOSING = ("plumb.cli.diagnose", "plumb.cli.next", "plumb.cure.auto")
-PROPOSING = ("plumb.cli.diagnose", "plumb.cli.next", "plumb.cli.calibrate", "plumb.report.findings")
+DIAGNOSING = ("plumb.cli.diagnose", "plumb.cli.next", "plumb.cure.auto", "plumb.lab.report")
+PROPOSING = ("plumb.cli.diagnose", "plumb.cli.next", "plumb.cli.calibrate", "plumb.lab.report")
 _known = {}
 
 

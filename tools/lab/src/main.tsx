@@ -1,11 +1,16 @@
-// Mounts the lab into the page.
+// Mounts the lab into the page, or a report that was saved.
 import { render } from "preact";
 import "./shell/look.css";
+import { answers } from "./api/answers";
 import { watchRest } from "./api/rest";
 import { takeToken } from "./api/token";
+import { Report } from "./report/Report";
 import { Lab } from "./shell/Lab";
 
 watchRest();
-takeToken();
 const place = document.getElementById("lab");
-if (place) render(<Lab />, place);
+if (answers && place) render(<Report answers={answers} />, place);
+else if (place) {
+  takeToken();
+  render(<Lab />, place);
+}

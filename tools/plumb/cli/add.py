@@ -53,8 +53,7 @@ from plumb.fit.covariates import PATCH
 from plumb.fit.inputs import Inputs
 from plumb.model.catalogue import is_sketch
 from plumb.model.plain import noun_of
-from plumb.pictures.fingerprints import Stair, draw_staircase
-from plumb.pictures.scale import Panel
+from plumb.pictures.drawing import Panel, draw
 from plumb.text.errors import InputError
 
 NONE = "none"  # as an effect: the frame alone
@@ -248,9 +247,7 @@ def _files(arguments: argparse.Namespace, inputs: Inputs, result: Addition) -> d
 def fall_of(result: Addition, *, form: str = "png") -> bytes:
     """Return the picture of how the error falls, effect by effect."""
     heading = heading_of(result, result.raw.rms, result.after.fit_rms)
-    return draw_staircase(
-        stairs_of(result), heading=heading, sheet=result.settings.sheet, form=form
-    )
+    return draw(stairs_of(result), heading=heading, sheet=result.settings.sheet, form=form)
 
 
 def heading_of(result: Addition, before: float, after: float) -> str:
@@ -260,8 +257,8 @@ def heading_of(result: Addition, before: float, after: float) -> str:
     return f"{done}. From {about(before)} to {about(after)} mm RMS"
 
 
-def stairs_of(result: Addition, *, raw: Comparison | None = None) -> list[Stair]:
-    """Return the stairs: as set, frame fitted, and a stair for each effect; raw: the marks as set,
+def stairs_of(result: Addition, *, raw: Comparison | None = None) -> list[Panel]:
+    """Return the sheets: as set, frame fitted, and with each effect; raw: the marks as set,
     if not all.
     """
     as_set = raw or result.raw
@@ -269,10 +266,15 @@ def stairs_of(result: Addition, *, raw: Comparison | None = None) -> list[Stair]
     fits += [(f"+ {_noun(step.effect)}", step.fit) for step in result.by_effect]
     names = tuple(mark.name for mark in result.raw.marks)
     fitted = [
-        Stair(Panel(title, fit.predicted, fit.errors, good=True, names=names), fit.rms)
+        Panel(stair_title(title, fit.rms), fit.predicted, fit.errors, good=True, names=names)
         for title, fit in fits
     ]
-    return [Stair(replace(panel_of(as_set), title="As set"), as_set.rms), *fitted]
+    return [replace(panel_of(as_set), title=stair_title("As set", as_set.rms)), *fitted]
+
+
+def stair_title(what: str, rms: float) -> str:
+    """Return what was done, and the error that is left [mm]."""
+    return f"{what}\n{about(rms)} mm RMS"
 
 
 def _noun(effect: str) -> str:

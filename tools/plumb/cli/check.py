@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -43,7 +43,9 @@ from plumb.job.fixes import Change, fixed, has_habit
 from plumb.job.resume import Machine
 from plumb.job.wood import Piece
 from plumb.model.predict import CANNOT_HANG, REACH_WORDS, USABLE
-from plumb.pictures.job import Drawn, draw_job
+from plumb.pictures.drawing import BAD as WRONG
+from plumb.pictures.drawing import GOOD as CUT
+from plumb.pictures.drawing import NOWHERE, QUIET, Corners, Panel, Spot, Ways, draw, shades_of
 from plumb.settings.machine import GRAVITY, MachineSettings
 from plumb.text.answers import Internal, part
 from plumb.text.values import bare, brief, signed, time_text, unit, worded
@@ -99,7 +101,7 @@ def run(arguments: argparse.Namespace) -> int:
         files[arguments.fix] = (title + "\n".join([*mended.lines, ""])).encode()
         checked = _checked(arguments, settings, mended.lines) if changes else checked
     if arguments.picture:
-        files[arguments.picture] = draw_job(_drawn(checked, settings, arguments.job), form=form)
+        files[arguments.picture] = _picture(checked, settings, arguments.job, form=form)
     if arguments.outline:
         over_sheet = checked.done.moves.only(checked.done.moves.over_sheet)
         outline = outline_of(over_sheet, checked.samples, name=Path(arguments.job).name)
@@ -136,8 +138,21 @@ def _checked(
     )
 
 
-def _drawn(checked: Checked, settings: MachineSettings, name: str) -> Drawn:
-    moves, samples = checked.done.moves, checked.samples
+def _picture(checked: Checked, settings: MachineSettings, name: str, *, form: str) -> bytes:
+    """Return the whole sheet with the job on it, and below it the job from near."""
+    sheet = sheet_of(checked, settings, name)
+    meaning = "Blue: the bit in the wood; grey: above the sheet; orange: wrong, or not usable"
+    piece = checked.piece
+    depth = f"; brown: the wood, cut up to {worded(piece.deepest)} deep." if piece else "."
+    near = replace(sheet, title="From near", view=near_view(checked))
+    panels = [replace(sheet, spots=()), near]
+    words = [f"{meaning}{depth}"]
+    return draw(panels, sheet=settings.sheet, words=words, columns=1, form=form)
+
+
+def sheet_of(checked: Checked, settings: MachineSettings, name: str) -> Panel:
+    """Return the sheet with the job: its ways by their kind, its parts by number, its depth."""
+    moves, samples, piece = checked.done.moves, checked.samples, checked.piece
     over_sheet = moves.only(moves.over_sheet)
     ways = np.split(samples.places, np.flatnonzero(np.diff(samples.move)) + 1)
     spoiled = {line for finding in checked.findings if finding.is_wrong for line in finding.lines}
@@ -147,22 +162,50 @@ def _drawn(checked: Checked, settings: MachineSettings, name: str) -> Drawn:
         passing = np.unique(samples.move[checked.hanging.verdict != USABLE])
         bad[passing] |= over_sheet.cut[passing]
     kinds = np.where(bad, "bad", np.where(over_sheet.cut, "cut", "rapid"))
+    of = {
+        kind: [way for way, each in zip(ways, kinds, strict=True) if each == kind]
+        for kind in ("rapid", "cut", "bad")
+    }
     labels = [
-        ((part.low[0] + part.high[0]) / 2, (part.low[1] + part.high[1]) / 2, str(number))
-        for number, part in enumerate(checked.parts[:NAMED], start=1)
+        Spot((part.low[0] + part.high[0]) / 2, (part.low[1] + part.high[1]) / 2, f"{i}", size=0)
+        for i, part in enumerate(checked.parts[:NAMED], start=1)
     ]
+    # Straight down is no line from above.
+    down = [way[0] for way in of["bad"] if np.ptp(way, axis=0).max() < POINT]
+    dots = [Spot(x, y, colour=WRONG) for x, y in down]
     verdict = "nothing is wrong" if checked.is_good else "something is wrong"
-    return Drawn(
+    return Panel(
         title=f"{Path(name).name}: {verdict}",
-        is_good=checked.is_good,
-        sheet=settings.sheet,
-        ways={
-            kind: [way for way, each in zip(ways, kinds, strict=True) if each == kind]
-            for kind in ("cut", "rapid", "bad")
-        },
-        labels=labels,
-        piece=checked.piece,
+        good=checked.is_good,
+        ways=[
+            Ways(of["rapid"], QUIET, 0.6, "--"),
+            Ways(of["cut"], CUT, 0.7),
+            Ways(of["bad"], WRONG, 2.4),
+        ],
+        spots=[*labels, *dots],
+        shades=shades_of(-piece.heights / (piece.deepest or 1.0)) if piece else None,
+        shaded=_corners(piece.corners) if piece else NOWHERE,
     )
+
+
+POINT, LEAST, FREE = 0.1, 20.0, 0.08  # [mm] of a way, of wood from near; of the job's size
+
+
+def near_view(checked: Checked) -> Corners:
+    """Return what of the sheet is shown from near: the job with a little around it."""
+    moves, piece = checked.done.moves, checked.piece
+    cut = checked.samples.places[moves.only(moves.over_sheet).cut[checked.samples.move]]
+    places = np.vstack([cut if len(cut) else np.zeros((1, 2)), piece.corners if piece else cut])
+    low, high = places.min(axis=0), places.max(axis=0)
+    half = np.maximum((high - low) / 2 * (1 + 2 * FREE), LEAST / 2)
+    # No flatter than a quarter, and no higher than it is wide.
+    half = np.maximum(half, [half[1], half[0] / 4])
+    return _corners(np.array([(low + high) / 2 - half, (low + high) / 2 + half]))
+
+
+def _corners(corners: np.ndarray) -> Corners:
+    (left, low), (right, high) = corners.tolist()
+    return (left, low), (right, high)
 
 
 # The arguments of `plumb check`.

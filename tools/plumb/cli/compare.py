@@ -35,8 +35,7 @@ from plumb.fit.problem import USUAL_SIGMA
 from plumb.marks.benchmark import Score
 from plumb.marks.model import Typed
 from plumb.model.plain import plain_size, ranked
-from plumb.pictures.scale import Panel
-from plumb.pictures.sheet import draw
+from plumb.pictures.drawing import Panel, draw
 from plumb.settings.toml import FitRecord
 from plumb.text.errors import InputError
 from plumb.text.values import bare, signed, unit, worded
@@ -55,9 +54,8 @@ def run(arguments: argparse.Namespace) -> int:
         raise InputError("--names is for the picture: add --picture")
     if arguments.picture:
         form = picture_form(arguments.picture)
-        drawn = draw(
-            panel_of(comparison), sheet=inputs.settings.sheet, form=form, names=arguments.names
-        )
+        panels = [panel_of(comparison)]
+        drawn = draw(panels, sheet=inputs.settings.sheet, form=form, names=arguments.names)
         write_outputs({arguments.picture: drawn}, inputs=[arguments.settings, *arguments.marks])
     if arguments.json:
         print_json(comparison)

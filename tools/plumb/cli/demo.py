@@ -11,7 +11,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from plumb.cli.add import fall_of, heading_of, stairs_of
+from plumb.cli.add import fall_of, heading_of, stair_title, stairs_of
 from plumb.cli.addition import COLUMNS
 from plumb.cli.calibrate import round_of
 from plumb.cli.compare import panel_of
@@ -33,8 +33,7 @@ from plumb.fit.compare import Comparison
 from plumb.fit.inputs import Inputs
 from plumb.grid.options import Grid
 from plumb.model.plain import plainly
-from plumb.pictures.fingerprints import Stair, draw_staircase
-from plumb.pictures.sheet import draw
+from plumb.pictures.drawing import draw
 from plumb.text.errors import InputError
 from plumb.text.files import DEMO_MARKS
 from plumb.text.values import bare
@@ -350,12 +349,12 @@ def reveal(loop: Loop) -> str:
 def _picture(loop: Loop) -> bytes:
     sheet = loop.owner.settings.sheet
     if not loop.after:
-        return draw(panel_of(loop.before), sheet=sheet)
+        return draw([panel_of(loop.before)], sheet=sheet)
     stairs = stairs_of(loop.addition, raw=loop.before)
-    last = replace(panel_of(loop.after, good=True), title="On a new sheet")
-    stairs.append(Stair(last, loop.after.rms))
+    title = stair_title("On a new sheet", loop.after.rms)
+    stairs.append(replace(panel_of(loop.after, good=True), title=title))
     heading = heading_of(loop.addition, loop.before.rms, loop.after.rms)
-    return draw_staircase(stairs, heading=heading, sheet=sheet)
+    return draw(stairs, heading=heading, sheet=sheet)
 
 
 def _signed(form: str) -> bytes:

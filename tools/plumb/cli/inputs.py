@@ -17,7 +17,7 @@ from plumb.fit.inputs import Inputs, read_inputs
 from plumb.fit.problem import PRIORS, priors_with
 from plumb.marks.read import without_marks
 from plumb.model.catalogue import parameter_words
-from plumb.pictures.sheet import FORMATS
+from plumb.pictures.drawing import FORMATS
 from plumb.settings.machine import MachineSettings
 from plumb.text.errors import InputError, naming
 from plumb.text.values import length_in, number_in, show_in

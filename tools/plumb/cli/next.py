@@ -7,8 +7,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-import numpy as np
-
 from plumb.cli.arguments import add_details, add_force, add_json, add_marks, add_picture, add_units
 from plumb.cli.inputs import add_stated, picture_form, stated_inputs
 from plumb.cli.output import refuse_twins, write_outputs
@@ -25,10 +23,11 @@ from plumb.cli.screen import (
 from plumb.diagnosis import Diagnosis, diagnose
 from plumb.fit.by_hand import to_fill_in, what_to_type
 from plumb.fit.inputs import Inputs, settings_in
-from plumb.pictures.plan import draw_plan
+from plumb.pictures.drawing import BAD, GOOD, INK, Panel, Spot, draw
 from plumb.plan import Next, Proposal, propose
 from plumb.plan.case import Case
 from plumb.plan.options import READ_ONLY
+from plumb.plan.planned_visits import Visits
 from plumb.plan.proposal import (
     AGAIN,
     CONFIRM,
@@ -105,15 +104,10 @@ def _files(
     files: dict[str, bytes] = {}
     machine = inputs.cut_with or inputs.settings
     if arguments.picture:
-        old = inputs.measurements.targets
-        files[arguments.picture] = draw_plan(
-            chosen.option.visits,
-            np.unique(old, axis=0) if len(old) else old,
-            title=f"Next: {chosen.option.title}",
-            usual_weight=advice.case.usual_weight,
-            sheet=machine.sheet,
-            form=form,
-        )
+        old = [Spot(x, y, colour="white", size=6) for x, y in inputs.measurements.targets]
+        new = spots_of(chosen.option.visits, advice.case.usual_weight)
+        panel = Panel(f"Next: {chosen.option.title}", spots=[*old, *new])
+        files[arguments.picture] = draw([panel], sheet=machine.sheet, words=MEANING, form=form)
     if arguments.template:
         moved_by = arguments.cut_next_with or _in_force(arguments, advice.case)
         sheet = settings_in(moved_by).sheet if moved_by else machine.sheet
@@ -125,6 +119,24 @@ def _files(
             advice, place, arguments.output, form=arguments.template
         )
     return place, files
+
+
+MEANING = (
+    "White: measured marks. Blue: new marks, in their order. Orange: with more weight on the sled.",
+    "Black: with each chain on the other's sprocket. --marks and --output say the rest.",
+)
+
+
+def spots_of(visits: Visits, usual_weight: float) -> list[Spot]:
+    """Return the planned places by number; repeats of a place share its first number."""
+    seen, spots = set[tuple[float, ...]](), list[Spot]()
+    for i, (x, y) in enumerate(visits.targets.tolist()):
+        weight, swapped = visits.sled_weights[i], bool(visits.swapped[i])
+        if (x, y, weight, swapped) not in seen:
+            colour = INK if swapped else BAD if weight > 1.01 * usual_weight else GOOD
+            spots.append(Spot(x, y, f"{i + 1}", colour, size=12))
+        seen.add((x, y, weight, swapped))
+    return spots
 
 
 def _in_force(arguments: argparse.Namespace, case: Case) -> str | None:

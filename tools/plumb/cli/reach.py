@@ -6,6 +6,7 @@ import argparse
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+import numpy as np
 from pydantic import computed_field
 
 from plumb import _core
@@ -18,7 +19,7 @@ from plumb.fit.inputs import settings_in
 from plumb.fit.problem import priors_with
 from plumb.model.predict import REACH_WORDS
 from plumb.model.reach import Give, Pull, Survey, conclusion_of, percent, survey_sheet
-from plumb.pictures.reach import draw_map
+from plumb.pictures.drawing import Panel, draw
 from plumb.text.answers import Internal, part
 from plumb.text.errors import InputError
 from plumb.text.values import bare, unit, worded
@@ -86,8 +87,7 @@ def run(arguments: argparse.Namespace) -> int:
     expected = expected_anywhere(settings, expected_priors(dict(arguments.prior)))
     answer = ReachAnswer(survey, expected, [arguments.output] if arguments.output else [])
     if arguments.output:
-        drawn = draw_map(survey, form=form)
-        write_outputs({arguments.output: drawn}, inputs=[arguments.settings])
+        write_outputs({arguments.output: drawn_map(survey, form=form)}, inputs=[arguments.settings])
     if arguments.json:
         print_json(answer)
     else:
@@ -95,6 +95,32 @@ def run(arguments: argparse.Namespace) -> int:
         cut = ["grid", "--settings", arguments.settings, *CUT_THERE]
         print(f"\n{next_step('Cut marks where it is usable:', cut)}")
     return 0
+
+
+# Of places that are not usable, by verdict: red, green, blue and how much they cover.
+COLOURS = (
+    ("", (0.0, 0.0, 0.0, 0.0)),
+    ("red", (0.56, 0.17, 0.13, 0.45)),
+    ("blue", (0.12, 0.37, 0.55, 0.45)),
+    ("violet", (0.42, 0.25, 0.63, 0.45)),
+    ("grey", (0.27, 0.27, 0.27, 0.45)),
+)
+
+
+def drawn_map(survey: Survey, *, form: str = "png") -> bytes:
+    """Return the sheet as a picture, shaded where it is not usable by the reason."""
+    verdict = survey.reached.verdict.reshape(len(survey.y), len(survey.x))[::-1]
+    shades = np.array([colour for _, colour in COLOURS])[verdict]
+    shares = list(survey.shares.values())
+    words = [
+        f"{colour.capitalize()}: {meaning}, {percent(share)}."
+        for (colour, _), meaning, share in zip(COLOURS, MEANING, shares, strict=True)
+        if colour and share
+    ]
+    width, height = survey.sheet
+    corners = ((-width / 2, -height / 2), (width / 2, height / 2))
+    panel = Panel(f"{percent(shares[0])} of the sheet is usable", shades=shades, shaded=corners)
+    return draw([panel], sheet=survey.sheet, words=words, form=form)
 
 
 def as_text(answer: ReachAnswer) -> str:

@@ -3,11 +3,9 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
-
-from pydantic import computed_field
 
 from plumb.cli.arguments import (
     add_force,
@@ -18,30 +16,17 @@ from plumb.cli.arguments import (
 )
 from plumb.cli.inputs import add_stated, stated_inputs
 from plumb.cli.output import STDOUT, write_outputs
-from plumb.cli.screen import bar, command_text, headline, print_json, same_inputs, sentences
+from plumb.cli.screen import bar, headline, print_json, same_inputs, sentences
 from plumb.cure.add import Addition
 from plumb.diagnosis.answer import Diagnosis
-from plumb.diagnosis.expected_error import ExpectedError
 from plumb.diary.file import folder_of, has_diary, read_diary
-from plumb.diary.history import DiaryFit, history_of
-from plumb.fit.compare import Comparison, LeftMark
+from plumb.lab.report import Findings, find, report
+from plumb.lab.rounds import command
 from plumb.plan import Proposal
-from plumb.report.findings import Command, Findings, asked_for, find
-from plumb.report.page import report
-from plumb.text.answers import Internal, Number, part
+from plumb.text.answers import Internal, part
 from plumb.text.errors import InputError
 
 ENDINGS = (".html", ".htm")
-
-
-@dataclass(frozen=True)
-class MarkCovariate:
-    """What errors may depend on, a number for each mark and chain."""
-
-    name: str
-    unit: str
-    left: tuple[Number, ...]
-    right: tuple[Number, ...]
 
 
 @dataclass(frozen=True)
@@ -51,37 +36,11 @@ class ReportAnswer:
     findings: Internal[Findings]
     written: tuple[str, ...]
 
-    comparison = part("findings.comparison", Comparison)
     diagnosis = part("findings.diagnosis", Diagnosis)
     addition = part(
         "findings.auto.addition", Addition | None, "Null: nothing is fitted to a wrong reading."
     )
     next = part("findings.advice.proposals", tuple[Proposal, ...])
-    left_by_frame = part(
-        "findings.framed.marks", tuple[LeftMark, ...], "What the frame, fitted alone, leaves."
-    )
-    left_by_fit = part("findings.left.marks", tuple[LeftMark, ...], "What frame and effects leave.")
-    expected = part(
-        "findings.expected",
-        ExpectedError | None,
-        "How far off a job would be with the new settings; null for a slip.",
-    )
-
-    @computed_field
-    @property
-    def covariates(self) -> tuple[MarkCovariate, ...]:
-        """What errors may depend on."""
-        marks = self.findings.rows.mark_rows
-        return tuple(
-            MarkCovariate(each.name, each.unit, *map(tuple, each.values[marks].T.tolist()))
-            for each in self.findings.by_visit
-        )
-
-    @computed_field
-    @property
-    def usable_share(self) -> float:
-        """The share of the sheet that the machine can use."""
-        return self.findings.survey.shares["usable"]
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -89,8 +48,10 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.output != STDOUT and Path(arguments.output).suffix.lower() not in ENDINGS:
         raise InputError(f"-o {arguments.output}: end the name with {', '.join(ENDINGS)}")
     inputs = stated_inputs(arguments)
-    findings = find(inputs, fits=_fits(arguments.settings), progress=bar("simulating"))
-    page = report(findings, commands=_asked_for(arguments, findings), again=_again(arguments))
+    findings = find(inputs, progress=bar("simulating"))
+    folder = folder_of(arguments.settings)
+    diary = read_diary(folder) if folder and has_diary(folder) else None
+    page = report(findings, diary=diary, command=partial(_command, arguments))
     read = [arguments.settings, *arguments.marks, *filter(None, [arguments.cut_with])]
     write_outputs({arguments.output: page}, inputs=read)
     if arguments.json:
@@ -102,26 +63,11 @@ def run(arguments: argparse.Namespace) -> int:
     return 0
 
 
-def _fits(settings: str) -> tuple[DiaryFit, ...]:
-    """Return the fits in the diary next to the settings."""
-    folder = folder_of(settings)
-    return history_of(read_diary(folder)).fits if folder and has_diary(folder) else ()
-
-
-def _again(arguments: argparse.Namespace) -> str:
-    """Return the command that makes the same report."""
+def _command(arguments: argparse.Namespace, name: str) -> str:
+    """Return another command on the same board, or that which makes the same report."""
     units = ["--units", arguments.units] if arguments.units else []
-    words = ["plumb", "report", *same_inputs(arguments), *units, "-o", arguments.output]
-    return command_text(words).strip()
-
-
-def _asked_for(arguments: argparse.Namespace, findings: Findings) -> list[Command]:
-    """Return what the verdict asks for."""
-
-    def command(name: str, more: Sequence[str], words: Sequence[str]) -> str:
-        return command_text(["plumb", name, *same_inputs(arguments, *more), *words]).strip()
-
-    return asked_for(findings, command)
+    output = ["-o", arguments.output] if name == "report" else []
+    return command(name, *same_inputs(arguments), *units, *output)
 
 
 # The arguments of `plumb report`.

@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from plumb.diagnosis.explanation import Explanation
-from plumb.fit.compare import ChainView, chain_errors, chain_view, hung_places
+from plumb.fit.compare import chain_errors, hung_places
 from plumb.fit.covariates import Covariate, covariates
 from plumb.fit.observations import Observations, chains_to
 from plumb.fit.sighting import Sighting, sighted
@@ -43,15 +43,6 @@ class SuspectCurves:
     effects: tuple[str, ...]
     chains: Array  # (k, 2) [mm] at the marks, left and right
     curves: Mapping[str, tuple[Curve, Curve]]  # by covariate, left and right
-
-
-def view_by(explanation: Explanation, rows: Observations | None = None) -> ChainView:
-    """Return what an explanation leaves of the marks in chain; rows: of other marks than its
-    board's.
-    """
-    problem = explanation.board.problem
-    values, outside = problem.values(explanation.unknowns)
-    return chain_view(values, outside, rows or problem.observations, problem.settings)
 
 
 def suspect_curves(
@@ -170,53 +161,3 @@ def _curve(at: Array, drawn: Array) -> Curve:
         low=np.array([np.quantile(part, 0.1) for part in inside]),
         high=np.array([np.quantile(part, 0.9) for part in inside]),
     )
-
-
-# The fingerprint of an effect on a board: what it does to places, and what the marks can show.
-
-COUNTS = (9, 5)  # places across and up
-SHARE = 0.88  # of the sheet
-
-
-@dataclass(frozen=True)
-class Fingerprint:
-    """An effect in the size of an explanation, on places all over the sheet."""
-
-    places: Array  # (n, 2) [mm]
-    alone: Array  # (n, 2) [mm] by how much it moves what is measured there
-    beyond: Array  # (n, 2) [mm] what is left of that when the frame is refitted to the marks
-    alone_rms: float  # [mm] of the readings, as vectors if they are marks
-    beyond_rms: float  # [mm]
-
-
-def fingerprint_of(explanation: Explanation, effect: str, rows: Observations) -> Fingerprint:
-    """Return the fingerprint of one of the explanation's effects; the sled goes to each place in
-    the way of the nearest visit in `rows`.
-    """
-    sheet = visits_all_over(model_by(explanation), rows, counts=COUNTS, share=SHARE)
-    board = explanation.board
-    columns, frame = board.columns([effect]), board.frame
-    whole = _sizes(explanation, columns)
-    without = explanation.unknowns.copy()
-    without[columns] -= whole
-    drawn = explanation.slopes[:, columns] @ whole
-    fitting = np.linalg.lstsq(explanation.slopes[:, frame], drawn, rcond=1e-10)[0]
-    refitted = without.copy()
-    refitted[frame] += fitting
-    there = seen_by(explanation, sheet).read.where
-    return Fingerprint(
-        places=sheet.targets,
-        alone=there - seen_by(explanation, sheet, unknowns=without).read.where,
-        beyond=there - seen_by(explanation, sheet, unknowns=refitted).read.where,
-        alone_rms=board.rows.rms_of(drawn * board.sigma),
-        beyond_rms=board.rows.rms_of(
-            (drawn - explanation.slopes[:, frame] @ fitting) * board.sigma
-        ),
-    )
-
-
-def _sizes(explanation: Explanation, columns: Array) -> Array:
-    """Return how large the parameters are in all, in typical sizes: what the settings have, too."""
-    problem = explanation.board.problem
-    whole: Array = problem.start[columns] / problem.scale[columns] + explanation.unknowns[columns]
-    return whole

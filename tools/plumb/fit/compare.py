@@ -14,10 +14,10 @@ from plumb.fit.observations import Observations, chains_to, rms
 from plumb.fit.sighting import Sighting, sighted
 from plumb.marks.benchmark import Score, score_as_cut, score_of
 from plumb.marks.read import Measurements
-from plumb.model.predict import FOUND, FOUND_WORDS, settings_of, values_of
+from plumb.model.predict import FOUND, FOUND_WORDS, values_of
 from plumb.settings.machine import MachineSettings
 from plumb.settings.toml import FitRecord
-from plumb.text.answers import Internal, Number, key
+from plumb.text.answers import Internal, key
 from plumb.text.errors import InputError, to_do
 
 Point = tuple[float, float]
@@ -237,54 +237,6 @@ def _warnings(inputs: Inputs) -> tuple[str, ...]:
 
 
 # Errors on the sheet seen by the chains: how much more of each chain the measured place needs.
-
-
-@dataclass(frozen=True)
-class LeftMark:
-    """What is left of a mark: its error and that of its chains [mm]; null where none reaches."""
-
-    name: str
-    error: Point
-    left_chain: Number
-    right_chain: Number
-
-
-@dataclass(frozen=True)
-class ChainView:
-    """The errors of marks as errors of the left and the right chain, by a model of the machine."""
-
-    model: MachineSettings
-    names: tuple[str, ...]  # (k,) of the marks
-    places: Array  # (k, 2) [mm] where the sled hangs for each mark, on the machine
-    errors: Array  # (k, 2) [mm] measured - predicted, x and y on the sheet
-    chains: Array  # (k, 2) [mm] the same, left and right chain; nan where no chain reaches
-
-    @property
-    def marks(self) -> tuple[LeftMark, ...]:
-        """Mark by mark."""
-        each = zip(self.names, self.errors.tolist(), self.chains.tolist(), strict=True)
-        return tuple(LeftMark(name, tuple(error), *chains) for name, error, chains in each)
-
-
-def chain_view(
-    values: Array, outside: Mapping[str, float], rows: Observations, like: MachineSettings
-) -> ChainView:
-    """Return the marks of `rows` seen by a machine with `values`; `outside` as in sighting.py."""
-    model = settings_of(values, like=like)
-    predicted = sighted(
-        values,
-        outside,
-        rows,
-        over_top=like.feed == "top",
-        usual_weight=like.sled_weight,
-        names=(),
-    ).read.where[rows.mark_rows]
-    places = hung_places(model, rows)[rows.mark_rows]
-    errors = rows.measured - predicted
-    weights = rows.sled_weights[rows.mark_rows]
-    return ChainView(
-        model, rows.names, places, errors, chain_errors(model, places, errors, weights)
-    )
 
 
 def hung_places(model: MachineSettings, rows: Observations) -> Array:

@@ -15,8 +15,10 @@ from typing import Generic, TypeVar, cast
 from plumb.cure.live_board import BoardView, LiveBoard
 from plumb.diagnosis.diagnosis import find
 from plumb.diagnosis.outliers import Doubts, Outlier, sure_readings
+from plumb.diagnosis.readings import CleanReadings
 from plumb.fit.compare import Comparison, compare
 from plumb.fit.inputs import Inputs
+from plumb.fit.problem import Checked
 from plumb.lab.project import Project
 from plumb.text.errors import InputError
 
@@ -108,6 +110,18 @@ class WarmBoard:
     inputs: Inputs  # with all readings
     slips: tuple[Outlier, ...]  # readings that no fit of the board sees
 
+    @staticmethod
+    def of(
+        inputs: Inputs,
+        live: LiveBoard,
+        slips: tuple[Outlier, ...],
+        *,
+        key: str = "",
+        words: tuple[str, ...] = (),
+    ) -> WarmBoard:
+        """Return the board of these inputs, whose fits leave the slips out."""
+        return WarmBoard(key, words, live, BoardView(live), compare(inputs), inputs, slips)
+
     @property
     def doubts(self) -> Doubts:
         """Where these are among all readings."""
@@ -134,8 +148,7 @@ class LiveBoards:
                 inputs = inputs_of(project)
                 live, slips = _diagnosed(inputs)
                 words = tuple(board_words(project))
-                view, raw = BoardView(live), compare(inputs)
-                self._kept = WarmBoard(key, words, live, view, raw, inputs, slips)
+                self._kept = WarmBoard.of(inputs, live, slips, key=key, words=words)
             return self._kept
 
 
@@ -149,16 +162,23 @@ def key_of(project: Project) -> str:
 
 
 def _diagnosed(inputs: Inputs) -> tuple[LiveBoard, tuple[Outlier, ...]]:
-    """Return the board on which a diagnosis fits, without the readings that it doubts: its noise,
-    and what is usual of sizes; and those readings.
-    """
+    """Return the board on which a diagnosis fits, and the readings that it doubts."""
     try:
         found = find(inputs)
     except InputError:  # too few readings, or what the board says better
         return LiveBoard(inputs), ()  # nothing can be fitted
-    slips, usual = found.readings.outliers, found.best.board.usual_checks
-    sure = sure_readings(inputs.measurements, slips)
+    return (
+        sure_board(inputs, found.readings, found.best.board.usual_checks),
+        found.readings.outliers,
+    )
+
+
+def sure_board(inputs: Inputs, readings: CleanReadings, usual: tuple[Checked, ...]) -> LiveBoard:
+    """Return the board on which a diagnosis fits, without the readings that it doubts: its noise,
+    and what is usual of sizes.
+    """
+    sure = sure_readings(inputs.measurements, readings.outliers)
     sure_inputs = replace(inputs, measurements=sure, checked=(*inputs.checked, *usual))
     # As plumb add has it: what is known of effects tells it nothing of the noise.
     of_effects = any("." in check.name for check in inputs.checked)
-    return LiveBoard(sure_inputs, noise=None if of_effects else found.readings.noise), slips
+    return LiveBoard(sure_inputs, noise=None if of_effects else readings.noise)

@@ -5,14 +5,15 @@ All is placed in mm on A4. What is printed keeps off the edges so far that US Le
 
 from __future__ import annotations
 
+import io
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from plumb.pictures.scale import pages_saved
-from plumb.pictures.sheet import EDGE, INK, WOOD
+from plumb.pictures.drawing import EDGE, INK, WOOD, read_as_written
+from plumb.text.files import picture_metadata
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -62,7 +63,14 @@ class MeasuringSheet:
 
 def measuring_sheet(content: MeasuringSheet) -> bytes:
     """Return the pages as a pdf."""
-    return pages_saved(pages_of(content))
+    from matplotlib.backends.backend_pdf import PdfPages
+
+    file = io.BytesIO()
+    with PdfPages(file, metadata=picture_metadata("pdf")) as pdf:
+        for page in pages_of(content):
+            read_as_written(page)
+            pdf.savefig(page, facecolor="white")
+    return file.getvalue()
 
 
 def pages_of(content: MeasuringSheet) -> list[Figure]:

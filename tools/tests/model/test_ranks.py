@@ -54,7 +54,6 @@ def test_nothing_that_users_get_is_ranked_by_the_last_bit():
         "job/check.py",
         "job/fixes.py",  # the first of yes and no
         "job/wood.py",  # the first of yes and no
-        "pictures/scale.py",
     }
     root, ranks = Path(plumb.__file__).parent, re.compile(r"arg(?:min|max|sort)\(")
     users = [path for path in root.rglob("*.py") if path.parent.name not in ("bench", "vm")]

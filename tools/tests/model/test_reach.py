@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import plumb.grid as grids
 import pytest
-from plumb.cli.reach import SIGNS, ReachAnswer
+from plumb.cli.reach import SIGNS, ReachAnswer, drawn_map
 from plumb.cure.machine_file import SETTINGS
 from plumb.grid import options
 from plumb.model.predict import (
@@ -22,7 +22,6 @@ from plumb.model.predict import (
 )
 from plumb.model.predict import lengths as lengths_of
 from plumb.model.reach import percent, survey_sheet, with_soft_chains
-from plumb.pictures.reach import draw_map
 from plumb.settings.toml import write_machine_toml
 from synthetic import BELIEVED, SHEET, TRUE
 
@@ -197,7 +196,7 @@ def test_the_drawn_map_is_written(form, run, machine, tmp_path):
 
 
 def test_the_drawn_map_follows_the_limits():
-    maps = [draw_map(survey_sheet(SOFT, most_give=most)) for most in (0.3, 0.3, 0.4)]
+    maps = [drawn_map(survey_sheet(SOFT, most_give=most)) for most in (0.3, 0.3, 0.4)]
     assert maps[0] == maps[1] != maps[2]
 
 

@@ -1,12 +1,10 @@
-"""What tests of the report share: boards of each kind, and a page as a reader sees it."""
+"""What tests of the report share: boards of each kind, and their reports."""
 
 from __future__ import annotations
 
 import io
 import json
-import re
 from contextlib import redirect_stderr, redirect_stdout
-from html.parser import HTMLParser
 from pathlib import Path
 
 import numpy as np
@@ -15,54 +13,6 @@ from plumb.settings.toml import write_machine_toml
 from synthetic import BELIEVED, TRUE, distances_between, grid, marks_on
 
 EXAMPLE = Path(__file__).resolve().parents[3] / "docs/example"
-VOID = {"meta", "br", "img", "rect", "path", "use"}
-NAMES = {"ini": EXAMPLE / "groundcontrol.ini", "marks": EXAMPLE / "marks.toml"}
-
-
-class Page(HTMLParser):
-    """A page as a tree of tags: what it loads, what runs, and its text."""
-
-    def __init__(self, text: str) -> None:
-        super().__init__()
-        self.source = text
-        self.open: list[str] = []
-        self.tags: list[tuple[str, dict[str, str | None]]] = []
-        self.words: list[str] = []
-        self.crossed: list[str] = []
-        self.feed(text)
-        self.close()
-
-    def handle_starttag(self, tag, attributes):
-        self.tags.append((tag, dict(attributes)))
-        if tag not in VOID:
-            self.open.append(tag)
-
-    def handle_startendtag(self, tag, attributes):
-        self.tags.append((tag, dict(attributes)))
-
-    def handle_endtag(self, tag):
-        if tag in VOID:
-            return
-        if not self.open or self.open.pop() != tag:
-            self.crossed.append(tag)
-
-    def handle_data(self, data):
-        if self.open and self.open[-1] != "style":
-            self.words.append(data)
-
-    @property
-    def text(self) -> str:
-        """All that is to be read, blanks run together."""
-        return re.sub(r"\s+", " ", " ".join(self.words))
-
-    def named(self, tag: str) -> list[dict[str, str | None]]:
-        """The attributes of all tags of a kind."""
-        return [attributes for name, attributes in self.tags if name == tag]
-
-    def part(self, name: str) -> str:
-        """The source of the section whose heading has this id."""
-        section = self.source.split(f'aria-labelledby="{name}"')[1]
-        return section.split("<section")[0]
 
 
 def asked(*words) -> dict:
@@ -73,12 +23,12 @@ def asked(*words) -> dict:
     return json.loads(said.getvalue())
 
 
-def reported(*words, folder: Path) -> tuple[dict, Page]:
+def reported(*words, folder: Path) -> tuple[dict, Path]:
     """The object of a report, and its page."""
     path = folder / "report.html"
     answer = asked("report", *words, "-o", path, "--force")
     assert answer.get("written") == [str(path)], answer
-    return answer, Page(path.read_text("utf-8"))
+    return answer, path
 
 
 def board(folder: Path, marks, *, name="marks.toml", settings=BELIEVED, **head) -> tuple[Path, ...]:

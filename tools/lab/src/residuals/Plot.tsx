@@ -100,9 +100,9 @@ function along([least, most]: Pair, [from, to]: Pair): Along {
   return (value) => from + ((value - least) * (to - from)) / (most - least);
 }
 
-/** A path of points: each is a line without length, so its round or square ends are the dot. */
+/** A path of points: each is a line of no length to speak of, so its round or square ends are the dot. */
 function dotted(places: readonly (Pair | null)[]): string {
   return places
-    .map((place) => place && `M${place[0].toFixed(1)} ${place[1].toFixed(1)}h0`)
+    .map((place) => place && `M${place[0].toFixed(1)} ${place[1].toFixed(1)}h0.01`)
     .join("");
 }

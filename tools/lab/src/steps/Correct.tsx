@@ -213,7 +213,7 @@ function ErrorFigure({ name, state, units }: ErrorParts) {
 }
 
 /** What has to be done at the machine: the promise counts on it. */
-function ByHand({ cures }: { cures: string[] }) {
+export function ByHand({ cures }: { cures: string[] }) {
   return (
     <section class="by-hand" aria-label="By hand">
       <h2>By hand</h2>
@@ -226,7 +226,7 @@ function ByHand({ cures }: { cures: string[] }) {
   );
 }
 
-function Why({ made }: { made: Made }) {
+export function Why({ made }: { made: Made }) {
   const { reasons, warnings, intervals } = made;
   return (
     <>

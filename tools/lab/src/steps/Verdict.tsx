@@ -1,6 +1,7 @@
 // Step 7: why the marks are off, in a sentence; the suspects; and the best next measurement.
 
 import { useRef, useState } from "preact/hooks";
+import { isReport } from "../api/answers";
 import type { Schemas } from "../api/client";
 import { Progress } from "../controls/Progress";
 import { TakeAlong } from "../controls/TakeAlong";
@@ -77,7 +78,7 @@ export function Verdict() {
         )
       }
       act={
-        isNextWanted ? (
+        isReport ? null : isNextWanted ? (
           <NextAct next={next} />
         ) : (
           <button type="button" class="primary" onClick={findNext}>
@@ -91,13 +92,15 @@ export function Verdict() {
           {verdict.slips.map((slip) => (
             <li key={slip}>{slip}</li>
           ))}
-          <li>
-            <a href="#/readings">Look at the readings</a>
-          </li>
+          {!isReport && (
+            <li>
+              <a href="#/readings">Look at the readings</a>
+            </li>
+          )}
         </ul>
       )}
       {verdict.reach && <p class="trouble">{verdict.reach}.</p>}
-      <HalfTyped />
+      {!isReport && <HalfTyped />}
       <div ref={place}>
         {isNextWanted && <NextStep sheet={sheet} marks={verdict.marks} next={next} />}
       </div>
@@ -122,15 +125,15 @@ export function Verdict() {
         </section>
       )}
       <UnseenCauses verdict={verdict} units={units} />
-      <TakeAlong name="report.html">Save the report</TakeAlong>
+      {!isReport && <TakeAlong name="report.html">Save the report</TakeAlong>}
     </Screen>
   );
 }
 
-/** Whether somebody asked for the next measurement of a folder; a reload keeps the question. */
+/** Whether somebody asked for the next measurement of a folder; a reload and a report keep the question. */
 function useNextWanted(folder: string): [boolean, () => void] {
   const key = `plumb-next/${folder}`;
-  const [isWanted, setWanted] = useState(sessionStorage.getItem(key) !== null);
+  const [isWanted, setWanted] = useState(isReport || sessionStorage.getItem(key) !== null);
   const want = () => {
     sessionStorage.setItem(key, "asked");
     setWanted(true);

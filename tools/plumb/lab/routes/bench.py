@@ -197,7 +197,7 @@ def open_bench(project: TheProject, warm: Warm) -> BenchAnswer:
         doubted=list(doubts.marks),
         doubted_spans=list(doubts.spans),
         effects=_effects(warm),
-        covariates=[_covariate(each, doubts.marks) for each in warm.view.covariates],
+        covariates=covariates_of(warm),
         new_machine=NEW_MACHINE,
         new_digest=project.digest(NEW_MACHINE),
     )
@@ -323,6 +323,11 @@ def _parameter(name: str, warm: WarmBoard) -> BenchParameter:
         high=max(known.high, 0.0),
         now=warm.live.model.effect(effect, parameter),
     )
+
+
+def covariates_of(warm: WarmBoard) -> list[BenchCovariate]:
+    """Return what errors of the chains may depend on, for all marks."""
+    return [_covariate(each, warm.doubts.marks) for each in warm.view.covariates]
 
 
 def _covariate(covariate: Covariate, doubted: Collection[int]) -> BenchCovariate:

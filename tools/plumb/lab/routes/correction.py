@@ -123,18 +123,7 @@ def show_correction(project: TheProject, background: TheBackground) -> Correctio
         auto = add_auto(inputs)
         progress(0.6)
         with shown_in(choices.units):
-            # What was written stays in view: it goes to the machine, or is taken back.
-            is_written = _is_fit_of(inputs)
-            if auto.addition is None and not (auto.is_good and is_written):
-                nothing, instead = _nothing_to_change(auto)
-                return CorrectionParts(
-                    reasons=list(auto.said),
-                    nothing=nothing,
-                    instead=instead,
-                    add=_auto_words(choices),
-                )
-            made = correct(auto.inputs, auto.chosen, choices.accepted, noise=auto.diagnosis.noise)
-            return _parts(made, auto, choices, is_written=is_written)
+            return correction_of(inputs, auto, choices)
 
     answer = background.ask("correction", key, work)
     file = project.free_name("machine", *WRITTEN)
@@ -147,6 +136,19 @@ def show_correction(project: TheProject, background: TheBackground) -> Correctio
         file=file,
         command=command("add", *board_words(project), *unit, *add, *client, "-o", file),
     )
+
+
+def correction_of(inputs: Inputs, auto: AutoAddition, choices: Choices) -> CorrectionParts:
+    """Return what the marks would change, and what is accepted of it."""
+    # What was written stays in view: it goes to the machine, or is taken back.
+    is_written = _is_fit_of(inputs)
+    if auto.addition is None and not (auto.is_good and is_written):
+        nothing, instead = _nothing_to_change(auto)
+        return CorrectionParts(
+            reasons=list(auto.said), nothing=nothing, instead=instead, add=_auto_words(choices)
+        )
+    made = correct(auto.inputs, auto.chosen, choices.accepted, noise=auto.diagnosis.noise)
+    return _parts(made, auto, choices, is_written=is_written)
 
 
 def _nothing_to_change(auto: AutoAddition) -> tuple[str, str]:

@@ -62,13 +62,16 @@ class DiaryAnswer(BaseModel):
 @router.get("/diary")
 def show_diary(project: TheProject) -> DiaryAnswer:
     """Return the diary of the folder."""
-    diary = read_diary(project.folder)
-    history = history_of(diary)
     with shown_in(project.choices.units):
-        courses = [_course(course) for course in history.courses]
+        return diary_answer(read_diary(project.folder))
+
+
+def diary_answer(diary: Diary) -> DiaryAnswer:
+    """Return a diary as the page shows it."""
+    history = history_of(diary)
     return DiaryAnswer(
         rounds=[Round(fit=fit, said=plainly(fit.effects)) for fit in history.fits],
-        courses=courses,
+        courses=[_course(course) for course in history.courses],
         others=_others(diary),
         spoilt=len(diary.spoilt),
     )

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from functools import partial
 
 from fastapi import APIRouter
 from pydantic import BaseModel
@@ -106,7 +107,9 @@ def show_next(project: TheProject, background: TheBackground) -> NextAnswer:
     measurement = None
     if answer.result and answer.result.proposals:
         with shown_in(project.choices.units):
-            measurement = _measurement(project, inputs, answer.result)
+            measurement = measurement_of(
+                answer.result, partial(_taking, project, inputs, answer.result)
+            )
         if measurement.taking:
             said = measurement.taking.command
     return NextAnswer(
@@ -167,7 +170,8 @@ def _proposed(project: Project, background: Background, inputs: api.Inputs) -> A
     return background.ask("next", f"{key_of(project)}\n{choices.units}", work)
 
 
-def _measurement(project: Project, inputs: api.Inputs, advice: Next) -> NextMeasurement:
+def measurement_of(advice: Next, taking: Callable[[int], Taking | None]) -> NextMeasurement:
+    """Return the proposals as the page shows them; `taking` says what it writes to take one."""
     best, *others = advice.proposals
     visits = best.option.visits
     return NextMeasurement(
@@ -177,11 +181,10 @@ def _measurement(project: Project, inputs: api.Inputs, advice: Next) -> NextMeas
             ProposedMark(name=name, target=tuple(place))
             for name, place in zip(visits.names, visits.targets.tolist(), strict=True)
         ],
-        taking=_taking(project, inputs, advice, 1),
+        taking=taking(1),
         by_hand=best.option.checks[0].name if best.option.checks else "",
         others=[
-            _other(each, _taking(project, inputs, advice, place))
-            for place, each in enumerate(others[:MOST_OTHERS], start=2)
+            _other(each, taking(place)) for place, each in enumerate(others[:MOST_OTHERS], start=2)
         ],
         ordinary=_other(advice.blind, None) if advice.blind else None,
     )

@@ -4,15 +4,15 @@ from __future__ import annotations
 
 import io
 import zipfile
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from typing import Literal
 
 from fastapi import APIRouter
 from fastapi.responses import Response
 
 from plumb.diary.file import read_diary
-from plumb.diary.history import history_of
 from plumb.lab.project import Project
+from plumb.lab.report import find, report
 from plumb.lab.rounds import (
     board_words,
     command,
@@ -27,8 +27,6 @@ from plumb.lab.rounds import (
 from plumb.lab.routes.project import TheProject
 from plumb.marks.csv import marks_csv
 from plumb.pictures.grid_paper import grid_paper
-from plumb.report.findings import asked_for, find
-from plumb.report.page import report
 from plumb.text.errors import InputError
 from plumb.text.values import shown_in
 
@@ -49,15 +47,13 @@ def take_along(name: Paper, project: TheProject) -> Response:
 
 
 def _report(project: Project) -> bytes:
-    choices = project.choices
-    findings = find(inputs_of(project), fits=history_of(read_diary(project.folder)).fits)
-    known = known_words(choices)
+    board, known = board_words(project), known_words(project.choices)
 
-    def worded(name: str, more: Sequence[str], words: Sequence[str]) -> str:
-        return command(name, *board_words(project), *more, *known, *words)
+    def worded(name: str) -> str:
+        output = ["-o", "report.html"] if name == "report" else []
+        return command(name, *board, *known, *unit_words(project.choices), *output)
 
-    again = worded("report", (), [*unit_words(choices), "-o", "report.html"])
-    return report(findings, commands=asked_for(findings, worded), again=again)
+    return report(find(inputs_of(project)), diary=read_diary(project.folder), command=worded)
 
 
 def _paper(project: Project) -> bytes:

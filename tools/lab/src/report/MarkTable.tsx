@@ -1,0 +1,46 @@
+// Each mark with its error, for who holds the report as paper and cannot point at a mark.
+import { shownLength, type Unit } from "../controls/lengths";
+import type { VerdictParts } from "../steps/verdict/words";
+
+export function MarkTable({ verdict, units }: { verdict: VerdictParts; units: Unit }) {
+  const left = verdict.states.at(-1);
+  const pair = (both: readonly (number | null)[] | null | undefined, digits: number) =>
+    both
+      ?.map((each) => (each === null ? "–" : shownLength(each, units, digits)))
+      .join(", ")
+      .replaceAll("-", "\u2212") ?? "–";
+  return (
+    <section>
+      <h2>The readings [{units}]</h2>
+      <p>
+        From the middle of the sheet, x right, y up. Off by: read − where the settings put it. Left:
+        what {left?.title} leaves, on the sheet and as left and right chain.
+      </p>
+      <table class="readings-read">
+        <thead>
+          <tr>
+            {["mark", "target", "read", "off by", "left", "chains"].map((word) => (
+              <th key={word} scope="col">
+                {word}
+              </th>
+            ))}
+          </tr>
+        </thead>
+        <tbody>
+          {verdict.marks.map((mark, i) => (
+            <tr key={i} class={verdict.doubted.includes(i) ? "doubted" : ""}>
+              <th scope="row">
+                {mark.name} {verdict.doubted.includes(i) && "(read it again)"}
+              </th>
+              <td>{pair(mark.target, 1)}</td>
+              <td>{pair(mark.measured, 1)}</td>
+              <td>{pair(mark.error, 2)}</td>
+              <td>{pair(left?.errors[i], 2)}</td>
+              <td>{pair(left?.chains[i], 2)}</td>
+            </tr>
+          ))}
+        </tbody>
+      </table>
+    </section>
+  );
+}

@@ -1,0 +1,121 @@
+// A saved report: the verdict as the lab shows it, the numbers, and where all of it is from. It asks nobody.
+import type { Project, Schemas } from "../api/client";
+import { ProjectContext } from "../shell/project";
+import { ByHand, Why } from "../steps/Correct";
+import { Course } from "../steps/diary/Course";
+import { Errors } from "../steps/diary/Errors";
+import { Verdict } from "../steps/Verdict";
+import type { VerdictAnswer } from "../steps/verdict/words";
+import { MarkTable } from "./MarkTable";
+import "./report.css";
+
+/** What a report says besides the answers of the lab. */
+interface About {
+  title: string;
+  said: string;
+  files: { what: string; name: string; digest: string }[];
+  versions: string;
+  command: string;
+}
+
+const stays = async () => {};
+
+export function Report({ answers }: { answers: Readonly<Record<string, unknown>> }) {
+  const project = answers.project as Project;
+  const about = answers.about as About;
+  const { verdict } = answers.verdict as VerdictAnswer;
+  const diary = answers.diary as Schemas["DiaryAnswer"];
+  const units = project.choices.units ?? "mm";
+  const shared = { project, take: stays, choose: stays, reload: stays, trouble: "" };
+  return (
+    <ProjectContext.Provider value={{ ...shared, setTrouble: stays }}>
+      <main class="report">
+        <p class="about">
+          <b>{about.title}</b> {about.said}
+        </p>
+        <Verdict />
+        <Numbers made={answers.correction as Schemas["CorrectionParts"]} />
+        {diary.rounds.length > 0 && (
+          <section>
+            <h2>Round by round</h2>
+            <Errors rounds={diary.rounds} units={units} />
+            <div class="courses">
+              {diary.courses.map((course) => (
+                <Course key={course.noun} course={course} />
+              ))}
+            </div>
+          </section>
+        )}
+        {verdict && verdict.marks.length > 0 && <MarkTable verdict={verdict} units={units} />}
+        <Sources about={about} />
+      </main>
+    </ProjectContext.Provider>
+  );
+}
+
+function Numbers({ made }: { made: Schemas["CorrectionParts"] }) {
+  return (
+    <section>
+      <h2>{made.nothing || "The numbers, before and after"}</h2>
+      {made.numbers.length > 0 && (
+        <table>
+          <thead>
+            <tr>
+              <th scope="col">number</th>
+              <th scope="col">before</th>
+              <th scope="col">after</th>
+              <th scope="col">real machines have</th>
+            </tr>
+          </thead>
+          <tbody>
+            {made.numbers.map((each) => (
+              <tr key={each.name}>
+                <th scope="row">{each.noun}</th>
+                <td>{each.before}</td>
+                <td>
+                  <b>{each.after}</b> ± {each.margin} {each.unit}
+                </td>
+                <td class={each.possible ? "" : "impossible"}>
+                  {each.range_said} {!each.possible && "(impossible: something else looks like it)"}
+                </td>
+              </tr>
+            ))}
+          </tbody>
+        </table>
+      )}
+      {made.cures.length > 0 && <ByHand cures={made.cures} />}
+      <Why made={made} />
+    </section>
+  );
+}
+
+function Sources({ about }: { about: About }) {
+  return (
+    <section>
+      <h2>Where this comes from</h2>
+      <table>
+        <thead>
+          <tr>
+            <th scope="col">file</th>
+            <th scope="col">name</th>
+            <th scope="col">fingerprint (SHA-256)</th>
+          </tr>
+        </thead>
+        <tbody>
+          {about.files.map(({ what, name, digest }) => (
+            <tr key={digest}>
+              <th scope="row">{what}</th>
+              <td>{name}</td>
+              <td>
+                <code>{digest}</code>
+              </td>
+            </tr>
+          ))}
+        </tbody>
+      </table>
+      <p>
+        Made by {about.versions}. The same again: <code>{about.command}</code>
+      </p>
+    </section>
+  );
+}

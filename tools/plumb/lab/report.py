@@ -1,0 +1,160 @@
+"""The report: the lab's page as a single file, with the answers in it that it would ask for."""
+
+from __future__ import annotations
+
+import base64
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
+from hashlib import sha256
+from html import escape
+from importlib.metadata import version
+from pathlib import Path
+
+from pydantic_core import to_json
+
+from plumb.cure.auto import AutoAddition, add_auto
+from plumb.diagnosis.answer import Diagnosis
+from plumb.diagnosis.diagnosis import diagnose
+from plumb.diary.file import Diary
+from plumb.fit.inputs import Inputs
+from plumb.lab.background import WarmBoard, sure_board
+from plumb.lab.project import Choices
+from plumb.lab.routes.bench import covariates_of, draw
+from plumb.lab.routes.correction import correction_of
+from plumb.lab.routes.diary import diary_answer
+from plumb.lab.routes.next import NextAnswer, measurement_of
+from plumb.lab.routes.project import ProjectAnswer, machine_of
+from plumb.lab.routes.verdict import Verdict, VerdictAnswer, verdict_of
+from plumb.plan import Next, propose
+from plumb.text.values import unit, worded
+
+PAGE = Path(__file__).parent / "page"
+PACKAGES = ("plumb", "numpy", "scipy")
+
+
+@dataclass(frozen=True)
+class Findings:
+    """A board, its diagnosis, what is added for it, and what to measure next."""
+
+    inputs: Inputs
+    diagnosis: Diagnosis
+    auto: AutoAddition
+    advice: Next
+
+
+def find(inputs: Inputs, *, progress: Callable[[float], None] = lambda share: None) -> Findings:
+    """Diagnose, add and propose. Raises InputError as these do."""
+    diagnosis = diagnose(inputs)
+    auto = add_auto(inputs, diagnosis=diagnosis)
+    return Findings(inputs, diagnosis, auto, propose(diagnosis, inputs, progress=progress))
+
+
+def report(findings: Findings, *, diary: Diary | None, command: Callable[[str], str]) -> bytes:
+    """Return the page as a file; `command` says how a command is called on this board."""
+    inputs = findings.inputs
+    verdict = verdict_of(inputs, findings.diagnosis, findings.auto)
+    project, about = _project(inputs), _about(inputs, command("report"))
+    answers = {
+        "project": project,
+        "about": about,
+        "verdict": VerdictAnswer(share=1, verdict=verdict, command=command("diagnose")),
+        "next": _next(findings.advice, command("next")),
+        "correction": correction_of(inputs, findings.auto, project.choices),
+        "diary": diary_answer(diary or Diary(Path(), ())),
+        **dict(_of_bench(findings, verdict)),
+    }
+    return _file(answers, title=f"{verdict.title} · {about['title']}", said=verdict.sentence)
+
+
+def _project(inputs: Inputs) -> ProjectAnswer:
+    """Return a project with this board alone; its files may have any name."""
+    settings = inputs.settings.file.name if inputs.settings.file else ""
+    names = [name for name, _ in _rounds(inputs)]
+    return ProjectAnswer(
+        folder="",
+        key="",
+        files={},
+        choices=Choices.model_construct(settings=settings, marks=names, units=unit()),
+        choices_digest="",
+        machine=machine_of(inputs.settings, settings),
+        trouble="",
+        changed_since_fit="",
+    )
+
+
+def _next(advice: Next, command: str) -> NextAnswer:
+    measurement = measurement_of(advice, lambda place: None) if advice.proposals else None
+    return NextAnswer(share=1, next=measurement, nothing=measurement is None, command=command)
+
+
+def _of_bench(findings: Findings, verdict: Verdict) -> Iterator[tuple[str, object]]:
+    """Yield what errors may depend on, and what each suspect draws."""
+    diagnosis = findings.diagnosis
+    live = sure_board(findings.inputs, diagnosis.readings, diagnosis.usual)
+    warm = WarmBoard.of(findings.inputs, live, diagnosis.outliers)
+    yield "bench", {"board": "", "covariates": covariates_of(warm)}
+    for card in verdict.cards if verdict.marks else ():
+        names = [effect.name for effect in card.effects]
+        if names:
+            yield f"bench/drawn?{'&'.join(f'effects={name}' for name in names)}", draw(names, warm)
+
+
+def _about(inputs: Inputs, command: str) -> dict[str, object]:
+    """Return what the report is of, and where all of it is from."""
+    measurements = inputs.measurements
+    files = [("settings", inputs.settings.file)]
+    if inputs.cut_with:
+        files.append(("cut with", inputs.cut_with.file))
+    said = [(what, file.name, file.sha256) for what, file in files if file]
+    said += [("marks", name, digest) for name, digest in _rounds(inputs)]
+    counts = ((len(measurements.measured_marks), "mark"), (len(measurements.distances), "distance"))
+    read = [f"{count} {noun}{'s' if count != 1 else ''}" for count, noun in counts if count]
+    width, height = (worded(length, 0) for length in inputs.settings.sheet)
+    dates = ", ".join(dict.fromkeys(part.date for part in measurements.rounds if part.date))
+    names = " and ".join(name for what, name, _ in said if what == "marks")
+    return {
+        "title": f"{said[0][1]} with {names}",
+        "said": f"{' and '.join(read)} on a sheet of {width} by {height}"
+        f"{', measured ' if dates else ''}{dates}",
+        "files": [dict(zip(("what", "name", "digest"), each, strict=True)) for each in said],
+        "versions": ", ".join(f"{name} {version(name)}" for name in PACKAGES),
+        "command": command,
+    }
+
+
+def _rounds(inputs: Inputs) -> list[tuple[str, str]]:
+    """Return the name and the digest of each file of readings."""
+    source = Path(inputs.measurements.source).name
+    return [(part.name or source, part.digest) for part in inputs.measurements.rounds]
+
+
+def _file(answers: Mapping[str, object], *, title: str, said: str) -> bytes:
+    """Return the page with its answers: it asks nobody, and runs no script but its own."""
+    script = (PAGE / "lab.js").read_text("utf-8").replace("</script", "<\\/script")
+    style = (PAGE / "index.css").read_text("utf-8")
+    own = base64.b64encode(sha256(script.encode()).digest()).decode()
+    policy = (
+        f"default-src 'none'; script-src 'sha256-{own}'; style-src 'unsafe-inline'; "
+        "img-src data: blob:; base-uri 'none'; form-action 'none'"
+    )
+    # A name from a file may hold the end of a script; as text of JSON it has no such sign.
+    data = to_json(answers).decode().replace("<", "\\u003c")
+    return f"""<!doctype html>
+<!-- A report of Plumb. -->
+<html lang="en">
+<head>
+<meta charset="utf-8">
+<meta http-equiv="Content-Security-Policy" content="{policy}">
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<title>{escape(title)}</title>
+<link rel="icon" href="data:,">
+<style>{style}</style>
+</head>
+<body>
+<div id="lab"></div>
+<noscript><p>{escape(said)}</p><p>The plots need JavaScript.</p></noscript>
+<script type="application/json" id="answers">{data}</script>
+<script type="module">{script}</script>
+</body>
+</html>
+""".encode()

@@ -1,0 +1,301 @@
+"""Pictures of sheets: errors as arrows, places, ways, shades. Same data give the same bytes."""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from plumb.text.files import picture_metadata
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+Array = np.ndarray
+Corners = tuple[tuple[float, float], tuple[float, float]]  # lower left and upper right [mm]
+NOWHERE: Corners = ((0.0, 0.0), (0.0, 0.0))
+FORMATS = ("png", "svg", "pdf")
+WOOD, DEEP, EDGE, INK = "#f3e7d3", "#8f6236", "#8a6d3b", "#222222"
+BAD, GOOD, QUIET = "#c64f00", "#0b62a4", "#9a9a9a"  # orange and blue: apart for every eye
+WIDTH, SMALL = 8.6, 3.0  # [inch] of a sheet by itself, and of one among others
+ROW = 5  # sheets next to each other; more go below them
+TITLE, LINE = 0.45, 0.3  # [inch] above a sheet, and of a line of words below all
+AROUND = 0.05  # of the sheet's width, left free on each side
+HEAD = 30.0  # [mm] around the tip of an arrow, for its head
+LONG, OVERLAP = 0.37, 1.5  # the longest arrow: of the sheet's height, of the way between marks
+CLOSE = 25.0  # [mm] between marks that repeat each other
+MANY = 60  # marks from which a picture has no numbers
+LETTER = 0.68 / 72  # [inch] width of a letter, of the size of its type
+STEPS = (1, 2, 3, 5)  # a factor is such a number times a power of ten
+
+
+@dataclass(frozen=True)
+class Spot:
+    """A place with its words."""
+
+    x: float  # [mm]
+    y: float
+    words: str = ""
+    colour: str = INK
+    size: float = 9.0  # [point] of its dot; 0: none
+
+
+@dataclass(frozen=True)
+class Ways:
+    """Ways of one kind, over what was drawn before."""
+
+    lines: Sequence[Array]  # (k, 2) [mm] each
+    colour: str
+    stroke: float  # [point]
+    style: str = "-"
+
+
+@dataclass(frozen=True)
+class Panel:
+    """A sheet, or a part of it, and what is drawn on it [mm]."""
+
+    title: str
+    predicted: Array = field(default_factory=lambda: np.zeros((0, 2)))
+    errors: Array = field(default_factory=lambda: np.zeros((0, 2)))  # measured - predicted
+    good: bool = False  # drawn in the colour of success
+    names: tuple[str, ...] = ()  # of the marks
+    spots: Sequence[Spot] = ()
+    ways: Sequence[Ways] = ()
+    shades: Array | None = None  # (rows, columns, 4) colours from the lower left
+    shaded: Corners = NOWHERE  # where they lie
+    view: Corners | None = None  # None: the whole sheet
+
+
+def draw(
+    panels: Sequence[Panel],
+    *,
+    sheet: tuple[float, float],
+    heading: str = "",
+    words: Sequence[str] = (),
+    columns: int = 0,
+    form: str = "png",
+    names: bool = False,
+) -> bytes:
+    """Return the picture as a file, all arrows to a single scale; `names` writes those of the
+    marks, and 0 columns are as many as make rows of about the same length.
+    """
+    # Loading matplotlib takes longer than most commands: only a drawing waits for it.
+    from matplotlib.figure import Figure
+
+    columns = columns or columns_for(len(panels))
+    wide = WIDTH if columns == 1 else SMALL
+    factor = factor_for(panels, sheet)
+    views = [panel.view or view_of(panels, sheet, factor) for panel in panels]
+    highs = [wide * (top - low) / (right - left) for (left, low), (right, top) in views]
+    rows = [TITLE + max(highs[i : i + columns]) for i in range(0, len(panels), columns)]
+    said = [*words, *_scale_words(panels, factor)]
+    head, foot = TITLE * bool(heading), LINE * len(said) + 0.1
+    tall = head + sum(rows) + foot
+    figure = Figure(figsize=(wide * columns, tall))
+    _write(figure, heading, 0.0, tall - head / 2, wide * columns, size=17)
+    for i, (panel, view, high) in enumerate(zip(panels, views, highs, strict=True)):
+        low = tall - head - sum(rows[: i // columns]) - TITLE - high
+        left = wide * (i % columns)
+        colour = GOOD if panel.good else BAD if len(panel.errors) or panel.ways else INK
+        size = 15 if wide == WIDTH else 11
+        _write(figure, panel.title, left, low + high + TITLE / 2, wide, size=size, color=colour)
+        share = (left / figure.get_figwidth(), low / tall, 1 / columns, high / tall)
+        axis = figure.add_axes(share)
+        axis.set(xlim=(view[0][0], view[1][0]), ylim=(view[0][1], view[1][1]))
+        axis.set_axis_off()
+        _draw_panel(axis, panel, sheet, factor=factor, small=wide / WIDTH, names=names)
+    # The whole legend in the type of its longest line.
+    legend = "\n".join(said)
+    _write(figure, legend, 0.0, foot / 2, wide * columns, size=12, weight="normal")
+    return saved(figure, form)
+
+
+def shades_of(shares: Array) -> Array:
+    """Return colours of wood that is cut to these shares of the deepest; none where it is whole."""
+    from matplotlib.colors import LinearSegmentedColormap
+
+    shades = LinearSegmentedColormap.from_list("depth", [WOOD, DEEP])(np.clip(shares, 0, 1))
+    shades[shares <= 0, 3] = 0.0
+    return np.asarray(shades)
+
+
+def columns_for(count: int) -> int:
+    """Return how many sheets stand next to each other, so that rows are about as long."""
+    return -(-count // -(-count // ROW))
+
+
+def factor_for(panels: Sequence[Panel], sheet: tuple[float, float]) -> float:
+    """Return how much longer than life arrows are: as long as fits, and as neighbours allow."""
+    most = max(len(panel.errors) for panel in panels)
+    pitch = np.sqrt(sheet[0] * sheet[1] / max(most, 1))
+    return round_down(min(LONG * sheet[1], OVERLAP * pitch) / _longest(panels))
+
+
+def view_of(panels: Sequence[Panel], sheet: tuple[float, float], factor: float) -> Corners:
+    """Return the sheet with all arrows on it and around it."""
+    ends = [panel.predicted + factor * panel.errors for panel in panels]
+    half = np.array([(0.5 + AROUND) * sheet[0], 0.5 * sheet[1] + AROUND * sheet[0]])
+    places = np.vstack([-half, half, *(end - HEAD for end in ends), *(end + HEAD for end in ends)])
+    (left, low), (right, top) = places.min(axis=0), places.max(axis=0)
+    return (float(left), float(low)), (float(right), float(top))
+
+
+def round_down(value: float) -> float:
+    """Return the largest 1, 2, 3 or 5 times a power of ten that is no larger than the value."""
+    power = 10.0 ** np.floor(np.log10(value))
+    return float(max(step * power for step in STEPS if step * power <= value * (1 + 1e-9)))
+
+
+def _longest(panels: Sequence[Panel]) -> float:
+    lengths = np.hypot(*np.vstack([panel.errors for panel in panels]).T)
+    return max(float(lengths.max(initial=0.0)), 1e-6)
+
+
+def _scale_words(panels: Sequence[Panel], factor: float) -> list[str]:
+    if not any(len(panel.errors) for panel in panels):
+        return []
+    return [
+        "Circle: where a mark should be; arrow: to where it was measured, "
+        f"{factor:g} times life size. The longest is {_longest(panels):.2f} mm."
+    ]
+
+
+def _draw_panel(
+    axis: Axes,
+    panel: Panel,
+    sheet: tuple[float, float],
+    *,
+    factor: float,
+    small: float,
+    names: bool,
+) -> None:
+    from matplotlib.collections import LineCollection
+    from matplotlib.patches import Rectangle
+
+    axis.add_patch(
+        Rectangle((-sheet[0] / 2, -sheet[1] / 2), *sheet, fc=WOOD, ec=EDGE, lw=2 * small)
+    )
+    if panel.shades is not None:
+        (left, low), (right, top) = panel.shaded
+        extent = (left, right, low, top)
+        axis.imshow(panel.shades, extent=extent, origin="lower", aspect="auto", zorder=1.5)
+    for order, ways in enumerate(panel.ways, start=2):
+        how = {"colors": ways.colour, "linewidths": ways.stroke, "linestyles": ways.style}
+        axis.add_collection(LineCollection(ways.lines, zorder=order, **how))
+    if len(panel.errors):
+        _draw_arrows(axis, panel, factor=factor, small=small)
+        if small == 1.0:
+            _draw_lengths(axis, panel, names=names)
+    for spot in panel.spots:
+        axis.plot(spot.x, spot.y, "o", color=spot.colour, mec=INK, ms=small * spot.size, zorder=5)
+        # Towards the middle of the sheet, where there is room.
+        shift = (9 if spot.x < 0 else -9, -9 if spot.y > 0 else 9) if spot.size else (0, 0)
+        axis.annotate(
+            spot.words,
+            (spot.x, spot.y),
+            shift,
+            textcoords="offset points",
+            color=INK,
+            fontsize=11 * small,
+            ha="center",
+            va="center",
+            zorder=6,
+        )
+
+
+def _draw_arrows(axis: Axes, panel: Panel, *, factor: float, small: float) -> None:
+    part = small * float(np.clip(9 / np.sqrt(len(panel.errors)), 0.3, 1.0))
+    axis.plot(*panel.predicted.T, "o", color="white", mec=INK, ms=6 * part, mew=part, zorder=3)
+    axis.quiver(
+        *panel.predicted.T,
+        *(factor * panel.errors).T,
+        angles="xy",
+        scale_units="xy",
+        scale=1,
+        units="inches",
+        width=0.035 * part,
+        headwidth=4.5,
+        headlength=5.5,
+        headaxislength=5,
+        minlength=0.5,
+        color=GOOD if panel.good else BAD,
+        zorder=4,
+    )
+
+
+def _draw_lengths(axis: Axes, panel: Panel, *, names: bool) -> None:
+    """Write the length of each error behind its mark, and its name if that was asked for; of marks
+    that lie close together, those of the first.
+    """
+    lengths = np.hypot(*panel.errors.T)
+    many = len(lengths) > MANY
+    if many and not names:
+        return
+    marks = panel.names or ("",) * len(lengths)
+    written: list[Array] = []
+    for place, error, length, name in zip(
+        panel.predicted, panel.errors, lengths, marks, strict=True
+    ):
+        if any(np.hypot(*(place - other)) < CLOSE for other in written):
+            continue
+        written.append(place)
+        size = f"{length:.1f}"
+        said = (name if many else f"{name}: {size}") if names and name else size
+        x, y = -error / length if length > 0 else (0.0, -1.0)
+        axis.annotate(
+            said,
+            place,
+            (14 * x, 14 * y),
+            textcoords="offset points",
+            fontsize=5 if many else 11,
+            color=INK,
+            ha="left" if x > 0.5 else "right" if x < -0.5 else "center",
+            va="center",
+            zorder=6,
+        )
+
+
+def _write(
+    figure: Figure,
+    said: str,
+    left: float,
+    y: float,
+    wide: float,
+    *,
+    size: float,
+    color: str = INK,
+    weight: str = "bold",
+) -> None:
+    """Write lines into a width [inch] from this place, as large as they fit."""
+    width, tall = figure.get_size_inches()
+    margin = AROUND * wide / (1 + 2 * AROUND)
+    longest = max(map(len, said.split("\n")))
+    size = min(size, (wide - 2 * margin) / (LETTER * max(longest, 1)))
+    at = ((left + margin) / width, y / tall)
+    figure.text(*at, said, fontsize=size, fontweight=weight, color=color, va="center")
+
+
+def saved(figure: Figure, form: str) -> bytes:
+    """Return the figure as png, svg or pdf; the same data give the same bytes."""
+    import matplotlib as mpl
+
+    read_as_written(figure)
+    file = io.BytesIO()
+    # Names inside an SVG are drawn by chance unless they get a salt.
+    with mpl.rc_context({"svg.hashsalt": "plumb"}):
+        figure.savefig(
+            file, format=form, dpi=130, facecolor="white", metadata=picture_metadata(form)
+        )
+    return file.getvalue()
+
+
+def read_as_written(figure: Figure) -> None:
+    """Let no word be a formula: a name from a file may hold a `$`."""
+    from matplotlib.text import Text
+
+    for text in figure.findobj(Text):
+        text.set_parse_math(False)
