@@ -13,7 +13,6 @@ from plumb.bench.causes import MAKER, PUBLISHED
 from plumb.bench.hiding import slip
 from plumb.bench.kinds import KINDS
 from plumb.marks.form import head_of, toml_text
-from plumb.plan.outlook import Outlooks
 from plumb.settings.toml import write_machine_toml
 
 DATA = Path(__file__).resolve().parents[1] / "data"
@@ -27,7 +26,7 @@ COMMANDS = {
 # A row, a column and a square of marks settle little; so do three marks.
 GRIDS = ((5, 3), (3, 3), (5, 5), (3, 1), (1, 4), (2, 2), (7, 3), (4, 2))
 KNOWN = (MAKER, PUBLISHED)
-FEW, MANY, TOGETHER = 24, 1000, 50
+FEW, MANY, TOGETHER = 10, 1000, 50
 
 
 def board_of(index):
@@ -58,8 +57,6 @@ def written(folder, index):
 @pytest.fixture
 def answer(run, tmp_path, monkeypatch):
     """Gives a board to some commands; a fault names the board and the command."""
-    # How often a plan is simulated changes its chance, and not the way through the code.
-    monkeypatch.setattr(Outlooks.__init__, "__defaults__", (8,))
 
     def answered(index, commands):
         folder = tmp_path / f"{index}"

@@ -17,7 +17,6 @@ from example_machine import TRUE_NUMBERS, checked
 from plumb.cli.calibrate import Round
 from plumb.cli.main import build_parser
 from plumb.diagnosis.expected_error import LeftOpen
-from plumb.grid.command import read_settings as read_plain
 from plumb.settings.files import read_settings
 from plumb.settings.toml import write_machine_toml
 from synthetic import BELIEVED, EFFECTS, TRUE, csv_of, grid, marks_on
@@ -63,6 +62,7 @@ def measure_on_target(form, *, off=0.0):
     Path(form).write_text(re.sub(r"^target = \[(.*)\]", filled, text, flags=re.MULTILINE))
 
 
+@pytest.mark.usefixtures("tried_in_full")
 def test_an_open_question_is_said_with_what_to_measure_and_nothing_is_written(run):
     before = set(Path().iterdir())
     code, said, _ = run("calibrate", INI, "marks.toml")
@@ -303,16 +303,3 @@ def test_what_was_given_is_given_again(run):
     said = run("diagnose", INI, "marks.toml", "--sigma", "0.5", "--prior", "motor_gap=2")[1]
     (words,) = printed(said)
     assert words == ["next", INI, "marks.toml", "--sigma", "0.5", "--prior", "motor_gap=2"]
-
-
-def test_a_grid_takes_the_numbers_of_a_machine_toml(run):
-    machine = EXAMPLE / "machine.toml"
-    said = run("grid", "--settings", machine)[1]
-    numbers, known = read_settings(machine), read_plain(str(machine))
-    assert known["motor_spacing"] == numbers.motor_gap
-    assert known["motor_offset"] == numbers.motor_height - numbers.sheet_height / 2
-    assert (known["sheet_width"], known["sheet_height"]) == numbers.sheet
-    assert known["rotation_radius"] == numbers.rotation_radius
-    assert known["sled_weight_n"] == numbers.sled_weight
-    wider = run("grid", "--settings", machine, "--margin", "300")[1]
-    assert wider != said

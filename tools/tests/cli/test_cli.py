@@ -2,7 +2,6 @@
 
 import subprocess
 import sys
-from pathlib import Path
 
 import numpy as np
 import plumb.grid as grids
@@ -12,7 +11,6 @@ from plumb.model.catalogue import effect_names
 from plumb.model.predict import lengths
 from plumb.settings.files import read_settings
 from plumb.settings.toml import write_machine_toml
-from plumb.text.answers import plain
 from synthetic import BELIEVED, TRUE, csv_of, grid, marks_on
 
 BOARD = [str(SETTINGS), str(MARKS)]
@@ -96,12 +94,6 @@ def test_add_of_an_effect_that_does_not_pay_is_bad_news(run, tmp_path):
     assert code == 1 and "NOT better" in said and "do not keep" in said
 
 
-def test_add_holds_what_a_prior_says(ask):
-    _, answer = ask("add", *BOARD, *EFFECTS, "--prior", "motor_gap=0", "--sigma", "0.8")
-    assert answer["frame"]["motor_gap"] == 2978.4 and answer["sigma_mm"] == 0.8
-    assert "motor_gap" not in [each["name"] for each in answer["parameters"]]
-
-
 def test_inverse_and_forward_of_our_model_undo_each_other(ask, file, tmp_path):
     machine = tmp_path / "machine.toml"
     write_machine_toml(machine, TRUE)
@@ -156,14 +148,6 @@ def test_effects_names_every_effect_with_its_look_alikes(run):
     assert said.count("looks like") == len(effect_names())
 
 
-def test_effects_marks_those_of_the_lab(run, ask):
-    said = run("effects")[1]
-    assert "tape_scale (lab)" in said and "chain_sag (lab)" not in said
-    lab = [each for each in ask("effects")[1]["effects"] if each["where"] == "lab"]
-    assert [each["name"] for each in lab] == ["sled_friction", "sheet_skew", "tape_scale"]
-    assert all(each["setting"] is None for effect in lab for each in effect["parameters"])
-
-
 def test_grid_is_the_tool_beside_the_package(run, ask, tmp_path, capsys):
     assert grids.main(["--preset", "nine"]) == 0
     assert capsys.readouterr().out == run("grid", "--preset", "nine")[1]
@@ -180,15 +164,3 @@ def test_a_reader_that_leaves_early_is_no_error():
         ["bash", "-c", f"set -o pipefail; {command} | true"], capture_output=True, text=True
     )
     assert done.stderr == ""
-
-
-def test_what_is_no_number_is_null():
-    answer = plain({"a": float("nan"), "b": [np.float64("inf"), np.int64(3)], "c": np.eye(1)})
-    assert answer == {"a": None, "b": [None, 3], "c": [[1.0]]}
-
-
-def test_no_screen_of_add_has_an_empty_paragraph(run, tmp_path):
-    example = Path(__file__).resolve().parents[3] / "docs/example"
-    for settings, marks in (BOARD, (example / "groundcontrol.ini", example / "marks.toml")):
-        _, said, _ = run("add", settings, marks, "--effect", "chain_pitch")
-        assert said and "\n\n\n" not in said

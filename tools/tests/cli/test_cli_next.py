@@ -98,6 +98,7 @@ def test_what_is_only_read_again_is_not_cut(run, ask, file, maker, tmp_path):
     assert form.read_text().count(FILL) == 27
 
 
+@pytest.mark.usefixtures("tried_in_full")
 def test_what_was_checked_is_not_proposed_again(ask):
     gap = "the gap between the motors"
     code, answer = ask("next", *EXAMPLE)
@@ -152,19 +153,6 @@ def test_a_grid_says_what_its_marks_could_tell_before_it_is_cut(ask, run, maker,
     taped = ask("grid", "--settings", maker, "--preset", "distances", "--details")[1]["details"]
     assert (taped["marks"], taped["distances"]) == (0, 12)
     assert ask("grid", "--preset", "nine")[1]["details"] is None
-
-
-@pytest.mark.parametrize(
-    ("options", "complaint"),
-    [
-        (["--details"], "--details is of a machine: give its --settings too"),
-        (["--details", "--settings", "nowhere.toml"], "nowhere.toml"),
-        (["--details", "--settings", SETTINGS, "--margin", "0"], "margin"),
-    ],
-)
-def test_details_of_a_grid_are_refused_in_one_line(run, options, complaint):
-    code, said, refused = run("grid", *options)
-    assert code == 2 and said == "" and complaint in refused and refused.count("\n") == 1
 
 
 def test_a_form_names_the_settings_that_its_marks_are_cut_with(run, tmp_path):

@@ -4,9 +4,7 @@ from dataclasses import replace
 
 import pytest
 from plumb.cli.demo import as_text, main
-from plumb.cure.add import Quality
-from plumb.cure.machine_file import GOAL, demonstrate, is_better, with_y_errors_flipped
-from plumb.marks.read import Mark, Measurements
+from plumb.cure.machine_file import GOAL, demonstrate
 from plumb.model.predict import known_effects
 from plumb.settings.files import read_settings
 
@@ -32,13 +30,6 @@ def test_an_effect_that_does_not_pay_is_tried_and_not_kept(demonstration):
 def test_the_other_sign_of_y_is_worse_and_told(demonstration):
     assert demonstration.flipped.after.fit_rms == pytest.approx(1.20, abs=0.05)
     assert f"{demonstration.flipped.after.fit_rms:.2f} mm RMS" in as_text(demonstration)
-
-
-def test_flipping_turns_errors_in_y_round_and_nothing_else():
-    board = Measurements((Mark("1", (10.0, 20.0), (11.0, 23.0)), Mark("2", (0.0, 0.0))))
-    flipped = with_y_errors_flipped(board)
-    assert flipped.marks[0].measured == (11.0, 17.0)
-    assert flipped.marks[1] == board.marks[1]
 
 
 def test_what_is_doubtful_is_said(demonstration):
@@ -80,13 +71,6 @@ def test_a_folder_that_cannot_be_made_is_refused_in_one_line(tmp_path, capsys):
     assert main(["--real", "--folder", str(tmp_path / "file" / "demo")]) == 2
     said = capsys.readouterr()
     assert said.out == "" and said.err.startswith("demo: ") and said.err.count("\n") == 1
-
-
-def test_an_effect_must_lower_both_honest_errors():
-    known = Quality(1.0, 0.8, 1.2, 1.5, 2.0, 1.0)
-    assert is_better(replace(known, corrected_rms=1.1, left_out_rms=1.4), known)
-    assert not is_better(replace(known, corrected_rms=1.1, left_out_rms=1.6), known)
-    assert not is_better(replace(known, corrected_rms=1.3, left_out_rms=1.4), known)
 
 
 def test_mega_alone_runs_the_program_that_was_built(tmp_path, monkeypatch, capsys):

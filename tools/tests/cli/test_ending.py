@@ -107,14 +107,6 @@ def test_ctrl_c_ends_quietly(tmp_path):
     assert (started.returncode, said, complaint) == (INTERRUPTED, b"", b"")
 
 
-def test_an_interruption_anywhere_is_130(capsys):
-    def interrupted() -> int:
-        raise KeyboardInterrupt
-
-    assert ended(interrupted, name="plumb") == 130
-    assert capsys.readouterr().err == ""
-
-
 def test_a_closed_pipe_ends_quietly():
     reader, writer = os.pipe()
     os.close(reader)
@@ -142,16 +134,3 @@ def test_a_full_disk_is_an_object_with_json(run, capsys):
     assert ended(full_disk, name="plumb", as_json=True) == 2
     said = capsys.readouterr().out
     assert json.loads(said) == {"error": "results.json: No space left on device"}
-
-
-def test_a_full_standard_output_with_json_is_a_line():
-    with open("/dev/full", "w") as full:
-        done = subprocess.run([*COMPARE, "--json"], stdout=full, stderr=subprocess.PIPE, text=True)
-    assert done.returncode == 2
-    assert done.stderr == "plumb: the output cannot be written: No space left on device\n"
-
-
-def test_a_closed_standard_output_is_no_crash():
-    command = " ".join(f"'{word}'" for word in COMPARE)
-    done = subprocess.run(["bash", "-c", f"{command} >&-"], capture_output=True, text=True)
-    assert "Traceback" not in done.stderr

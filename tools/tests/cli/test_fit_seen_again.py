@@ -1,11 +1,13 @@
 """What a fit promised can be seen again: machine.toml knows its marks and how they were cut."""
 
+import contextlib
 import re
 import shutil
 from dataclasses import replace
 from pathlib import Path
 
 import pytest
+from plumb.cli.main import main
 from plumb.grid.cut_with import KEYS
 from plumb.settings.files import read_settings
 from plumb.settings.ini import SOURCES
@@ -29,22 +31,27 @@ def filled_in(form):
     return re.sub(r"target = (.*)\n(.*\n)# measured.*", r"target = \1\n\2measured = \1", form)
 
 
-@pytest.fixture
-def fitted(run, tmp_path, monkeypatch):
-    """A machine fitted to the example's marks; the folder is the current folder."""
-    for name in ("groundcontrol.ini", "marks.toml"):
-        shutil.copy(EXAMPLE / name, tmp_path)
-    monkeypatch.chdir(tmp_path)
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    """A folder with a machine fitted to the example's marks."""
+    folder = tmp_path_factory.mktemp("fitted")
+    shutil.copy(EXAMPLE / "groundcontrol.ini", folder)
     # A sheet that hangs askew by 12 mm over its width: no setting holds that.
-    turned = with_readings(
-        Path("marks.toml").read_text(), lambda x, y: (x - 0.005 * y, y + 0.005 * x)
-    )
-    Path("marks.toml").write_text(turned)
-    code, said, _ = run(
-        "add", "groundcontrol.ini", "marks.toml", "--effect", "chain_pitch", "-o", "machine.toml"
-    )
-    assert code == 0
-    return float(re.search(r"from \S+ to (\S+) mm", " ".join(said.split()))[1])
+    text = (EXAMPLE / "marks.toml").read_text()
+    turned = with_readings(text, lambda x, y: (x - 0.005 * y, y + 0.005 * x))
+    (folder / "marks.toml").write_text(turned)
+    with contextlib.chdir(folder):
+        files = ["groundcontrol.ini", "marks.toml", "-o", "machine.toml"]
+        assert main(["add", *files, "--effect", "chain_pitch"]) == 0
+    return folder
+
+
+@pytest.fixture
+def fitted(folder, tmp_path, monkeypatch):
+    """A copy of it as the current folder; the error that the fit promised [mm]."""
+    shutil.copytree(folder, tmp_path, dirs_exist_ok=True)
+    monkeypatch.chdir(tmp_path)
+    return round(read_settings("machine.toml").fitted.rms, 2)
 
 
 def test_compare_finds_the_error_that_add_promised(fitted, ask, run):
@@ -135,11 +142,8 @@ def test_the_record_comes_back_bit_for_bit(fitted, tmp_path):
     ("old", "new", "hint"),
     [
         (r"^rms = .*", "", "[fit]: rms is missing"),
-        (r"^rms = .*", "rms = 'good'", "[fit] rms: a number is needed"),
-        (r"^digest = .*", "digest = 4", "[[board]]: text in quotes"),
         (r"^sheet = .*", "sheet = [1, 2]", "[[board]]: an array of 3 numbers"),
         (r"^\[board.cut_with.frame\]", "[board.cut_with.fram]", "unknown name 'fram'"),
-        (r"^effects = .*", "effects = 'all'", "[fit]: an array of texts"),
         (r"^\[\[board\]\]", "[board]", "board is not a list of tables"),
     ],
 )

@@ -26,9 +26,6 @@ WRITERS = [
     pytest.param((*ADD, "-o"), "machine.toml", id="add"),
     pytest.param((*LINES, "-o"), "machine.nc", id="settings"),
     pytest.param(("compare", SETTINGS, MARKS, "--picture"), "errors.png", id="png"),
-    pytest.param(("compare", SETTINGS, MARKS, "--picture"), "errors.svg", id="svg"),
-    pytest.param(("compare", SETTINGS, MARKS, "--picture"), "errors.pdf", id="pdf"),
-    pytest.param(("reach", MACHINE, "-o"), "reach.png", id="reach", marks=pytest.mark.slow),
     pytest.param((*GRID, "--output"), "grid.nc", id="grid"),
 ]
 

@@ -10,7 +10,6 @@ import pytest
 from plumb.cli.screen import second_round
 from plumb.marks.model import Typed
 from plumb.marks.read import join_measurements, read_marks
-from plumb.model.plain import plain_size
 from plumb.text.values import shown_in
 
 EXAMPLE = Path(__file__).resolve().parents[3] / "docs/example"
@@ -114,25 +113,6 @@ def test_every_command_speaks_inches_on_request(words, run):
     assert MILLIMETRES.findall(said) == [] and "metre" not in said and " in mm" not in said
 
 
-def test_tables_of_errors_and_sizes_are_in_inches(run):
-    said = run("add", INI, MARKS, "--effect", "sled_swing", *INCHES, "--details")[1]
-    assert "error in inch" in said
-    raw = re.search(r"raw: the settings as they are +([\d.]+)", said)
-    assert raw and raw[1] == "0.351"
-    assert re.search(r"bit [\d.]+ inch (right|left) of the ring's centre", said)
-
-
-def test_the_model_answers_in_inches(run, tmp_path):
-    points = tmp_path / "points.csv"
-    points.write_text("0,0\n254,0\n")
-    metric, imperial = (
-        run("inverse", INI, "--points", points, "--units", unit)[1] for unit in ("mm", "inch")
-    )
-    left = [float(said.splitlines()[-1].split()[2]) for said in (metric, imperial)]
-    assert left[1] == pytest.approx(left[0] / 25.4, abs=1e-4) and "; inch." in imperial
-    assert imperial.splitlines()[-1].split()[0] == "10.0000"
-
-
 def test_json_and_files_stay_in_mm(ask, run, tmp_path):
     machine = tmp_path / "machine.toml"
     added = ["add", INI, MARKS, "--effect", "sled_swing"]
@@ -158,12 +138,6 @@ def test_the_unit_of_a_command_does_not_stay_for_the_next(run):
     assert "inch" not in run("compare", INI, MARKS)[1]
 
 
-def test_in_inches_a_number_before_is_as_fine_as_after(run):
-    said = run("add", INI, MARKS, "--effect", "chain_pitch", *INCHES)[1]
-    row = next(line for line in said.splitlines() if line.startswith("gap between the motors"))
-    assert re.fullmatch(r"gap between the motors 117.\d\d inch \(.*\) +117.26 inch", row), row
-
-
 def test_a_number_that_moved_too_far_is_said_in_the_unit_on_the_screen(run, tmp_path):
     marks = tmp_path / "marks.csv"
     places = [(x, y) for x in (-1000, 0, 1000) for y in (450, -450)]
@@ -173,14 +147,6 @@ def test_a_number_that_moved_too_far_is_said_in_the_unit_on_the_screen(run, tmp_
     moved = re.search(r"gap between the motors: the marks say ([\d.]+) inch, ([\d.]+) inch", said)
     assert moved and float(moved[2]) > 0.236
     assert abs(float(moved[1]) - 117.26) == pytest.approx(float(moved[2]), abs=0.002)
-
-
-def test_a_slope_is_said_for_each_foot():
-    with shown_in("inch"):
-        assert plain_size("sheet_rotation", 0.001) == "sheet turned by 0.0120 inch for each foot"
-        stretch = plain_size("chain_stretch.compliance", 5e-6)
-        assert stretch == "chains 0.00600 inch longer for each foot at 100 N"
-    assert plain_size("sheet_rotation", 0.001) == "sheet turned by 1.00 mm for each metre"
 
 
 @pytest.mark.parametrize("preset", ["nine", "distances"])

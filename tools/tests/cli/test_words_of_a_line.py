@@ -16,10 +16,6 @@ JOB, SETTINGS, MARKS = (EXAMPLE / name for name in ("pocket.nc", "groundcontrol.
 @pytest.mark.parametrize(
     ("words", "says"),
     [
-        (["resume", "--lnie", "5", JOB, SETTINGS], "no option --lnie here; did you mean --line?"),
-        (["resume", JOB, SETTINGS, "--lnie=5"], "no option --lnie here; did you mean --line?"),
-        (["check", "--lnie"], "there is no option --lnie here"),
-        (["--lnie"], "there is no option --lnie here; see plumb --help"),
         (["--lnie", "check"], "there is no option --lnie here; see plumb --help"),
         (["resume", JOB, SETTINGS, "--line", "0"], "--line: '0' is too low: it counts from 1"),
         (["resume", JOB, SETTINGS, "--line", "two"], "'two' is not a whole number, like 100"),

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from plumb.diagnosis.explanation import Board, explain
 from plumb.diagnosis.noise import KNOWN, Noise
-from plumb.diagnosis.outliers import readings_of, without
+from plumb.diagnosis.outliers import without
 from plumb.diagnosis.readings import shifts
 from plumb.diagnosis.sizes import hidden_share, room_for, sizes_of
 from plumb.fit.expected import plausible_range
@@ -14,7 +14,7 @@ from plumb.fit.fit import fit
 from plumb.fit.observations import observe
 from plumb.marks.read import Measurements
 from plumb.model.catalogue import effect_names
-from synthetic import BELIEVED, TRUE, distances_between, grid, marks_on
+from synthetic import BELIEVED, TRUE, grid, marks_on
 
 STATED = Noise(0.5, KNOWN, "stated")
 
@@ -70,15 +70,6 @@ def predict_at(board, unknowns):
     return sighting.read.where[board.rows.mark_rows]
 
 
-def test_every_reading_can_be_taken_out():
-    given = marks_on(TRUE, BELIEVED, grid(3, 2))
-    spans = distances_between(given)
-    rows = observe(BELIEVED, Measurements(given, spans.distances[:4]))
-    readings = readings_of(rows)
-    assert len(readings) == 6 + 4
-    assert all(without(rows, reading).count == rows.count - reading.size for reading in readings)
-
-
 def test_the_frame_swallows_what_it_can():
     frame = explain(board_of(columns=5, rows=5))
     shares = {name: hidden_share(frame, name) for name in effect_names()}
@@ -103,15 +94,3 @@ def test_room_of_two_parameters_is_that_of_both_together():
     others = explain(board, ("chain_sag", "chain_stretch"))
     room = room_for("chain_pitch", (others,), Noise(0.05, KNOWN, "stated"))
     assert room.mm == pytest.approx(4.672, abs=0.12)
-
-
-def test_what_points_below_nothing_leaves_no_room_above():
-    shrinking = {**TRUE.effects, "chain_stretch": {"compliance": -4e-6}}
-    board = board_of(noise=0.0, columns=5, rows=5, true=replace(TRUE, effects=shrinking))
-    others = explain(board, ("chain_sag", "chain_pitch"))
-    assert room_for("chain_stretch", (others,), STATED).limits[0].largest == 0.0
-
-
-def test_what_no_mark_feels_has_no_room():
-    room = room_for("sled_friction", (explain(board_of()),), STATED)
-    assert room.mm is None and room.limits[0].largest is None

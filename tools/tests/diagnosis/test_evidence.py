@@ -4,65 +4,26 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from linear_boards import NAMES, covariance_of, in_full, log_density, made_up
+from linear_boards import NAMES, covariance_of, in_full, made_up
 from plumb.diagnosis.evidence import (
     Noises,
     accounts_of,
-    add_by_set,
     fitted,
     log_orthant,
     noises_of,
-    outlier_weights,
     weights_of,
 )
-from plumb.diagnosis.linear import Metric, Other
-from plumb.diagnosis.priors import ACTS, ALL, OUTLIER_SPREADS, UNUSUAL
+from plumb.diagnosis.linear import Metric
+from plumb.diagnosis.priors import ACTS, ALL, UNUSUAL
 from plumb.fit.inputs import Stated
 from scipy import special, stats
 
 SIGMAS = np.array([0.3, 0.5, 1.1])
-EITHER_SIGN = (-np.inf,) * 4
-
-
-def field(board, seed=3):
-    """A field in fewer columns than there are readings."""
-    return Other.of(np.random.default_rng(seed).standard_normal((board.measured, 3)))
 
 
 def constant(board):
     """What the engine leaves out of each density alike."""
     return len(board.read) / 2 * np.log(2 * np.pi)
-
-
-@pytest.mark.parametrize("has_field", [False, True])
-@pytest.mark.parametrize("pitch", [0.0, 0.4])
-def test_the_evidence_is_the_density_of_the_readings(has_field, pitch):
-    board = made_up(boards=3, least=EITHER_SIGN, pitch=pitch)
-    other = field(board) if has_field else None
-    metric = Metric.of(board, SIGMAS, other, pitch=pitch > 0)
-    for part in accounts_of(board).parts:
-        fit = fitted(part, metric)
-        loose = fit.evidence.reshape(3, len(part.sets), len(SIGMAS))
-        for a in range(len(part.sets)):
-            for m, sigma in enumerate(SIGMAS):
-                covariance = covariance_of(board, sigma, other, pitch=pitch > 0)
-                wanted = log_density(board, in_full(board, part, a, covariance))
-                ours = loose[:, a, m] - part.log_prior[a] - constant(board)
-                assert ours == pytest.approx(wanted, abs=1e-8)
-
-
-def test_sizes_are_those_of_the_textbook():
-    board = made_up(least=EITHER_SIGN)
-    part = accounts_of(board).parts[-1]
-    fit = fitted(part, Metric.of(board, SIGMAS[:1]))
-    precision = np.linalg.inv(covariance_of(board, SIGMAS[0]))
-    for a in (0, len(part.sets) - 1):
-        columns = board.effects[:, part.index[a]]
-        covariance = np.linalg.inv(columns.T @ precision @ columns + np.diag(1 / part.variance[a]))
-        assert fit.inverse[:, :, a] == pytest.approx(covariance)
-        assert fit.mean[:, 0, a] == pytest.approx(
-            covariance @ columns.T @ precision @ board.read[:, 0]
-        )
 
 
 def variant(accounts, *names):
@@ -107,17 +68,6 @@ def random_normals(source, k):
     root = source.standard_normal((k, 3 * k))
     covariance = root @ root.T / k
     return np.sqrt(np.diag(covariance)) * source.uniform(-1.5, 2.5, k), covariance
-
-
-@pytest.mark.parametrize("k", [2, 3, 4, 5])
-def test_the_mass_where_nothing_is_negative_is_that_of_the_normal(k):
-    source = np.random.default_rng(k)
-    for _ in range(12):
-        mean, covariance = random_normals(source, k)
-        wanted = stats.multivariate_normal(np.zeros(k), covariance, seed=1).logcdf(mean)
-        (ours,) = log_orthant(mean[:, np.newaxis], covariance[:, :, np.newaxis])
-        # What is hardly possible need not be known so well.
-        assert ours == pytest.approx(wanted, abs=0.03 + 0.05 * max(-wanted - 1.5, 0.0))
 
 
 def test_the_mass_of_independent_numbers_is_a_product():
@@ -176,38 +126,7 @@ def test_sets_keep_their_weights_when_others_are_left_out():
     assert some[wanted] == pytest.approx(whole[wanted]) and np.all(some[~wanted] == -np.inf)
 
 
-def test_variants_of_a_set_are_added_to_their_set():
-    accounts = accounts_of(made_up(), 2)
-    total = np.full((len(accounts.effects), 1), -np.inf)
-    for part in accounts.parts:
-        add_by_set(total, part, np.zeros((len(part.sets), 1)))
-    assert np.exp(total[:, 0]) == pytest.approx([1, *[2] * 4, *[4] * 6, 1])
-
-
 # Readings that are off: an added column for each.
-
-
-@pytest.mark.parametrize("pull", [0.0, -5.0, 5.0])
-@pytest.mark.parametrize("count", [1, 2, 6])
-def test_a_reading_that_is_off_is_a_shift_of_its_own_numbers(count, pull):
-    board = made_up(seed=5, measured=7, pitch=0.4, least=(0.0, 0.0, -np.inf, -np.inf))
-    # A reading that is off as only an impossible gap would have it.
-    board.read[:2, 0] += pull * board.effects[:2, 1]
-    noises = Noises(np.geomspace(0.3, 0.9, count), np.log(np.full(count, 1 / count)))
-    numbers = np.array([[0, 1], [2, 3], [4, 5], [6, len(board.read)]])
-    accounts = accounts_of(board, 2)
-    ours = outlier_weights(board, accounts, noises, numbers)
-    drifting = board.effects[:, [2]] * board.sizes.pitch[2]
-    for reading, rows in enumerate(numbers):
-        each = []
-        for spread in OUTLIER_SPREADS:
-            shifts = spread * np.eye(len(board.read) + 1)[:-1, rows]
-            moved = replace(board, frame=np.hstack([board.frame, drifting, shifts]))
-            each.append(weights_of(accounts, Metric.of(moved, noises.sigmas), noises))
-        wanted = np.logaddexp.reduce(np.concatenate(each), axis=None)
-        wanted -= np.log(len(numbers) * len(OUTLIER_SPREADS))
-        # The sizes' spread is taken as if no reading were off.
-        assert ours[reading] == pytest.approx(wanted, abs=0.1)
 
 
 # Noises worth a look.

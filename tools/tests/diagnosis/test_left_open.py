@@ -8,7 +8,6 @@ from plumb.bench.boards import cut, plan
 from plumb.bench.causes import MAKER, Hidden
 from plumb.cure.auto import add_auto
 from plumb.diagnosis import diagnose
-from plumb.diagnosis.expected_error import LeftOpen
 from plumb.fit.expected import expected_error
 from plumb.fit.inputs import Inputs
 from plumb.fit.problem import PRIORS, Checked
@@ -21,7 +20,7 @@ def open_of(layout, *, noise=0.5, seed=3, settings=MAKER):
 
 @pytest.mark.parametrize(
     ("columns", "rows", "is_too_much"),
-    [(3, 1, True), (9, 1, True), (1, 4, True), (2, 2, True), (3, 2, False), (3, 3, False)],
+    [(9, 1, True), (2, 2, True), (3, 2, False)],
 )
 def test_a_row_of_marks_leaves_too_much_open(columns, rows, is_too_much):
     assert open_of(plan(columns, rows)).is_too_much is is_too_much
@@ -46,10 +45,6 @@ def test_before_anything_is_measured_it_is_what_is_normal():
     assert open_of(plan(3, 3), settings=bare).before == pytest.approx(normal.all_shape, rel=0.1)
 
 
-def test_the_limit_is_a_share_of_what_may_be_off():
-    assert LeftOpen(2.0, 0.61).is_too_much and not LeftOpen(2.0, 0.59).is_too_much
-
-
 def test_nothing_is_fitted_to_too_little_by_any_door():
     marks = cut(Hidden(), plan(3, 1), seed=3, settings=MAKER).measurements
     result = add_auto(Inputs(MAKER, marks))
@@ -68,8 +63,3 @@ def test_a_number_that_is_known_leaves_less_open():
     checked = diagnose(replace(inputs, checked=checks)).left_open
     assert checked.before < 0.9 * diagnose(inputs).left_open.before
     assert checked.now < 0.95 * diagnose(inputs).left_open.now
-
-
-def test_places_that_the_sled_cannot_reach_do_not_count():
-    high = replace(MAKER, sheet_height=2600.0)  # its top edge lies above the motors
-    assert 0 < open_of(plan(3, 3), settings=high).now < 10

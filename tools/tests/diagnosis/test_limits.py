@@ -4,7 +4,6 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from plumb.cure.add import add
 from plumb.diagnosis import diagnose
 from plumb.diagnosis.explanation import Board, explain
 from plumb.diagnosis.noise import KNOWN, Noise
@@ -46,21 +45,19 @@ def test_a_limit_of_what_cannot_be_negative_is_its_upper_end():
         assert limit.largest == pytest.approx(left * sigma_of_size, rel=0.01, abs=1e-12)
 
 
-@pytest.mark.parametrize("judge", [diagnose, lambda inputs: add(inputs, effects=["chain_pitch"])])
-def test_repeats_are_no_further_marks(judge):
+def test_repeats_are_no_further_marks():
     twice = marks_on(BELIEVED, BELIEVED, grid(2, 1), noise=0.5)
     marks = twice + marks_on(BELIEVED, BELIEVED, grid(2, 1), noise=0.5, seed=2)
     marks += marks_on(BELIEVED, BELIEVED, grid(2, 1), noise=0.5, seed=3)
     with pytest.raises(InputError, match="4 measured numbers"):
-        judge(Inputs(BELIEVED, Measurements(marks, source="two marks")))
+        diagnose(Inputs(BELIEVED, Measurements(marks, source="two marks")))
 
 
-@pytest.mark.parametrize("judge", [diagnose, lambda inputs: add(inputs, effects=["chain_pitch"])])
-def test_a_distance_is_the_same_from_both_ends(judge):
+def test_a_distance_is_the_same_from_both_ends():
     spans = distances_between(marks_on(BELIEVED, BELIEVED, grid(3, 1), noise=0.5))
     back = tuple(Distance(span.between[::-1], span.length + 0.3) for span in spans.distances)
     with pytest.raises(InputError, match="3 measured numbers"):
-        judge(Inputs(BELIEVED, replace(spans, distances=spans.distances + back)))
+        diagnose(Inputs(BELIEVED, replace(spans, distances=spans.distances + back)))
 
 
 def test_three_marks_are_enough_to_begin_with():

@@ -10,7 +10,6 @@ from plumb.bench.causes import MAKER
 from plumb.diagnosis import diagnose
 from plumb.diagnosis.explanation import Board, explain
 from plumb.diagnosis.noise import (
-    FEWEST_SPARE,
     KNOWN,
     SURPRISING,
     Noise,
@@ -19,11 +18,10 @@ from plumb.diagnosis.noise import (
     noise_by,
 )
 from plumb.diagnosis.posterior import posterior_of
-from plumb.diagnosis.priors import STATED_SPREAD, UNSTATED_SPREAD, noise_prior
+from plumb.diagnosis.priors import STATED_SPREAD
 from plumb.fit.inputs import Inputs, Stated
 from plumb.fit.observations import observe
-from plumb.fit.problem import USUAL_SIGMA
-from plumb.marks.read import Mark, Measurements
+from plumb.marks.read import Measurements
 from scipy import stats
 from synthetic import BELIEVED, TRUE, grid, marks_on
 
@@ -46,7 +44,7 @@ def weights_for(sigmas, sigma, degrees):
     return -degrees * (np.log(sigmas) + 0.5 * (sigma / sigmas) ** 2)
 
 
-@pytest.mark.parametrize("degrees", [10, 40, 200])
+@pytest.mark.parametrize("degrees", [10, 200])
 def test_a_noise_is_known_as_well_as_its_posterior_is_narrow(degrees):
     sigmas = np.geomspace(0.05, 5.0, 400)
     noise = noise_by(sigmas, weights_for(sigmas, 0.6, degrees), None)
@@ -59,13 +57,6 @@ def test_a_noise_is_known_as_well_as_its_posterior_is_narrow(degrees):
     assert (less.sigma, less.degrees) == pytest.approx((noise.sigma, noise.degrees))
 
 
-def test_a_coarse_grid_of_noises_says_the_same():
-    fine, coarse = (np.geomspace(0.1, 3.0, count) for count in (400, 25))
-    by = [noise_by(each, weights_for(each, 0.6, 40), None) for each in (fine, coarse)]
-    assert by[1].sigma == pytest.approx(by[0].sigma, rel=0.01)
-    assert 0.85 * by[0].degrees < by[1].degrees <= by[0].degrees  # a little less sure
-
-
 def test_a_noise_that_is_final_stays_whatever_the_marks_say():
     for noise in (0.1, 2.0):
         said = posterior_of(board_of(noise=noise), FINAL).noise
@@ -73,7 +64,7 @@ def test_a_noise_that_is_final_stays_whatever_the_marks_say():
 
 
 @pytest.mark.parametrize("stated", [None, Stated(0.5)])
-@pytest.mark.parametrize("true", [0.3, 0.5, 1.0])
+@pytest.mark.parametrize("true", [0.3, 1.0])
 def test_marks_move_what_was_stated_towards_what_they_scatter(stated, true):
     few, many = (
         posterior_of(board_of(noise=true, columns=columns, rows=3, times=times), stated).noise
@@ -83,21 +74,6 @@ def test_marks_move_what_was_stated_towards_what_they_scatter(stated, true):
     assert many.sigma == pytest.approx(true, rel=0.2)
     assert abs(np.log(many.sigma / true)) < abs(np.log(few.sigma / true)) + 0.1
     assert few.degrees < many.degrees < 200
-
-
-def test_repeats_make_the_noise_surer_and_it_is_no_surer_than_what_was_read():
-    once, thrice = (
-        posterior_of(board_of(noise=0.5, columns=3, times=times), None).noise for times in (1, 3)
-    )
-    assert once.degrees < 18 + 1 / (2 * UNSTATED_SPREAD**2) and 30 < thrice.degrees < 60
-
-
-def test_readings_that_agree_to_the_last_digit_are_not_without_noise():
-    marks = tuple(Mark(str(i), tuple(at), tuple(np.round(at))) for i, at in enumerate(grid(3, 3)))
-    board = Board.of(BELIEVED, observe(BELIEVED, Measurements(marks * 3)), sigma=USUAL_SIGMA)
-    for stated in (None, Stated(0.5)):
-        noise = posterior_of(board, stated).noise
-        assert 0.01 < noise.sigma < 0.4 and 20 < noise.degrees < 150
 
 
 @pytest.mark.parametrize(
@@ -112,26 +88,12 @@ def test_what_differs_from_what_was_stated_by_more_than_people_err_is_said(off, 
     assert not says or f", {says} than the stated 0.50 mm" in noise.notes[0]
 
 
-def test_before_the_marks_a_noise_is_about_what_was_stated():
-    assert noise_prior(Stated(0.3)) == (0.3, STATED_SPREAD)
-    assert noise_prior(Stated(0.3, is_final=True)) == (0.3, 0.0)
-    assert noise_prior(None) == (USUAL_SIGMA, UNSTATED_SPREAD)
-    assert STATED_SPREAD < UNSTATED_SPREAD
-
-
 # Lack of fit.
 
 
 def test_a_misfit_is_as_likely_as_chance_says_where_the_noise_is_known():
     chances = [misfit_chance(explain(board_of(noise=0.5, seed=seed)), FINAL) for seed in range(60)]
     assert stats.kstest(chances, "uniform").pvalue > 0.01
-
-
-def test_a_misfit_is_chi_square_over_the_numbers_to_spare():
-    frame = explain(board_of(noise=0.7))
-    spent = float(np.sum(frame.basis[:30] ** 2))
-    left = float(np.sum(frame.numbers**2)) / 0.5**2
-    assert misfit_chance(frame, FINAL) == pytest.approx(stats.chi2.sf(left, 30 - spent))
 
 
 def test_a_misfit_is_no_surprise_where_the_noise_is_little_known():
@@ -148,14 +110,6 @@ def test_repeats_that_scatter_make_a_misfit_no_surprise_and_quiet_repeats_do_not
     assert misfit_chance(loud, Stated(0.17)) > 0.03
     once = explain(board_of(noise=0.5, rows=3))
     assert misfit_chance(once, Stated(0.17)) < misfit_chance(loud, Stated(0.17))
-
-
-def test_a_misfit_needs_half_a_number_to_spare():
-    three = explain(board_of(noise=30.0, columns=3, rows=1))
-    basis = np.sum(three.basis[:6] ** 2)
-    assert 6 - basis > FEWEST_SPARE and misfit_chance(three, FINAL) < 1e-6
-    two = explain(board_of(noise=30.0, columns=2, rows=1), ("tape_scale", "sheet_skew"))
-    assert 4 - np.sum(two.basis[:4] ** 2) < FEWEST_SPARE and misfit_chance(two, FINAL) == 1.0
 
 
 def test_noise_leaves_what_it_leaves_of_many_boards():

@@ -2,13 +2,9 @@
 
 import numpy as np
 import pytest
-from plumb.diagnosis.explanation import Board, explain, span
-from plumb.diagnosis.noise import KNOWN, Noise
 from plumb.diagnosis.outliers import Reading, Shift, described
-from plumb.diagnosis.sizes import sizes_of
-from plumb.fit.observations import observe
 from plumb.marks.read import Distance, Mark, Measurements
-from synthetic import BELIEVED, SHEET, TRUE, grid, marks_on
+from synthetic import SHEET
 
 
 def slip_of(read, expected, sigma=0.3):
@@ -57,23 +53,3 @@ def test_a_distance_has_no_axis():
     slip = slip_of_distance(925.4, 900.0)
     assert slip.guess == "misread by an inch?" and slip.way == "too long"
     assert slip_of_distance(890.0, 900.0).way == "too short"
-
-
-def test_a_span_sees_short_columns_and_drops_what_repeats():
-    assert span(np.diag([1.0, 1e-8])).shape == (2, 2)
-    assert span(np.array([[1.0, 2.0], [1.0, 2.0]])).shape == (2, 1)
-    tiny = np.array([[1e-9], [0.0]])
-    assert span(tiny).shape == (2, 1) and span(tiny, against=np.eye(2)[:, :1]).shape == (2, 0)
-
-
-def test_sizes_come_with_names_units_and_intervals():
-    rows = observe(BELIEVED, Measurements(marks_on(TRUE, BELIEVED, grid(5, 3), noise=0.2, seed=3)))
-    fitted = explain(Board.of(BELIEVED, rows, sigma=0.2), ("chain_pitch",))
-    sizes = sizes_of(fitted, "chain_pitch", Noise(0.2, KNOWN, "stated"))
-    assert [size.name for size in sizes] == ["left", "right"]
-    column = fitted.board.columns(["chain_pitch"])[0]
-    curvature = fitted.slopes[:, fitted.free].T @ fitted.slopes[:, fitted.free]
-    deviation = np.sqrt(np.linalg.inv(curvature)[len(fitted.board.frame), len(fitted.board.frame)])
-    half = 1.96 * deviation * fitted.board.problem.scale[column]
-    assert sizes[0].high - sizes[0].value == pytest.approx(half, rel=1e-6)
-    assert sizes[0].value - sizes[0].low == pytest.approx(half, rel=1e-6)

@@ -15,9 +15,9 @@ from plumb.diagnosis.posterior import (
     listing,
     posterior_of,
 )
-from plumb.diagnosis.priors import size_priors, usual_checks
+from plumb.diagnosis.priors import usual_checks
 from plumb.fit.inputs import Inputs, Stated
-from plumb.model.catalogue import EVERY_MACHINE, parameter_words
+from plumb.model.catalogue import EVERY_MACHINE
 from scipy import special
 
 NINE = plan(3, 3)
@@ -51,42 +51,6 @@ def test_an_account_that_only_adds_to_a_likelier_one_counts_with_it():
     ]
     # One that is likelier with more stays, and what is in it stays beside it.
     assert [each for each, _ in listed({("a", "b"): 0.6, ("a",): 0.4})] == [("a", "b"), ("a",)]
-
-
-def test_no_cause_is_hidden_in_nothing():
-    shares = {(): 0.6, ("a",): 0.3, ("b",): 0.1}
-    assert listed(shares) == [(each, pytest.approx(share)) for each, share in shares.items()]
-
-
-def test_what_gains_by_its_supersets_comes_first():
-    shares = {("a",): 0.4, ("b",): 0.38, ("b", "c"): 0.22}
-    assert [each for each, _ in listed(shares)] == [("b",), ("a",)]
-
-
-def test_what_is_not_needed_once_supersets_are_counted_is_not_listed():
-    shares = {("a",): 0.47, ("b",): 0.44, ("d",): 0.04, ("a", "c"): 0.03, ("b", "c"): 0.02}
-    assert listed(shares) == [(("a",), pytest.approx(0.5)), (("b",), pytest.approx(0.46))]
-
-
-def test_priors_of_sizes_are_those_of_the_catalogue():
-    names = {}
-    for settings in (BARE, MAKER):
-        at = measured_board(Inputs(settings, board({}, NINE, seed=3)))
-        columns = at.columns(at.effect_columns)
-        sizes, words = size_priors(at, columns), parameter_words()
-        for i, column in enumerate(columns):
-            name = at.problem.names[column]
-            met = max(abs(words[name]["low"]), abs(words[name]["high"]))
-            if not name.startswith("chain_pitch."):  # which stand as sum and difference
-                assert sizes.largest[i] == pytest.approx(met / abs(words[name]["typical"]))
-            # What cannot be negative is at least zero: off by what the settings have of it.
-            has = at.problem.start[column] / at.problem.scale[column]
-            assert sizes.least[i] == (-has if words[name]["low"] >= 0 else -np.inf)
-            assert (sizes.pitch[i] > 0) == name.startswith("chain_pitch.")
-            names.setdefault(name, []).append((sizes.mean[i], sizes.usual[i]))
-    (unknown, less), (known, sure) = names["chain_stretch.compliance"]
-    assert (unknown, known) == (1.0, 0.0) and 0 < sure < less
-    assert names["chain_plane.gap_squared"] == [(0.0, 0.0)] * 2
 
 
 @pytest.fixture(scope="module")

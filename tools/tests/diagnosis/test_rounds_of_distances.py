@@ -7,7 +7,7 @@ import pytest
 from plumb.diagnosis import diagnose
 from plumb.diagnosis.explanation import Board, explain
 from plumb.diagnosis.linear import moved_rounds
-from plumb.diagnosis.outliers import MixedPair, Reading, find_mixed_up, without
+from plumb.diagnosis.outliers import MixedPair, find_mixed_up
 from plumb.fit.inputs import Inputs
 from plumb.fit.observations import model_and_observations
 from plumb.marks.read import join_measurements
@@ -70,10 +70,3 @@ def test_what_changed_between_files_is_no_exchange_of_readings(seed):
     spans[longest] = replace(second, length=first.length)
     mixed_up = find_mixed_up(board_of(replace(both, distances=tuple(spans))))
     assert mixed_up.pairs == (MixedPair(0, longest, is_mark=False),)
-
-
-def test_a_distance_that_is_left_out_takes_its_file_along():
-    rows = board_of(two_files(PITCH)).rows
-    rest = without(rows, Reading(3, False))
-    assert rest.distance_rounds.tolist() == [0] * 65 + [1] * 66
-    assert len(rest.distances) == len(rest.distance_rows) == 131

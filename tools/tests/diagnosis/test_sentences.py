@@ -4,7 +4,6 @@ from types import SimpleNamespace
 
 import pytest
 from plumb.diagnosis.answer import odds_words, verdict_sentence
-from plumb.diagnosis.unseen import unseen_by
 
 LONG = "chain_plane", "chain_zero", "sheet_skew"  # effects with the longest nouns
 PAIR = LONG[:2]
@@ -118,13 +117,6 @@ def test_odds_are_as_fine_as_they_are_known(share, words):
     assert odds_words(share) == words
 
 
-def test_of_many_slips_the_first_are_named():
-    slips = [SimpleNamespace(called=f"distance {i} - 5", against=f"{i % 2}") for i in range(30)]
-    said = verdict_sentence(SimpleNamespace(verdict="slip", outliers=slips))
-    assert len(said.split()) <= 40
-    assert "distance 0 - 5, distance 1 - 5 and 28 more again before" in said
-
-
 @pytest.mark.parametrize(
     ("count", "words"), [(1, "One reading disagrees"), (2, "Some readings disagree")]
 )
@@ -133,25 +125,3 @@ def test_the_sentence_counts_the_slips(count, words):
     slips = [SimpleNamespace(called=name, against="every explanation") for name in names]
     said = verdict_sentence(SimpleNamespace(verdict="slip", outliers=slips))
     assert said.startswith(words) and "A" in said
-
-
-def test_what_may_act_unseen_leaves_out_suspects_and_begins_with_the_largest():
-    sizes = {"chain_pitch": 9.0, "chain_sag": 0.4, "frame_flex": 2.5, "motor_level": 1.5}
-    diagnosis = SimpleNamespace(
-        suspects=("chain_pitch",),
-        could_hide=(
-            *(SimpleNamespace(effect=name, mm=mm) for name, mm in sizes.items()),
-            SimpleNamespace(effect="tape_scale", mm=None),
-        ),
-        ranking=[
-            SimpleNamespace(effect="chain_sag", hidden_share=0.4),
-            SimpleNamespace(effect="frame_flex", hidden_share=None),
-            SimpleNamespace(effect="motor_level", hidden_share=0.996),
-            SimpleNamespace(effect="chain_pitch", hidden_share=0.5),
-        ],
-    )
-    unseen = unseen_by(diagnosis, 2)
-    assert [(each.mm, each.taken_up) for each in unseen.causes] == [(2.5, "-"), (1.5, "100 %")]
-    assert unseen.silent == "these marks say nothing of a tape that reads wrong"
-    diagnosis.could_hide = diagnosis.could_hide[:-1]
-    assert unseen_by(diagnosis, 9).silent == "" and len(unseen_by(diagnosis, 9).causes) == 3

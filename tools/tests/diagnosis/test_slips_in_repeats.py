@@ -67,8 +67,3 @@ def test_repeated_distances_are_looked_at_too():
     assert diagnosis.verdict == "slip" and diagnosis.noise.sigma < 0.6
     assert diagnosis.outliers[0].name == " - ".join(spans[-1].between)
     assert diagnosis.outliers[0].offset[0] == pytest.approx(9, abs=1.5)
-
-
-def test_noise_alone_makes_no_slip():
-    boards = (cut(Hidden(), plan(3, 3, times=2), seed=seed).measurements for seed in range(12))
-    assert not any(diagnose(Inputs(MAKER, board)).outliers for board in boards)

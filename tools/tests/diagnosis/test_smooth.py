@@ -40,14 +40,3 @@ def test_a_distance_grows_by_what_its_ends_move_apart():
     # The first distance goes from the first mark to the second, to its right.
     apart = 2 - 2 * alike(targets[0], targets[1], 0.7)
     assert columns[0] @ columns[0] == pytest.approx(apart, abs=0.01)
-
-
-def test_columns_leave_out_no_more_than_they_may():
-    targets, _ = columns_on(plan(5, 5), 1.4)
-    rows = observe(MAKER, cut(Hidden(), plan(5, 5), seed=1).measurements)
-    frame = explain(Board.of(MAKER, rows, sigma=0.5))
-    for least in (1e-2, 1e-6):
-        (columns,) = gaussian_process_columns(frame, (1.4,), least)
-        missing = 1 - np.sum(columns**2, axis=1)
-        assert missing.max() < least and missing.min() > -1e-9
-    assert columns.shape[1] < 2 * len(targets)

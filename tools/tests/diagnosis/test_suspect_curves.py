@@ -48,22 +48,6 @@ def test_what_the_frame_leaves_is_what_the_suspect_adds_and_what_it_leaves(stret
     assert alone == pytest.approx(added + less, abs=0.02)
 
 
-def test_the_frame_adds_nothing_to_itself(stretched):
-    frame, _ = stretched
-    assert np.abs(added_chains(frame, frame, frame.board.rows)).max() < 1e-6
-
-
-def test_a_curve_lies_among_what_is_drawn_at_the_marks(stretched):
-    frame, both = stretched
-    drawn = suspect_curves(frame, both, frame.board.rows)
-    left, right = drawn.curves["length"]
-    for curve, chains in ((left, drawn.chains[:, 0]), (right, drawn.chains[:, 1])):
-        assert len(curve.at) == BINS and np.all(np.diff(curve.at) > 0)
-        assert np.all(curve.low <= curve.middle) and np.all(curve.middle <= curve.high)
-        assert curve.low.min() > chains.min() - 1 and curve.high.max() < chains.max() + 1
-    assert set(drawn.curves) == {"tension", "length", "angle", "phase", "wrap", "x", "y"}
-
-
 def test_four_fifths_of_the_places_lie_in_the_shade(stretched):
     frame, both = stretched
     sheet = visits_all_over(model_by(frame), frame.board.rows)
@@ -111,19 +95,3 @@ def test_each_place_of_the_sheet_is_visited_as_the_nearest_mark_was():
         assert quarter == {150.0, 120.0}
     assert np.all(sheet.approaches == [0.0, 1.0])
     assert len(sheet.targets) == len(sheet.chains) == len(sheet.mark_rows) > 800
-
-
-def test_friction_is_seen_where_marks_say_how_the_sled_came():
-    marks = tuple(
-        Mark(str(i), (x, y), (x, y), approach=(0.0, 1.0)) for i, (x, y) in enumerate(grid(5, 3))
-    )
-    rows = observe(TRUE, Measurements(marks))
-    board = Board.of(TRUE, rows, sigma=0.5)
-    frame, (column,) = explain(board), board.columns(["sled_friction"])
-    unknowns = frame.unknowns.copy()
-    unknowns[column] = 1.0
-    rubbing = replace(frame, effects=("sled_friction",), at=replace(frame.at, unknowns=unknowns))
-    drawn = suspect_curves(frame, rubbing, rows)
-    # Coming from below the sled stops short, so the chains seem longer.
-    assert drawn.chains.min() > 0 and drawn.chains.max() > 0.05
-    assert drawn.curves["y"][0].middle.min() > 0

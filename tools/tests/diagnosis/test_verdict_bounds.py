@@ -132,12 +132,3 @@ def test_each_verdict_has_its_board(hidden, millimetres, bump, expected):
         assert diagnosis.to_add == () and diagnosis.explanations == ()
     else:
         assert hidden in diagnosis.to_add  # also where something else is unknown
-
-
-def test_a_larger_effect_makes_nothing_less_likely():
-    chances = []
-    for millimetres in (0.2, 0.8, 1.6, 3.2):
-        size = size_for("chain_plane", WIDE, millimetres)
-        diagnosis = diagnose(Inputs(MAKER, board({"chain_plane": size}, WIDE, seed=4)))
-        chances.append(diagnosis.nothing_chance)
-    assert chances == sorted(chances, reverse=True) and chances[0] > NOTHING > chances[-1]

@@ -1,6 +1,8 @@
 """A `plumb vm` that runs for a test, as a program with a serial port."""
 
+import contextlib
 import functools
+import io
 import signal
 import subprocess
 import sys
@@ -8,7 +10,10 @@ import time
 from pathlib import Path
 
 import hurried_plumb
+import pytest
 from hurried_plumb import SPEED
+from plumb.cli.main import main
+from plumb.line.sender import Watch
 
 PLUMB = [sys.executable, hurried_plumb.__file__]
 START = 120  # [s] in which a program on a busy computer must have begun
@@ -19,13 +24,22 @@ INTERRUPTIBLE = functools.partial(
 )
 
 
-def plumb(*words: str, folder: Path, code: int = 0, typed: str = "") -> str:
-    """What a command prints; its exit code must be this."""
-    done = subprocess.run(
-        [*PLUMB, *words], cwd=folder, capture_output=True, text=True, timeout=120, input=typed
-    )
-    assert done.returncode == code, done.stdout + done.stderr
-    return done.stdout + done.stderr
+def plumb(*words: str, folder: Path, code: int = 0, typed: str | None = None) -> str:
+    """What a command prints; its exit code must be this. Who types needs a program of his own."""
+    if typed is None:
+        said, complaint = io.StringIO(), io.StringIO()
+        with pytest.MonkeyPatch.context() as patch, contextlib.chdir(folder):
+            patch.setattr(Watch, "speed", SPEED)
+            with contextlib.redirect_stdout(said), contextlib.redirect_stderr(complaint):
+                ended = main([*words])
+        heard = said.getvalue() + complaint.getvalue()
+    else:
+        done = subprocess.run(
+            [*PLUMB, *words], cwd=folder, capture_output=True, text=True, timeout=120, input=typed
+        )
+        ended, heard = done.returncode, done.stdout + done.stderr
+    assert ended == code, heard
+    return heard
 
 
 class Served:

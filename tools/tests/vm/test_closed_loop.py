@@ -12,7 +12,7 @@ from plumb.marks.read import read_marks
 from plumb.plan.case import Check
 from plumb.plan.planned_visits import sent
 from plumb.vm.garage import Garage, astray, random_garage
-from plumb.vm.loop import Budget, Spent, closed_loop, cutting, reading
+from plumb.vm.loop import Spent, closed_loop
 from plumb.vm.owner import VirtualOwner, true_value
 from plumb.vm.tape import filled_form, marks_on
 
@@ -63,15 +63,6 @@ def test_an_owner_measures_what_is_true_and_no_better():
     assert true_value(owner.garage, "sled_friction.drag") == owner.garage.friction
 
 
-def test_an_owner_measures_the_motors_height_from_the_sheet_as_it_lies():
-    """A tape starts at the sheet's edge. A sheet that lies low makes the motors seem high."""
-    low = Garage(Hidden(), motor_height=1075.0, sheet_center=(2.0, -6.0))
-    assert true_value(low, "motor_height") == pytest.approx(1081.0)
-    turned = replace(low, sheet_center=(0.0, -6.0), sheet_turn=0.01)
-    assert true_value(turned, "motor_height") == pytest.approx(1081.0 * np.cos(0.01))
-    assert true_value(low, "motor_gap") == low.motor_gap
-
-
 def test_a_cut_that_goes_sideways_is_no_mark():
     dimple = [(1, 0.1, 5.0, 6.0, 0.1), (1, 0.2, 5.1, 6.0, 0.4)]
     line = [(2, 1.0, 5.0, 6.0, 0.4), (2, 2.0, 9.0, 6.0, 0.4)]
@@ -112,13 +103,6 @@ def test_a_slip_is_read_again_and_then_the_effect_is_named():
     assert loop.auto.diagnosis.verdict == "one_suspect" and loop.auto.chosen == ("sled_swing",)
     # A reading costs no hole.
     assert loop.spent == Spent(25, 3 + 25 * 1.5 + 0.75)
-
-
-def test_a_budget_allows_what_it_has_and_no_more():
-    assert Budget(4, 9.0).allows(Spent(4, 9.0))
-    assert not Budget(4, 9.0).allows(Spent(5, 9.0))
-    assert not Budget(4, 9.0).allows(Spent(4, 9.1))
-    assert cutting([98.0, 98.0], 98.0) == Spent(2, 6.0) and reading(2) == Spent(0, 1.5)
 
 
 def test_what_no_effect_explains_moves_marks_by_its_size_and_alike_everywhere():

@@ -1,14 +1,12 @@
 """Practice: a secret in a folder, a machine that a tape reads, and what an answer is worth."""
 
 import json
-import os
 import signal
 from dataclasses import replace
 
 import pytest
 from plumb.bench.causes import MAKER, Hidden
 from plumb.cli.main import main
-from plumb.cli.practice import _Reader
 from plumb.marks.read import read_marks
 from plumb.settings.files import read_settings
 from plumb.settings.toml import machine_toml
@@ -17,13 +15,12 @@ from plumb.vm.practice import Secret, claims_of, score, secret_in
 from served_machine import INTERRUPTIBLE, PLUMB, plumb
 
 GRID = ("grid", "--places=-1119,510 1119,510 1119,-510 -1119,-510")
-FORM = '[[mark]]\nname = "a"\ntarget = [1200, 600]\n# measured = [ , ]\n'
 
 
 @pytest.fixture
 def machine(tmp_path):
     """The machine of the folder game, with seed 7."""
-    words = ("practice", "start", "game", "--seed", "7", "--speed", "100")
+    words = ("practice", "start", "game", "--seed", "7", "--speed", "30")
     program = INTERRUPTIBLE([*PLUMB, *words], cwd=tmp_path)
     while not (tmp_path / "game/port").is_symlink():
         assert program.poll() is None, "no machine"
@@ -52,42 +49,6 @@ def test_a_practice_is_cut_read_and_revealed_with_the_commands_of_a_machine(mach
     assert score["after_mm"] < 0.5 * score["before_mm"]
     # Settings that were left as they are find nothing.
     assert "You missed" in plumb("practice", "reveal", "game", folder=tmp_path, code=1)
-
-
-class Tape:
-    """A tape that says what it was asked."""
-
-    def __init__(self):
-        self.said = []
-
-    def get_ready(self, form):
-        self.said.append("ready")
-
-    def pass_over(self, machine):
-        self.said.append("pass over")
-
-    def fill_when_cut(self, form, machine):
-        self.said.append(form.count("[[mark]]"))
-        return form.replace("# measured = [ , ]", "measured = [1, 2]") if machine else None
-
-
-def test_the_tape_reads_the_newest_form_and_no_mark_that_was_cut_before_it(tmp_path):
-    tape = Tape()
-    reader = _Reader(tmp_path, tape)
-    reader.look(True)
-    old, new, done = (tmp_path / f"{name}.toml" for name in ("old", "new", "done"))
-    for age, (path, text) in enumerate(((done, "a = 1"), (new, FORM), (old, FORM + FORM))):
-        path.write_text(text)
-        age_ns = 10**18 - age * 10**9
-        os.utime(path, ns=(age_ns, age_ns))
-    reader.look(False)
-    reader.look(False)
-    assert tape.said == ["ready", "pass over", 1, 1] and "# measured" in new.read_text()
-    reader.look(True)
-    assert "\nmeasured = [1, 2]" in new.read_text() and "# measured" in old.read_text()
-    new.unlink()
-    reader.look(True)
-    assert tape.said[-2:] == ["pass over", 2] and done.read_text() == "a = 1"
 
 
 @pytest.mark.parametrize(

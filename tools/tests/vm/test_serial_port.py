@@ -12,8 +12,6 @@ import serial
 from plumb.cli.main import main
 from plumb.cli.vm import EEPROM_BYTES, TRAVELS
 from plumb.diary.file import append, read_diary
-from plumb.line.port import port_for
-from plumb.text.errors import InputError
 from served_machine import INTERRUPTIBLE, PLUMB, START, plumb
 
 
@@ -219,13 +217,6 @@ def test_a_program_that_waits_is_stopped_by_s_and_where_nobody_can_answer(served
     assert re.search(r"x (4\.9|5\.0)\d,", plumb("read", "--port", "maslow", folder=tmp_path))
 
 
-def test_a_line_that_begins_with_s_is_no_stop(served, tmp_path):
-    served()
-    (tmp_path / "job.nc").write_text(WAITING)
-    said = plumb("send", "--port", "maslow", "job.nc", folder=tmp_path, typed="S1000\n\n\n")
-    assert said.count("The machine waits.") == 1 and "6 lines were sent" in said
-
-
 def test_z_is_moved_and_set_in_a_pause_and_the_depth_holds_from_there(served, tmp_path):
     served()
     (tmp_path / "job.nc").write_text("G21\nG0 Z5\nM0\nG1 Z-2 F300\nG0 Z5\nM30\n")
@@ -237,16 +228,6 @@ def test_z_is_moved_and_set_in_a_pause_and_the_depth_holds_from_there(served, tm
     assert "Z goes back to 5.00" in said and "6 lines were sent" in said
     read = plumb("read", "--port", "maslow", folder=tmp_path)
     assert place(read)[::2] == pytest.approx((0, 5), abs=0.05)
-
-
-def test_what_the_board_saw_is_said_before_it_is_reset_and_forgets(served, tmp_path):
-    served()
-    plumb("send", "--port", "maslow", "$75=0.95", folder=tmp_path)
-    (tmp_path / "job.nc").write_text("G21\nG1 X5 F900\n")
-    said = plumb("send", "--json", "--port", "maslow", "job.nc", folder=tmp_path)
-    answer, end = json.JSONDecoder().raw_decode(said)
-    assert [each[:24] for each in answer["warnings"]] == ["The Mega's 5 V fell to 4"]
-    assert "- The Mega's 5 V fell to 4.3" in said[end:]
 
 
 def test_a_program_of_which_nothing_is_done_is_not_gone_on_with(served, tmp_path):
@@ -285,14 +266,6 @@ def test_opening_the_port_resets_the_board_each_time(served, tmp_path):
             assert b"PCB v1.2" in line.read_until(b"Detected")
 
 
-def test_the_memory_outlives_the_program(served, tmp_path):
-    first = served("--eeprom", "memory.bin")
-    plumb("send", "--port", "maslow", "$2=2981", folder=tmp_path)
-    first.stop()
-    served("--eeprom", "memory.bin")
-    assert "2981" in plumb("read", "--port", "maslow", folder=tmp_path)
-
-
 def test_the_sled_hangs_at_the_next_start_where_it_hung_at_the_end(served, tmp_path):
     def hangs() -> tuple[float, ...]:
         return TRAVELS.unpack((tmp_path / "memory.bin").read_bytes()[EEPROM_BYTES:])
@@ -320,13 +293,6 @@ def test_the_sled_hangs_at_the_next_start_where_it_hung_at_the_end(served, tmp_p
     assert hangs() == pytest.approx((1651, 1651, 0), abs=0.05)
 
 
-def test_a_fresh_machine_knows_no_chains(served, tmp_path):
-    server = served("--fresh")
-    said = plumb("send", "--port", "maslow", "B15", folder=tmp_path, code=2)
-    assert "the machine says" in said
-    server.stop()
-
-
 @pytest.mark.parametrize(
     ("words", "why"),
     [
@@ -348,20 +314,3 @@ def test_what_cannot_be_is_refused_in_a_line(tmp_path, words, why):
     assert why in said
     assert said.count("\n") == 1
     assert (tmp_path / "here").read_text() == "something\n"
-
-
-def test_no_board_or_several_are_named(monkeypatch):
-    class Board:
-        def __init__(self, device, vid):
-            self.device, self.vid = device, vid
-
-    boards = [Board("/dev/ttyS0", None)]
-    monkeypatch.setattr("plumb.line.port.list_ports.comports", lambda: boards)
-    with pytest.raises(InputError, match="no board on USB: connect the Mega"):
-        port_for(None)
-    boards.append(Board("/dev/ttyACM0", 0x2341))
-    assert port_for(None) == "/dev/ttyACM0"
-    assert port_for("other") == "other"
-    boards.append(Board("/dev/ttyACM1", 0x2341))
-    with pytest.raises(InputError, match=r"several boards on USB \(/dev/ttyACM0, /dev/ttyACM1\)"):
-        port_for(None)

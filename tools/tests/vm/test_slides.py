@@ -16,11 +16,15 @@ TRUSTED = "$77=10"  # [N m] the machine believes that its gears hold any sled
 
 
 @pytest.mark.parametrize(
-    ("height", "setting", "warned", "most"),
-    [(605.0, USUAL, STAYS, HELD), (450.0, USUAL, "", CREEP), (605.0, TRUSTED, SLIDES, MOST)],
+    ("brain", "height", "setting", "warned", "most"),
+    [
+        ("host", 605.0, USUAL, STAYS, HELD),
+        ("host", 450.0, USUAL, "", CREEP),
+        ("host", 605.0, TRUSTED, SLIDES, MOST),
+        ("mega", 605.0, TRUSTED, SLIDES, MOST),
+    ],
 )
-@pytest.mark.parametrize("brain", ["host", "mega"])
-def test_a_sled_stays_where_it_was(height, setting, warned, most, brain, elf):
+def test_a_sled_stays_where_it_was(brain, height, setting, warned, most, elf):
     machine = usual_machine(elf=elf if brain == "mega" else None)
     said: list[str] = []
     sender = switched_on(machine, MAKER, said=said.append)

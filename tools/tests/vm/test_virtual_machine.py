@@ -82,17 +82,6 @@ def test_the_encoder_counts_what_the_motor_pays_out(machine):
     assert paid < -100
 
 
-def test_a_plunge_leaves_a_mark_where_the_bit_was(machine):
-    assert said_by(machine, "G0 Z2\nG0 X50\nG1 Z-1 F500\nG0 Z2", 60_000) == ["ok"] * 4
-    plunges = {cut[0] for cut in machine.cuts()}
-    assert len(plunges) == 1
-    deepest = max(machine.cuts(), key=lambda cut: cut[4])
-    assert deepest[2] == pytest.approx(50, abs=0.05)
-    assert deepest[4] == pytest.approx(1, abs=0.03)
-    machine.replace_sheet()
-    assert machine.cuts() == []
-
-
 def test_friction_leaves_the_sled_behind_on_the_side_it_came_from():
     places = []
     for first in (-100, 300):
@@ -127,13 +116,6 @@ def test_a_skipped_tooth_moves_the_sled_and_not_the_count(machine):
     assert np.hypot(*np.subtract(machine.sled, place)) > 3
 
 
-def test_a_beam_that_creeps_lowers_the_sled(machine):
-    place = machine.sled
-    machine.creep("motor_height", -0.01)
-    machine.advance(10_000)
-    assert machine.sled[1] - place[1] == pytest.approx(-0.1, abs=0.03)
-
-
 def test_a_sled_of_twenty_kilograms_travels_without_an_alarm():
     machine = started(lines=SETTINGS.replace("$62=97.9", "$62=196.1"))
     machine.set("sled_weight", 196.1)
@@ -149,14 +131,6 @@ def test_a_sled_of_twenty_kilograms_travels_without_an_alarm():
 def test_an_unplugged_encoder_stops_the_machine(machine):
     machine.set_wire("left", "encoder_unplugged", True)
     assert any("ALARM" in line for line in said_by(machine, "G0 X200", 10_000))
-
-
-def test_motors_are_drawn_by_a_seed():
-    runs = [started(seed=seed) for seed in (1, 1, 2)]
-    for machine in runs:
-        machine.send(b"G0 X100\n")
-        machine.advance(5000)
-    assert runs[0].chains == runs[1].chains != runs[2].chains
 
 
 def test_what_cannot_be_is_refused():
@@ -181,21 +155,6 @@ def test_a_line_in_the_sheet_is_seen_every_ten_milliseconds(machine):
     # At 13 mm/s it goes 0.13 mm in that time; above the sheet it is looked at every half mm.
     assert len(places) > 300
     assert np.linalg.norm(np.diff(places, axis=0), axis=1).max() < 0.3
-
-
-def test_above_the_sheet_the_sled_is_where_its_chains_put_it(machine):
-    said_by(machine, "G0 Z2\nG0 X-200 Y100", 60_000)
-    machine.send(b"G0 X200\n")
-    for _ in range(40):
-        machine.advance(250)
-        chains = np.array([machine.chains])
-        rest = _judge.places(NUMBERS, chains, pushes=0 * chains, weights=np.array([97.9]))
-        assert machine.sled == pytest.approx(tuple(rest[0]), abs=0.7)
-
-
-def test_a_shield_that_nobody_knows_is_refused():
-    with pytest.raises(ValueError, match="a shield is 2 or 3"):
-        _vm.VirtualMachine({}, shield=4)
 
 
 def test_what_the_simulated_mega_cannot_run_is_refused(run, monkeypatch):
