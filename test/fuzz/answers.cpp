@@ -70,11 +70,15 @@ void Answers::taken(char character) {
   }
   const bool follows_quick = after_quick_;
   after_quick_ = isQuick(character);
+  // CR ends a line too; what may follow it is part of that end.
+  const bool follows_return = after_return_ && !is_in_line_;
+  after_return_ = character == '\r' || (follows_return && character == ' ');
+  if (follows_return && (character == ' ' || character == '\n')) return;
   if (is_of_grbl_ && (after_quick_ || uint8_t(character) == kHold))
     takenByGrbl(character);
   else if (after_quick_)
     takenQuick(character);
-  else if (character == '\n')
+  else if (character == '\n' || character == '\r')
     takenEnd(follows_quick);
   else if (beginsLine(character))
     is_in_line_ = true;
