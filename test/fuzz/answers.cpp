@@ -68,7 +68,8 @@ void Answers::taken(char character) {
     is_of_grbl_ = true;
     return;
   }
-  const bool follows_quick = after_quick_;
+  // An end of line behind a quick character is that character's, but within a line.
+  const bool follows_quick = after_quick_ && (!is_in_line_ || is_cut_);
   after_quick_ = isQuick(character);
   // CR ends a line too; what may follow it is part of that end.
   const bool follows_return = after_return_ && !is_in_line_;
@@ -89,7 +90,7 @@ void Answers::taken(char character) {
 
 void Answers::takenEnd(bool follows_quick) {
   if (!follows_quick && !is_cut_) ++lines_;
-  if (!follows_quick || is_cut_) is_in_line_ = false;
+  is_in_line_ = false;
   is_cut_ = false;
 }
 

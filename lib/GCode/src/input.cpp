@@ -59,8 +59,8 @@ Quick Input::put(char character) {
   }
   after_return_ = character == '\r';
   if (character == '\n' || character == '\r') {
-    // The end of the quick character, and of what it cut.
-    if (!after_quick) return endLine();
+    // The end of the quick character, and of what it cut; not of a line into which it fell.
+    if (!after_quick || (isInLine() && line_ != Line::kCut)) return endLine();
     if (line_ == Line::kCut) line_ = Line::kBegins;
     return Quick::kNone;
   }

@@ -88,9 +88,11 @@ def test_a_slip_is_ringed_and_its_correction_taken(lab, page):
     ring = page.get_by_role("list", name="Readings that disagree")
     ring.get_by_text("Mark 8").wait_for(timeout=PATIENCE)
     assert page.locator(".cell.doubted legend").inner_text().startswith("8")
+    at_rest(page)
     assert saved(lab)["8"] == (1211, 618)  # nothing is changed unless somebody says so
     ring.get_by_role("button", name="Take 1221, 618").click()
     ring.wait_for(state="detached", timeout=PATIENCE)
+    at_rest(page)
     assert saved(lab)["8"] == (1221, 618)
 
 
@@ -142,6 +144,7 @@ def test_a_slip_in_a_distance_is_named_and_its_correction_taken(lab, page):
     expect(change).to_be_focused()
     disagreeing(page).get_by_role("button", name="Take 1515").click()
     disagreeing(page).wait_for(state="detached", timeout=PATIENCE)
+    at_rest(page)
     read = read_marks(lab.folder / "marks.toml", sheet=SHEET)
     assert [each.length for each in read.distances] == [1123.5, 1515.0, 757.0]
     assert read.distances[1].between == ("4", "12")
@@ -156,6 +159,7 @@ def test_exchanged_readings_are_named_and_put_right(lab, page):
     disagreeing(page).get_by_text("the readings of 8 and 9 may be exchanged").wait_for(
         timeout=PATIENCE
     )
+    at_rest(page)
     assert saved(lab) != before
     disagreeing(page).get_by_role("button", name="Take 1221, 618").click()
     disagreeing(page).get_by_role("button", name="Take 1782.5, 618").click()
