@@ -33,7 +33,7 @@ def build(tmp_path):
             VerboseAction=lambda *_: None,
         )
         hook = runpy.run_path(
-            str(ROOT / "tools/budget.py"), init_globals={"Import": lambda _: None, "env": env}
+            str(ROOT / "tools/steps/budget.py"), init_globals={"Import": lambda _: None, "env": env}
         )
         return hook["hold_budgets"]([], ["firmware.elf"], env)
 
