@@ -2,20 +2,18 @@
 
 import json
 import re
+import shutil
 from pathlib import Path
 
 import registry
 from commands import ROOT, ToolError, compiled, output
-from costs import Bytes, Costs, Cycles
 from kept import kept
 
 BENCH = ROOT / "tools/bench"
 BUILD = ROOT / ".build/bench"
 FIRMWARE = ROOT / ".pio/build/megaatmega2560/firmware.elf"
 KINEMATICS = ROOT / "lib/Kinematics/src"
-MOTION = ROOT / "lib/Motion/src"
 FLOAT = ROOT / "src/board/float.S"  # the firmware's sum, product and quotient
-INCLUDES = [f"-I{KINEMATICS}", f"-I{BENCH}", f"-I{BUILD}"]
 # As PlatformIO builds the firmware.
 AVR_FLAGS = [
     "-mmcu=atmega2560",
@@ -32,105 +30,80 @@ AVR_FLAGS = [
     "-Wl,--gc-sections",
 ]
 # Rows of the table and the sum of parts that part_program.cpp knows them by.
-PARTS = {
-    "prepare": 1,
-    "inverse": 2,
-    "forward": 4,
-    "reach": 16,
-    "all three": 7,
-    "constants of one machine": 8,
-}
+PARTS = {"prepare": 1, "inverse": 2, "forward": 4, "reach": 16, "all three": 7}
+CONSTANTS = 8
+# With all effects listed a machine without them pays for each; these are in every machine.
+CASE, KEPT = "inverse, sag, stretch and pitch", ("chain_sag", "chain_stretch", "chain_pitch")
+
+Figures = dict[str, tuple[float, ...]]
 
 
-def budget(name: str) -> int:
-    """Return a limit of the board in platformio.ini [bytes]."""
-    written = (ROOT / "platformio.ini").read_text(encoding="utf-8")
-    return int(re.findall(rf"^board_upload\.{name} = (\d+)$", written, re.MULTILINE)[0])
-
-
-def measure() -> Costs:
-    """Build every program and measures it."""
+def measure() -> Figures:
+    """Build every program and measure it: median and most cycles of a case, bytes of a part."""
     BUILD.mkdir(parents=True, exist_ok=True)
-    compiler = output("avr-gcc", "-dumpversion")
-    cycles, stack = simulated()
-    cycles.update(two_brackets())
-    cycles.update(motion())
-    return Costs(f"avr-gcc {compiler}", cycles, {**parts(stack), **firmware(compiler)})
-
-
-def simulated() -> tuple[dict[str, Cycles], dict[str, int]]:
-    """Cycles of every case, and the deepest stack of inverse, of forward and of reach."""
-    elf, simulator = BUILD / "board_program.elf", BUILD / "count_cycles"
     (BUILD / "effect_cases.h").write_text(registry.cases(), encoding="utf-8")
-    output("avr-g++", *AVR_FLAGS, *INCLUDES, *sources("board_program.cpp"), FLOAT, "-o", elf)
-    symbols = output("avr-nm", "-C", elf)
-    stack = {}
+    elf = linked("board_program")
+    symbols, stack = output("avr-nm", "-C", elf), {}
     for part in ("inverse", "forward", "reach"):
         # A function dissolved into its caller would have no stack to measure.
         if not re.search(rf"kinematics::{part}<float>", symbols):
             raise ToolError(f"board_program.cpp: the compiler dissolved {part}() into its caller")
-    cases = counted(elf, simulator)
-    for name, cost in cases.items():
+    cases = counted(elf)
+    figures: Figures = {name: tuple(case["cycles"][1:]) for name, case in cases.items()}
+    short, left_out = registry.only(KEPT)
+    few = counted(linked("board_program", effects=short))[CASE]["cycles"][1:]
+    # Where the compiler happens to do better with the longer list, it costs nothing.
+    both = zip(figures[CASE], few, strict=True)
+    figures["each absent effect"] = tuple(max(0, round((a - b) / left_out)) for a, b in both)
+    for name, case in cases.items():
         part = name.partition(",")[0]
-        stack[part] = max(stack.get(part, 0), cost["stack"])
-    return {name: Cycles(*cost["cycles"]) for name, cost in cases.items()}, stack
+        stack[part] = max(stack.get(part, 0), case["stack"])
+    return figures | sizes_of_parts() | {f"{part}, stack": (most,) for part, most in stack.items()}
 
 
-def two_brackets() -> dict[str, Cycles]:
-    """Cycles of every case of quadrilateral_cases.h."""
-    elf = BUILD / "quadrilateral_program.elf"
-    source = [BENCH / "quadrilateral_program.cpp", KINEMATICS / "quadrilateral.cpp", FLOAT]
-    output("avr-g++", *AVR_FLAGS, *INCLUDES, *source, "-o", elf)
-    cases = counted(elf, BUILD / "count_quadrilateral", '-DCASES="quadrilateral_cases.h"')
-    return {name: Cycles(*cost["cycles"]) for name, cost in cases.items()}
+def sizes_of_parts() -> Figures:
+    """Return what each part adds to a program that already has the four operations and the root,
+    and each effect to all three.
+    """
+    base = sizes(linked("part_program", "-DPARTS=0"))
+    flash = {}
+    for name, number in PARTS.items():
+        flash[name] = sizes(linked("part_program", f"-DPARTS={number}"))[0] - base[0]
+    for name in registry.numbers():
+        fewer = linked("part_program", "-DPARTS=7", effects=registry.without(name))
+        flash[name] = base[0] + flash["all three"] - sizes(fewer)[0]
+    # The harness's way of naming its storage costs flash; a machine's constants lie in RAM alone.
+    constants = sizes(linked("part_program", f"-DPARTS={CONSTANTS}"))[1] - base[1]
+    figures: Figures = {f"{name}, flash": (size,) for name, size in flash.items()}
+    return figures | {"constants of one machine, static RAM": (constants,)}
 
 
-def motion() -> dict[str, Cycles]:
-    """Cycles of every case of motion_cases.h."""
-    elf = BUILD / "motion_program.elf"
-    source = [*sources("motion_program.cpp"), FLOAT]
-    output("avr-g++", *AVR_FLAGS, *INCLUDES, f"-I{MOTION}", *source, "-o", elf)
-    cases = counted(elf, BUILD / "count_motion_cycles", '-DCASES="motion_cases.h"')
-    return {name: Cycles(*cost["cycles"]) for name, cost in cases.items()}
+def linked(program: str, *options: str, effects: str = "") -> Path:
+    """Return a program of this folder for the Mega, with another list of effects if one is
+    given.
+    """
+    elf, kinematics = BUILD / f"{program}.elf", KINEMATICS
+    if effects:
+        elf, kinematics = BUILD / f"{program}_other.elf", BUILD / "other_effects"
+        shutil.rmtree(kinematics, ignore_errors=True)
+        shutil.copytree(KINEMATICS, kinematics)
+        (kinematics / "effects.h").write_text(effects, encoding="utf-8")
+    includes = [f"-I{folder}" for folder in (kinematics, BENCH, BUILD)]
+    names = ("Kinematics", "reach", "quadrilateral")
+    sources = [BENCH / f"{program}.cpp", *(kinematics / f"{name}.cpp" for name in names), FLOAT]
+    output("avr-g++", *AVR_FLAGS, *includes, *options, *sources, "-o", elf)
+    return elf
 
 
-def counted(elf: Path, simulator: Path, *cases: str) -> dict:
-    """Return what the simulator, built for these cases, says of a program."""
-    options, libraries = ["-O2", *INCLUDES, *cases], ["-lsimavr", "-lelf"]
+def counted(elf: Path) -> dict:
+    """Return what the simulator says of the cases of a program."""
+    simulator, options = BUILD / "count_cycles", ["-O2", f"-I{BENCH}", f"-I{BUILD}"]
+    libraries = ["-lsimavr", "-lelf"]
     compiled(simulator, ["tools/bench/count_cycles.cpp"], options=options, libraries=libraries)
     done = kept([simulator, elf], [elf], elf.name)
     if done.returncode:
         raise ToolError(f"{elf.name}: {done.stderr.strip()}")
     return json.loads(done.stdout.splitlines()[-1])
-
-
-def parts(stack: dict[str, int]) -> dict[str, Bytes]:
-    """Return what each part adds to a program that already has the four operations and the root."""
-    base = linked(0)
-    sections = {}
-    for name, number in PARTS.items():
-        flash, ram = (more - less for more, less in zip(linked(number), base, strict=True))
-        sections[name] = Bytes(flash, ram, stack.get(name))
-    # The harness's way of naming its storage; a machine's constants lie in RAM alone.
-    constants = sections["constants of one machine"].ram
-    sections["constants of one machine"] = Bytes(None, constants, None)
-    return sections
-
-
-def linked(number: int) -> tuple[int, int]:
-    """Flash and static RAM of part_program.cpp with these parts."""
-    elf = BUILD / f"part_program_{number}.elf"
-    source = [*sources("part_program.cpp"), FLOAT]
-    output("avr-g++", *AVR_FLAGS, *INCLUDES, f"-DPARTS={number}", *source, "-o", elf)
-    return sizes(elf)
-
-
-def firmware(compiler: str) -> dict[str, Bytes]:
-    """Return the whole firmware as it is flashed; left out if another compiler built it."""
-    built_firmware()
-    if compiler not in output("avr-readelf", "-p", ".comment", FIRMWARE):
-        return {}
-    return {"whole firmware": Bytes(*sizes(FIRMWARE), None)}
 
 
 def built_firmware() -> Path:
@@ -146,8 +119,3 @@ def sizes(elf: Path) -> tuple[int, int]:
     """Flash and static RAM of a linked program."""
     text, data, bss = map(int, output("avr-size", elf).splitlines()[-1].split()[:3])
     return text + data, data + bss
-
-
-def sources(program: str) -> list[Path]:
-    """Return one program of this folder and the kinematics, for any computer."""
-    return [BENCH / program, KINEMATICS / "Kinematics.cpp", KINEMATICS / "reach.cpp"]

@@ -1,19 +1,25 @@
 // Runs the kinematics over the sheet on the (simulated) Mega, with marks around each call. A mark
 // is a write to GPIOR0, a register that nothing else uses: case + 1 before the call, zero after it.
 #include <avr/io.h>
+#include <avr/sleep.h>
 
 #include "Kinematics.h"
 #include "cases.h"
+#include "quadrilateral.h"
 #include "reach.h"
 
 using namespace kinematics;
 
 namespace {
 
-// The compiler must not move work across a mark.
-#define BARRIER() __asm__ __volatile__("" ::: "memory")
+/// The compiler must not move work across a mark.
+__attribute__((always_inline)) inline void mark(uint8_t number) {
+  __asm__ __volatile__("" ::: "memory");
+  GPIOR0 = number;
+  __asm__ __volatile__("" ::: "memory");
+}
 
-volatile float sink, other_sink;
+volatile float sink, other_sink, tilt_sink;
 // noinline: called from a single place, the compiler would inline it there.
 Reached<float> (*volatile const askReach)(const Machine<float>&, Point<float>,
                                           const ReachLimits<float>&) = reach<float>;
@@ -41,9 +47,44 @@ Machine<float> machineFor(const bench::Case& wanted) {
   return prepare(frame, effects);
 }
 
+/// The published sled with two brackets, with the usual faults of the chains' pitch.
+Quadrilateral<float> bracketMachine() {
+  const Frame<float> frame = {2978.4f,  1072.6f, 0,           139.1f,
+                              10.1063f, 97.9f,   0.00137293f, Feed::kOverTop};
+  return prepare(frame, BracketSled<float>{310, 139, 79}, PitchStrain<float>{0.001f, 0.001f});
+}
+
 Point<float> gridPlace(uint8_t column, uint8_t row) {
   return {-1219.2f + 2438.4f * column / (bench::kColumns - 1),
           -609.6f + 1219.2f * row / (bench::kRows - 1)};
+}
+
+/// Stores an answer; if there is none, sleeps with interrupts off, which the simulator reports.
+void note(Found found, float first, float second, float tilt_sine) {
+  sink = first;
+  other_sink = second;
+  tilt_sink = tilt_sine;
+  if (found == Found::kYes) return;
+  sleep_enable();
+  sleep_cpu();
+}
+
+void timeTilted(uint8_t number, const Quadrilateral<float>& machine, Point<float> place) {
+  const TiltedPaidOut<float> paid = inverse(machine, place);
+  const float before = inverse(machine, Point<float>{place.x - 0.09f, place.y + 0.12f}).tilt_sine;
+  const bench::What what = bench::kCases[number].what;
+  if (what == bench::kTiltedForward) {
+    mark(number + 1);
+    const TiltedPlace<float> there = forward(machine, paid.chains);
+    note(there.found, there.sled.x, there.sled.y, there.tilt_sine);
+  } else {
+    const bool is_near = what == bench::kTiltedInverseNear;
+    mark(number + 1);
+    const TiltedPaidOut<float> timed =
+        is_near ? inverse(machine, place, before) : inverse(machine, place);
+    note(timed.found, timed.chains.left, timed.chains.right, timed.tilt_sine);
+  }
+  mark(0);
 }
 
 void timeOne(uint8_t number, const Machine<float>& machine, Point<float> place) {
@@ -52,49 +93,42 @@ void timeOne(uint8_t number, const Machine<float>& machine, Point<float> place) 
   const Point<float> near = {place.x + 0.1f, place.y - 0.1f};
   const bench::What what = bench::kCases[number].what;
   if (what == bench::kInverse) {
-    BARRIER();
-    GPIOR0 = number + 1;
-    BARRIER();
+    mark(number + 1);
     const PaidOut<float> paid = inverse(machine, place);
     sink = paid.chains.left;
     other_sink = paid.chains.right;
   } else if (what == bench::kForward) {
-    BARRIER();
-    GPIOR0 = number + 1;
-    BARRIER();
+    mark(number + 1);
     sink = forward(machine, chains).sled.x;
   } else if (what == bench::kForwardFar || what == bench::kForwardNear) {
     const Point<float> guess = what == bench::kForwardFar ? far : near;
-    BARRIER();
-    GPIOR0 = number + 1;
-    BARRIER();
+    mark(number + 1);
     sink = forward(machine, chains, guess).sled.x;
   } else if (what == bench::kReach) {
     const ReachLimits<float> limits;
-    BARRIER();
-    GPIOR0 = number + 1;
-    BARRIER();
+    mark(number + 1);
     const Reached<float> here = askReach(machine, place, limits);
     sink = here.give.xx;
     other_sink = float(here.verdict);
   } else {
-    BARRIER();
-    GPIOR0 = number + 1;
-    BARRIER();
+    mark(number + 1);
     sink = place.x;
   }
-  BARRIER();
-  GPIOR0 = 0;
-  BARRIER();
+  mark(0);
 }
 
 }  // namespace
 
 int main() {
+  const Quadrilateral<float> brackets = bracketMachine();
   for (uint8_t i = 0; i < bench::kCaseCount; ++i) {
+    const bool is_tilted = bench::kCases[i].what >= bench::kTiltedInverse;
     const Machine<float> machine = machineFor(bench::kCases[i]);
     for (uint8_t column = 0; column < bench::kColumns; ++column)
-      for (uint8_t row = 0; row < bench::kRows; ++row) timeOne(i, machine, gridPlace(column, row));
+      for (uint8_t row = 0; row < bench::kRows; ++row) {
+        const Point<float> place = gridPlace(column, row);
+        is_tilted ? timeTilted(i, brackets, place) : timeOne(i, machine, place);
+      }
   }
   GPIOR0 = bench::kFinished;
   for (;;) {

@@ -5,7 +5,18 @@
 
 namespace bench {
 
-enum What : uint8_t { kNothing, kInverse, kForward, kForwardFar, kForwardNear, kReach };
+enum What : uint8_t {
+  kNothing,
+  kInverse,
+  kForward,
+  kForwardFar,
+  kForwardNear,
+  kReach,
+  // Of a sled with two brackets, without a guess, and from the tilt 0.15 mm before.
+  kTiltedInverse,
+  kTiltedInverseNear,
+  kTiltedForward
+};
 
 // Which effects are present, by the number of their first setting.
 enum Present : uint8_t { kNone, kSag, kSagStretch, kSagStretchPitch, kAll };
@@ -36,6 +47,9 @@ const Case kCases[] = {
     {"forward, guess in the far corner", kForwardFar, kSagStretchPitch, kUsual, 0},
     {"forward, guess 0.1 mm off (tracking)", kForwardNear, kSagStretchPitch, kUsual, 0},
     {"reach, sag, stretch and pitch", kReach, kSagStretchPitch, kUsual, 0},
+    {"inverse, two brackets, no guess", kTiltedInverse, kNone, kUsual, 0},
+    {"inverse, two brackets, tilt of 0.15 mm before", kTiltedInverseNear, kNone, kUsual, 0},
+    {"forward, two brackets, no guess", kTiltedForward, kNone, kUsual, 0},
 };
 
 // Every second place of the published measurements' grid, borders included. All places would take
@@ -46,9 +60,6 @@ enum : uint8_t {
   kRows = 13,
   kFinished = 255,
 };
-
-/// Number of equal parts between two marks, for cycles of a single part.
-inline unsigned partsOf(const Case&) { return 1; }
 
 inline bool isPresent(const Case& wanted, int first_setting) {
   if (wanted.extra != 0 && first_setting == wanted.extra) return true;

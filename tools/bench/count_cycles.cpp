@@ -1,4 +1,4 @@
-// Runs board_program or motion_program on a simulated Mega: per case, the exact cycles between
+// Runs board_program on a simulated Mega: per case, the exact cycles between
 // marks and the deepest stack. The last line is JSON: {"name": {"cycles": [minimum, median,
 // maximum], "stack": bytes}, ...}
 #include <simavr/sim_avr.h>
@@ -10,11 +10,7 @@
 #include <cstring>
 #include <vector>
 
-// The compiler's command line names the cases of another program.
-#ifndef CASES
-#define CASES "cases.h"
-#endif
-#include CASES
+#include "cases.h"
 
 namespace {
 
@@ -79,11 +75,10 @@ void print(Clock& clock) {
   for (int i = 1; i < bench::kCaseCount; ++i) {
     std::vector<avr_cycle_count_t>& all = clock.cycles[i];
     std::sort(all.begin(), all.end());
-    const unsigned parts = bench::partsOf(bench::kCases[i]);
     std::printf("%s\"%s\": {\"cycles\": [%llu, %llu, %llu], \"stack\": %d}", i > 1 ? ", " : "",
-                bench::kCases[i].name, (unsigned long long)((all.front() - marks) / parts),
-                (unsigned long long)((all[all.size() / 2] - marks) / parts),
-                (unsigned long long)((all.back() - marks) / parts), clock.deepest[i]);
+                bench::kCases[i].name, (unsigned long long)((all.front() - marks)),
+                (unsigned long long)((all[all.size() / 2] - marks)),
+                (unsigned long long)((all.back() - marks)), clock.deepest[i]);
   }
   std::printf("}\n");
 }

@@ -1,12 +1,10 @@
 """Dialogues on the simulated Mega, and the programs that play them."""
 
-import re
-import struct
 from collections.abc import Sequence
 from pathlib import Path
 
 from board import FIRMWARE, built_firmware
-from commands import ROOT, compiled, output
+from commands import ROOT, compiled
 from kept import Done, kept, run
 
 BUILD = ROOT / ".build/vm"
@@ -19,40 +17,10 @@ BOARD = "tools/vm/mega/virtual_board.cpp"
 def player() -> Path:
     """Return the program that plays dialogues and measures the firmware, which is built too."""
     built_firmware()
-    return _player_program("play_dialogue", "test/vm/play_dialogue.cpp")
+    return player_program("play_dialogue", "test/vm/play_dialogue.cpp")
 
 
-def pair_player() -> Path:
-    """Return the program that plays any two events at once with the flashed program.
-
-    It looks at the machine in the Mega's RAM: see ram_places().
-    """
-    built_firmware()
-    parts = ("axes", "axes_lengths", "axes_power", "course", "ticked_axis")
-    machine = [f"src/machine/{part}.cpp" for part in parts]
-    law = "test/test_dialogues/two_events.cpp"
-    return _player_program("play_two_events", "test/vm/play_two_events.cpp", law, *machine)
-
-
-def ram_places() -> list[int]:
-    """Addresses in the RAM of the firmware as built, in the order that the pair player asks for."""
-    made, dump = BUILD / "ram_places.o", BUILD / "ram_places.bin"
-    BUILD.mkdir(parents=True, exist_ok=True)
-    includes = ["-Isrc", *(f"-I{folder}" for folder in _libraries())]
-    options = ["-mmcu=atmega2560", "-Os", "-std=gnu++11", "-fno-access-control"]
-    quiet = "-Wno-invalid-offsetof"
-    output("avr-g++", *options, quiet, *includes, "-c", "test/vm/ram_places.cpp", "-o", made)
-    output("avr-objcopy", "-O", "binary", "-j", ".places", made, dump)
-    state, lost, size, *of_axis = struct.unpack("<7H", dump.read_bytes())
-    symbols = output("avr-nm", FIRMWARE)
-    built, machine = (
-        int(re.findall(rf"^(\w+) \w _Z{name}5setupE7machine", symbols, re.M)[0], 16) & 0xFFFF
-        for name in ("GVZ", "Z")
-    )
-    return [built, machine + state, machine + lost, size, *(machine + place for place in of_axis)]
-
-
-def _player_program(name: str, *sources: str) -> Path:
+def player_program(name: str, *sources: str) -> Path:
     """Return a program around the player of dialogues, the world and the simulated Mega."""
     player = [
         "test/vm/mega_player.cpp",
@@ -63,12 +31,13 @@ def _player_program(name: str, *sources: str) -> Path:
         BOARD,
         *(_from_root(path) for path in sorted(ROOT.glob("tools/judge/reference/*.cpp"))),
     ]
-    folders = ["src", "test", "tools/vm/host_avr", "tools/judge", *_libraries()]
+    folders = ["src", "test", "tools/vm/host_avr", "tools/judge", *libraries()]
     includes = [f"-I{folder}" for folder in folders]
     return _built(name, [*sources, *player], [*includes, "-isystem", "/usr/include/eigen3"])
 
 
-def _libraries() -> list[str]:
+def libraries() -> list[str]:
+    """Return the folders of lib/ that hold headers."""
     return [_from_root(path) for path in sorted(ROOT.glob("lib/*/src"))]
 
 

@@ -1,41 +1,47 @@
 """The registry of effects as its header has it: numbers and names, and the cases that time each."""
 
 import re
+from collections.abc import Sequence
 from pathlib import Path
 
 HEADER = Path(__file__).resolve().parents[2] / "lib/Kinematics/src/effects.h"
 ENTRY = re.compile(r"At<(\d+), (\w+)>")
+LIST = re.compile(r"(?<=Registry<).*?(?=>;)", re.DOTALL)
 # Timed one upon the other, as every machine has them: cases.h names these by hand.
-STEPS = {
-    "chain_sag": ("inverse, sag", "inverse, rigid"),
-    "chain_stretch": ("inverse, sag and stretch", "inverse, sag"),
-    "chain_pitch": ("inverse, sag, stretch and pitch", "inverse, sag and stretch"),
-}
-
-
-def text() -> str:
-    """Return the header."""
-    return HEADER.read_text(encoding="utf-8")
+STEPS = ("chain_sag", "chain_stretch", "chain_pitch")
 
 
 def numbers() -> dict[str, int]:
     """Return the first setting of every effect, by the name that files use."""
+    text = HEADER.read_text(encoding="utf-8")
     return {
         re.sub(r"(?<!^)(?=[A-Z])", "_", name).lower(): int(number)
-        for number, name in ENTRY.findall(text())
+        for number, name in ENTRY.findall(text)
     }
-
-
-def case_of(name: str) -> str:
-    """Return the case that times an effect together with sag, stretch and pitch."""
-    return f"inverse, the same and {name}"
 
 
 def cases() -> str:
     """Return lines of a table of cases (see cases.h): each effect that no step times."""
     lines = [
-        f'{{"{case_of(name)}", kInverse, kSagStretchPitch, kUsual, {number}}},\n'
+        f'{{"inverse, the same and {name}", kInverse, kSagStretchPitch, kUsual, {number}}},\n'
         for name, number in numbers().items()
         if name not in STEPS
     ]
     return "// Written by registry.py.\n" + "".join(lines)
+
+
+def only(names: Sequence[str]) -> tuple[str, int]:
+    """Return the header with these effects alone, and how many were left out."""
+    entries = {name: f"At<{number}, {_type(name)}>" for name, number in numbers().items()}
+    listed = ", ".join(entries[name] for name in entries if name in names)
+    text = HEADER.read_text(encoding="utf-8")
+    return LIST.sub(lambda _: listed, text, count=1), len(entries) - len(names)
+
+
+def without(name: str) -> str:
+    """Return the header without one effect."""
+    return only([other for other in numbers() if other != name])[0]
+
+
+def _type(name: str) -> str:
+    return "".join(word.capitalize() for word in name.split("_"))

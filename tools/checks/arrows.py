@@ -62,7 +62,7 @@ ARROWS = {
         ANYTHING,
     ),
     "tools/core": (["lib/Kinematics", "lib/Settings", "src"], ANYTHING),
-    "tools/bench": (["lib/*", "tools/judge", "test/test_effects"], ANYTHING),
+    "tools/bench": (["lib/*"], ANYTHING),
 }
 # Folders in which an include is looked up after the folder of the file itself.
 SEARCHED = [

@@ -1,7 +1,6 @@
 """What tests of the command line share: running one command, and asking it for JSON."""
 
 import json
-import os
 from importlib import resources
 
 import pytest
@@ -16,25 +15,6 @@ def pytest_configure():
     """Old modules would be tested in place of the sources that are here."""
     if source := stale_source():
         pytest.exit(f"{source}: the lab was built without this change; run tools/setup", 2)
-
-
-def cpu() -> float:
-    """Seconds of CPU of this worker and of the commands that it waited for."""
-    return sum(os.times()[:4])
-
-
-@pytest.hookimpl(wrapper=True)
-def pytest_runtest_setup(item):
-    item.began = cpu()
-    return (yield)
-
-
-@pytest.hookimpl(wrapper=True)
-def pytest_runtest_teardown(item):
-    """tools/test adds these up by room."""
-    result = yield
-    item.user_properties.append(("cpu", cpu() - item.began))
-    return result
 
 
 @pytest.fixture

@@ -4,6 +4,8 @@ say, and afterwards the place is true or unknown.
 The host's build of the firmware is held to the same law in test/test_dialogues.
 """
 
+import re
+import struct
 import sys
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
@@ -12,11 +14,42 @@ import pytest
 
 ROOT = Path(__file__).resolve().parents[3]
 sys.path.insert(0, str(ROOT / "tools/bench"))
-from board import FIRMWARE  # noqa: E402
+from board import FIRMWARE, built_firmware  # noqa: E402
+from commands import output  # noqa: E402
 from kept import kept  # noqa: E402
-from played import pair_player, ram_places  # noqa: E402
+from played import BUILD, libraries, player_program  # noqa: E402
 
 EVENTS = 12
+
+
+def pair_player() -> Path:
+    """Return the program that plays any two events at once with the flashed program.
+
+    It looks at the machine in the Mega's RAM: see ram_places().
+    """
+    built_firmware()
+    parts = ("axes", "axes_lengths", "axes_power", "course", "ticked_axis")
+    machine = [f"src/machine/{part}.cpp" for part in parts]
+    law = "test/test_dialogues/two_events.cpp"
+    return player_program("play_two_events", "test/vm/play_two_events.cpp", law, *machine)
+
+
+def ram_places() -> list[int]:
+    """Addresses in the RAM of the firmware as built, in the order that the pair player asks for."""
+    made, dump = BUILD / "ram_places.o", BUILD / "ram_places.bin"
+    BUILD.mkdir(parents=True, exist_ok=True)
+    includes = ["-Isrc", *(f"-I{folder}" for folder in libraries())]
+    options = ["-mmcu=atmega2560", "-Os", "-std=gnu++11", "-fno-access-control"]
+    quiet = "-Wno-invalid-offsetof"
+    output("avr-g++", *options, quiet, *includes, "-c", "test/vm/ram_places.cpp", "-o", made)
+    output("avr-objcopy", "-O", "binary", "-j", ".places", made, dump)
+    state, lost, size, *of_axis = struct.unpack("<7H", dump.read_bytes())
+    symbols = output("avr-nm", FIRMWARE)
+    built, machine = (
+        int(re.findall(rf"^(\w+) \w _Z{name}5setupE7machine", symbols, re.M)[0], 16) & 0xFFFF
+        for name in ("GVZ", "Z")
+    )
+    return [built, machine + state, machine + lost, size, *(machine + place for place in of_axis)]
 
 
 @pytest.mark.slow

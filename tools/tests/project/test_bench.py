@@ -1,199 +1,138 @@
 """Tests of tools/bench: the table is read back as written, rises and budgets are noticed."""
 
 import sys
-import tomllib
 from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
-BENCH = Path(__file__).resolve().parents[2] / "bench"
+ROOT = Path(__file__).resolve().parents[3]
+BENCH = ROOT / "tools/bench"
 sys.path.insert(0, str(BENCH))
-import absent  # noqa: E402
-import compare  # noqa: E402
-import effects  # noqa: E402
+import main as bench  # noqa: E402
 import registry  # noqa: E402
-import table  # noqa: E402
-from costs import Bytes, Costs, Cycles  # noqa: E402
+from commands import ToolError  # noqa: E402
+from record import BEGIN, END, Budgets, Costs, over_budget, recorded, replaced, risen  # noqa: E402
+from record import table as table_of  # noqa: E402
 
 COSTS = Costs(
     "avr-gcc 5.4.0",
-    {
-        "inverse, sag": Cycles(13_195, 13_425, 13_622),
-        "forward, no guess": Cycles(38_693, 40_000, 1_058_852),
-    },
-    {"inverse": Bytes(1966, 0, 171), "constants": Bytes(None, 120, None)},
+    {"inverse, sag": (13_425, 13_622), "inverse, flash": (1966,), "an effect, flash": (-100,)},
+    {"lines a second": (240.0,), "share of the time": (0.102,)},
 )
-PUBLISHED = {
-    "cycles": {"inverse, sag": [28_545, 30_597, 31_434]},
-    "bytes": {"inverse": {"flash": 1738, "stack": 81}},
-}
-EMPTY = f"# What changed\n\n{table.BEGIN}\n{table.END}\n\n- A line after.\n"
+BUDGETS = Budgets({"inverse, sag": 13_500, "share of the time": 0.12}, {"lines a second": 230})
+EMPTY = f"# What changed\n\n{BEGIN}\n{END}\n\n- A line after.\n"
 
 
-def written(costs: Costs) -> str:
-    shown = table.exact_part(costs, PUBLISHED) + "\n\n" + table.host_part({"fit": 4.2e6}, 1.5)
-    return table.replaced(EMPTY, shown)
+def written(costs: Costs, text: str = EMPTY) -> str:
+    return replaced(text, table_of(costs, BUDGETS))
 
 
-def with_cycles(name: str, *cycles: int) -> Costs:
-    return replace(COSTS, cycles={**COSTS.cycles, name: Cycles(*cycles)})
-
-
-def with_bytes(name: str, *sizes: int | None) -> Costs:
-    return replace(COSTS, bytes={**COSTS.bytes, name: Bytes(*sizes)})
+def with_figure(name: str, *figure: int) -> Costs:
+    return replace(COSTS, recorded={**COSTS.recorded, name: figure})
 
 
 def test_what_is_written_is_read_back():
-    assert table.recorded(written(COSTS)) == COSTS
+    compiler, figures = recorded(written(COSTS))
+    assert compiler == COSTS.compiler
+    assert figures == COSTS.recorded | {"lines a second": (240,)}
+    assert risen(COSTS, figures) == []
+
+
+def test_a_figure_stands_beside_its_budget():
+    assert "| inverse, sag | 13,425 / 13,622 | 13,500 |" in written(COSTS)
+    assert "| share of the time | 10.2% | 12.0% |" in written(COSTS)
+    assert "| inverse, flash | 1,966 | – |" in written(COSTS)
 
 
 def test_a_second_writing_replaces_the_first_and_nothing_else():
-    smaller = with_cycles("inverse, sag", 1, 2, 3)
-    again = table.replaced(written(COSTS), table.exact_part(smaller, PUBLISHED))
-    assert table.recorded(again) == smaller
+    smaller = with_figure("inverse, sag", 2, 3)
+    again = written(smaller, written(COSTS))
+    assert recorded(again) == recorded(written(smaller))
     assert again.startswith("# What changed\n") and again.endswith("\n\n- A line after.\n")
-
-
-def test_the_published_firmware_stands_beside_with_the_ratio_of_medians():
-    row = next(line for line in written(COSTS).splitlines() if line.startswith("| inverse, sag"))
-    assert row.endswith("| 0.84 ms | 28,545 / 30,597 / 31,434 | 2.3 |")
-
-
-def test_a_host_time_is_told_in_multiply_adds_too():
-    assert "| fit | 4.2 ms | 2,800,000 |" in written(COSTS)
-
-
-@pytest.mark.parametrize(("ns", "words"), [(3.14159, "3.14 ns"), (5e4, "50 us"), (2.5e6, "2.5 ms")])
-def test_a_time_is_told_in_a_handy_unit(ns, words):
-    assert table.duration(ns) == words
-
-
-def test_a_changelog_without_figures_has_no_record():
-    assert table.recorded(EMPTY) is None
-    assert compare.risen(COSTS, None) == ["CHANGELOG.md has no table of costs"]
 
 
 @pytest.mark.parametrize(
     "text",
-    ["", table.BEGIN, f"{table.END}\n{table.BEGIN}", EMPTY + EMPTY],
+    ["", BEGIN, f"{END}\n{BEGIN}", EMPTY + EMPTY],
     ids=["none", "no end", "wrong order", "twice"],
 )
 def test_lost_marks_are_refused(text):
-    with pytest.raises(table.TableError, match="must hold once"):
-        table.replaced(text, "")
+    with pytest.raises(ToolError, match="must hold once"):
+        replaced(text, "")
 
 
-@pytest.mark.parametrize("cell", ["13,195 / many / 13,622", "13,195 / -1 / 13,622"])
+@pytest.mark.parametrize("cell", ["many / 13,622", "13,425 / "])
 def test_a_spoilt_number_is_named(cell):
-    spoilt = written(COSTS).replace("13,195 / 13,425 / 13,622", cell)
-    with pytest.raises(table.TableError, match=r"is no number, in: \| inverse, sag"):
-        table.recorded(spoilt)
-
-
-def test_a_lost_number_is_named():
-    spoilt = written(COSTS).replace("13,195 / 13,425 / 13,622", "13,195")
-    with pytest.raises(table.TableError, match=r"3 numbers, in: \| inverse, sag"):
-        table.recorded(spoilt)
+    spoilt = written(COSTS).replace("13,425 / 13,622", cell)
+    with pytest.raises(ToolError, match=r"is no number, in: \| inverse, sag"):
+        recorded(spoilt)
 
 
 @pytest.mark.parametrize(
-    "now",
+    ("name", "figure", "lines"),
     [
-        COSTS,
-        with_cycles("inverse, sag", 10, 20, 30),
-        with_cycles("inverse, sag", 13_195, 13_693, 13_622),
-        with_bytes("inverse", 2005, 0, 174),
-    ],
-    ids=["same", "smaller", "2 % more cycles", "2 % more bytes"],
-)
-def test_small_rises_and_all_falls_are_fine(now):
-    assert compare.risen(now, COSTS) == []
-
-
-@pytest.mark.parametrize(
-    ("now", "line"),
-    [
+        ("inverse, sag", (20, 30), []),
+        ("inverse, sag", (13_693, 13_622), []),  # by less than 2 %
         (
-            with_cycles("inverse, sag", 13_195, 13_694, 13_622),
-            "inverse, sag: median cycles rose from 13,425 to 13,694 (+2.0%)",
+            "inverse, sag",
+            (13_694, 13_622),
+            ["inverse, sag rose from 13,425 / 13,622 to 13,694 / 13,622"],
         ),
         (
-            with_cycles("inverse, sag", 14_000, 13_425, 13_622),
-            "inverse, sag: least cycles rose from 13,195 to 14,000 (+6.1%)",
+            "inverse, sag",
+            (13_425, 14_000),
+            ["inverse, sag rose from 13,425 / 13,622 to 13,425 / 14,000"],
         ),
-        (
-            with_cycles("forward, no guess", 38_693, 40_000, 1_100_000),
-            "forward, no guess: most cycles rose from 1,058,852 to 1,100,000 (+3.9%)",
-        ),
-        (
-            with_bytes("inverse", 2006, 0, 171),
-            "inverse: flash bytes rose from 1,966 to 2,006 (+2.0%)",
-        ),
-        (with_bytes("inverse", 1966, 1, 171), "inverse: ram bytes rose from 0 to 1"),
-        (
-            with_bytes("inverse", 1966, 0, 175),
-            "inverse: stack bytes rose from 171 to 175 (+2.3%)",
-        ),
-        (
-            with_bytes("inverse", 1966, 0, None),
-            "inverse: stack bytes: recorded, but no longer measured",
-        ),
-        (
-            with_bytes("constants", 7, 120, None),
-            "constants: flash bytes: measured, but not recorded",
-        ),
+        ("inverse, flash", (2005,), []),
+        ("inverse, flash", (2006,), ["inverse, flash rose from 1,966 to 2,006"]),
+        ("an effect, flash", (-90,), ["an effect, flash rose from -100 to -90"]),
+        ("inverse, mud", (1,), ["inverse, mud: measured, but not recorded"]),
     ],
 )
-def test_a_rise_is_told_in_one_line(now, line):
-    assert compare.risen(now, COSTS) == [line]
+def test_a_rise_is_told_in_one_line(name, figure, lines):
+    assert risen(with_figure(name, *figure), recorded(written(COSTS))[1]) == lines
 
 
 def test_a_case_that_vanished_is_told():
-    fewer = replace(COSTS, cycles={"forward, no guess": COSTS.cycles["forward, no guess"]})
-    lines = compare.risen(fewer, COSTS)
-    assert len(lines) == 3 and all("inverse, sag" in line for line in lines)
+    fewer = replace(COSTS, recorded={"inverse, sag": (13_425, 13_622)})
+    lines = risen(fewer, recorded(written(COSTS))[1])
+    assert len(lines) == 2 and all("no longer measured" in line for line in lines)
 
 
-def test_figures_of_another_compiler_are_not_compared():
-    other = replace(with_cycles("inverse, sag", 9**9, 9**9, 9**9), compiler="avr-gcc 7.3.0")
-    assert compare.risen(other, COSTS) == []
+def test_figures_of_another_compiler_are_not_compared(capsys):
+    other = replace(with_figure("inverse, sag", 9**9, 9**9), compiler="avr-gcc 7.3.0")
+    assert bench.against_record(other, *recorded(written(COSTS))) == []
+    assert "avr-gcc 5.4.0 in CHANGELOG.md: not compared" in capsys.readouterr().out
+    same = replace(other, compiler=COSTS.compiler)
+    (line,) = bench.against_record(same, *recorded(written(COSTS)))
+    assert line.endswith("if that is meant, record it: tools/bench/run --write")
 
 
 @pytest.mark.parametrize(
     ("budgets", "lines"),
     [
-        ({"inverse, sag": 13_425, "forward, no guess": 40_000}, []),
-        ({"inverse, sag": 13_424}, ["inverse, sag: 13,425 cycles, the budget is 13,424"]),
-        ({"inverse, mud": 9**9}, ["inverse, mud: has a budget, but no such case is measured"]),
+        (BUDGETS, []),
+        (Budgets({"inverse, sag": 13_424}, {}), ["inverse, sag: 13,425, the budget is 13,424"]),
+        (Budgets({}, {"lines a second": 241}), ["lines a second: 240, the budget is 241"]),
+        (Budgets({"mud": 9**9}, {}), ["mud: has a budget, but no such case is measured"]),
     ],
 )
-def test_a_median_over_its_budget_is_told(budgets, lines):
-    assert compare.over_budget(COSTS, budgets) == lines
+def test_what_is_over_its_budget_is_told(budgets, lines):
+    assert over_budget(COSTS, budgets) == lines
 
 
-def test_budgets_and_published_figures_are_of_cases_that_exist():
-    files = ["cases.h", "quadrilateral_cases.h", "motion_cases.h"]
-    cases = registry.cases()
-    cases += "".join((BENCH / name).read_text(encoding="utf-8") for name in files)
-    tables = {path.stem: tomllib.loads(path.read_text()) for path in BENCH.glob("*.toml")}
-    names = [*tables["budgets"], *tables["published"]["cycles"]]
-    names.remove(absent.ROW)  # worked out from two builds, not a separate case
-    assert names and all(f'{{"{name}", ' in cases for name in names)
+def test_every_budget_is_of_a_row_in_the_record():
+    text = (ROOT / "CHANGELOG.md").read_text(encoding="utf-8")
+    budgets = bench.budgets()
+    assert all(f"\n| {name} | " in text for name in (*budgets.most, *budgets.least))
 
 
-def test_the_short_registry_keeps_only_the_measured_effects():
-    text = (
-        "using Effects = Registry<\n    At<1, A>,\n    At<2, ChainSag>,\n    At<3, ChainStretch>,\n"
-    )
-    text += "    At<4, ChainPitch>>;\n"
-    short, left_out = absent.shortened(text)
-    assert left_out == 1
-    assert "At<1, A>" not in short and short.count("At<") == 3 and short.endswith(">;\n")
-
-
-def test_an_effect_is_taken_out_of_the_registry_wherever_it_stands():
-    text = "using Effects = Registry<\n    At<1, ChainSag>,\n    At<2, ChainZero>>;\n"
-    assert "ChainSag" not in effects.without(text, "chain_sag")
-    last = effects.without(text, "chain_zero")
-    assert "ChainZero" not in last and "At<1, ChainSag>>;" in last
+def test_the_list_of_effects_is_shortened_and_an_effect_taken_out_wherever_it_stands():
+    names = [*registry.numbers()]
+    short, left_out = registry.only(["chain_sag", "chain_pitch"])
+    assert registry.ENTRY.findall(short) == [("160", "ChainSag"), ("180", "ChainPitch")]
+    assert left_out == len(names) - 2
+    for name in (names[0], "chain_sag", names[-1]):
+        numbers = [number for number, _ in registry.ENTRY.findall(registry.without(name))]
+        assert len(numbers) == len(names) - 1 and str(registry.numbers()[name]) not in numbers

@@ -1,6 +1,5 @@
 """The budgets of the firmware: a build says that one is near, and refuses to exceed it."""
 
-import random
 import runpy
 import stat
 import sys
@@ -11,9 +10,9 @@ import pytest
 
 ROOT = Path(__file__).resolve().parents[3]
 sys.path.insert(0, str(ROOT / "tools/bench"))
-import board  # noqa: E402
-import deepest  # noqa: E402
 import firmware  # noqa: E402
+import main as bench  # noqa: E402
+from record import Costs, over_budget  # noqa: E402
 
 LIMITS = {"upload.maximum_size": 1000, "upload.maximum_ram_size": 100}
 
@@ -34,7 +33,7 @@ def build(tmp_path):
             VerboseAction=lambda *_: None,
         )
         hook = runpy.run_path(
-            str(ROOT / "tools/budget.py"), init_globals={"Import": lambda _: None, "env": env}
+            str(ROOT / "tools/steps/budget.py"), init_globals={"Import": lambda _: None, "env": env}
         )
         return hook["hold_budgets"]([], ["firmware.elf"], env)
 
@@ -68,27 +67,18 @@ def test_a_build_over_its_budget_fails(build, capsys, sizes, what):
 
 
 def test_the_bench_reads_the_budgets_of_the_build():
-    assert firmware.BUDGETS["flash"] == board.budget("maximum_size") == 184_320
-    assert firmware.BUDGETS["static RAM"] == board.budget("maximum_ram_size") == 5_632
+    most = bench.budgets().most
+    assert (most[firmware.FLASH], most[firmware.RAM]) == (184_320, 5_632)
 
 
 def test_static_ram_and_the_deepest_stack_with_a_quarter_fit_into_the_mega():
-    row = "static RAM, deepest stack and a quarter of it"
-    figures = {**dict.fromkeys(firmware.BUDGETS, 0), **dict.fromkeys(firmware.AT_LEAST, 1000)}
-    assert firmware.over_budget({**figures, row: 8192}) == []
-    assert firmware.over_budget({**figures, row: 8193}) == [f"{row}: 8,193, the budget is 8,192"]
+    row, budgets = "static RAM, deepest stack and a quarter of it", bench.budgets()
+    figures = {**dict.fromkeys(budgets.most, (0,)), **dict.fromkeys(budgets.least, (1000,))}
+    fits, exceeds = (Costs("", {}, {**figures, row: (size,)}) for size in (8192, 8193))
+    assert over_budget(fits, budgets) == []
+    assert over_budget(exceeds, budgets) == [f"{row}: 8,193, the budget is 8,192"]
 
 
 def test_what_a_question_costs_is_the_time_that_lines_lose():
     figures = {"lines_per_second": 200, "lines_per_second_asked": 190, "questions_per_second": 10}
     assert firmware.cycles_of_a_question(figures) == pytest.approx(80_000)
-
-
-def test_the_search_changes_a_candidate_by_one_step():
-    lines = deepest.known_lines()
-    assert "-> $$" in lines
-    best = [(2000, ["-> G0 X1", "-> $$", ">> !"])]
-    for seed in range(40):
-        changed = deepest.one_more(random.Random(seed), lines, best)
-        assert abs(len(changed) - 3) <= 1
-        assert len({*changed} & {*best[0][1]}) >= 2

@@ -30,7 +30,7 @@ def copy(tmp_path_factory):
     folder = tmp_path_factory.mktemp("tree")
     for part in ("lib/Kinematics/src", "tools/judge/reference", "test/test_effects"):
         shutil.copytree(ROOT / part, folder / part)
-    shutil.copy(ROOT / "tools/bench/judge_errors.cpp", folder)
+    shutil.copy(ROOT / "tools/tests/project/judge_errors.cpp", folder)
     return folder
 
 

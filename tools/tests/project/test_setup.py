@@ -15,7 +15,7 @@ stop() { echo "stops: $1"; exit 1; }
 dpkg-query() { return 1; }
 apt-get() { echo "runs: apt-get $*"; }
 env() { shift; "$@"; }
-source "$root/tools/setup_steps/debian.sh"
+source "$root/tools/steps/debian.sh"
 """
 LAB = "g++ cmake python3-dev python3 python3-venv libeigen3-dev ccache"
 
@@ -85,7 +85,7 @@ root=$PWD log=log
 say() { echo "says: $1"; }
 stop() { echo "stops: $1"; exit 1; }
 source <(sed -n '/^fingerprint()/,/^}/p; /^same_as()/p' "$1/tools/setup")
-source "$1/tools/setup_steps/plumb.sh"
+source "$1/tools/steps/plumb.sh"
 c++() { if [ "$1" = --version ]; then cat compiler; else echo "$PWD/${1#*=}"; fi; }
 cmake() { echo cmake; }
 setup_plumb
@@ -139,7 +139,7 @@ stop() { echo "stops: $1"; exit 1; }
 fingerprint() { echo mark; }
 same_as() { [ -f "$1" ] && [ "$(<"$1")" = "$2" ]; }
 cd "$root"
-source "$2/tools/setup_steps/senders.sh"
+source "$2/tools/steps/senders.sh"
 setup_senders senders
 """
 

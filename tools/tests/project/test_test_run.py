@@ -9,9 +9,9 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).resolve().parents[3]
-sys.path.insert(0, str(ROOT / "tools/test_steps"))
-import run  # noqa: E402
-from run import Part  # noqa: E402
+sys.path.insert(0, str(ROOT / "tools/steps"))
+import run_tests as run  # noqa: E402
+from run_tests import Part  # noqa: E402
 
 GOOD, SKIPPED = "<testcase name='a'/>", "<testcase name='b'><skipped/></testcase>"
 FAILED, BROKEN = SKIPPED.replace("skipped", "failure"), SKIPPED.replace("skipped", "error")
@@ -95,7 +95,7 @@ def test_the_usual_run_leaves_out_only_what_is_slow_and_a_word_it_does_not_know_
 def test_a_run_that_is_interrupted_ends_all_that_it_started(results):
     """Also the busy loops: none of its children is left when it has ended."""
     script = (
-        f"import sys; sys.path[:0] = [{str(ROOT / 'tools/test_steps')!r}]; import run\n"
+        f"import sys; sys.path[:0] = [{str(ROOT / 'tools/steps')!r}]; import run_tests as run\n"
         "from pathlib import Path\n"
         f"run.RESULTS = Path({str(results / 'r')!r})\n"
         "run.PIO = 'true'\n"

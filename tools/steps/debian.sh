@@ -37,7 +37,7 @@ packages_for() {
     package=${package// /} group=${group// /}
     case "$package" in '' | '#'*) continue ;; esac
     if [ "$group" = lab ] || [ "$group" = "$1" ]; then names+=("$package"); fi
-  done <"$root/tools/setup_steps/debian_packages.txt"
+  done <"$root/tools/steps/debian_packages.txt"
   printf '%s' "${names[*]}"
 }
 
