@@ -8,7 +8,7 @@ from plumb.diagnosis.suspect_curves import fingerprint_of
 from plumb.fit.observations import observe
 from plumb.fit.problem import PRIORS
 from plumb.marks.read import Measurements
-from synthetic import BELIEVED, TRUE, grid, marks_on
+from synthetic import BELIEVED, grid, marks_on
 
 FREE = {name: 1e3 * sigma for name, sigma in PRIORS.items()}  # a frame of which nothing is known
 
@@ -39,10 +39,3 @@ def test_beyond_it_is_what_the_frame_alone_would_leave(stretch):
     assert np.sqrt(np.mean(np.sum(drawn.beyond**2, axis=1))) == pytest.approx(frame.rms, rel=0.6)
     share = 1 - (drawn.beyond_rms / drawn.alone_rms) ** 2
     assert share == pytest.approx(hidden_share(frame, "chain_stretch"), abs=0.01)
-
-
-def test_what_the_settings_have_of_it_counts():
-    rows = observe(TRUE, Measurements(marks_on(TRUE, TRUE, grid(5, 3))))
-    explanation = explain(Board.of(TRUE, rows, sigma=0.5), ("chain_pitch",))
-    drawn = fingerprint_of(explanation, "chain_pitch", rows)
-    assert drawn.alone_rms > 1  # as it is in the settings, though nothing has to be added

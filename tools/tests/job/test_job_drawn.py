@@ -1,7 +1,5 @@
 """The picture of a checked program: its cuts, its ways above the sheet, and what is wrong."""
 
-import re
-
 import numpy as np
 from plumb.bench.causes import MAKER
 from plumb.cli.check import _drawn
@@ -32,28 +30,10 @@ def test_the_piece_is_shaded_by_its_depth_and_seen_whole():
 SLOT = ("G0 Z3", "G0 X100 Y50", "G1 Z-1 F60", "G1 X140 F600", "G0 Z3")
 
 
-def test_each_way_is_of_its_kind():
-    job = drawn(*SLOT, "G0 X0 Y0")
-    assert job.title == "job.nc: nothing is wrong" and job.is_good
-    assert ends(job.ways["cut"])[-1] == (140.0, 50.0)
-    assert ends(job.ways["rapid"])[-1] == (0.0, 0.0)
-    assert (100.0, 50.0) in ends(job.ways["rapid"]) and job.ways["bad"] == []
-    assert job.labels == [(120.0, 50.0, "1")] and job.sheet == MAKER.sheet
-
-
 def test_what_is_wrong_is_drawn_so():
     job = drawn(*SLOT, "G0 Z-1", "G0 X160", "G0 Z3")
     assert job.title == "job.nc: something is wrong" and not job.is_good
     assert ends(job.ways["bad"]) == [(160.0, 50.0)]
-
-
-def test_a_wrong_way_straight_down_is_seen_from_above():
-    def dots(*lines):
-        picture = draw_job(drawn(*lines), form="svg")
-        return len(re.findall(rb"<use [^>]*fill: #c64f00", picture))
-
-    assert dots(*SLOT) == dots(*SLOT, "G0 Z-1", "G0 X160", "G0 Z3") == 0
-    assert dots("G0 Z3", "G0 X100 Y50", "G0 Z-2", "G0 Z3") == 2  # on the sheet, and from near
 
 
 def test_a_cut_where_the_sled_hangs_badly_is_wrong_and_a_way_above_it_is_not():
