@@ -8,7 +8,6 @@ from pathlib import Path
 import plumb
 import pytest
 from example_machine import checked
-from plumb import api
 from plumb.settings.files import read_settings
 
 TOOLS = Path(__file__).resolve().parents[2]
@@ -60,14 +59,6 @@ def test_options_are_those_of_the_commands():
     assert plumb.auto(inputs).diagnosis.noise.sigma == pytest.approx(0.4)
     with pytest.raises(plumb.InputError, match="there is no such file"):
         plumb.read("none.ini", MARKS)
-
-
-def test_the_package_offers_what_the_room_offers():
-    assert plumb.__all__ == api.__all__
-    assert all(getattr(plumb, name) is getattr(api, name) for name in api.__all__)
-    assert {*plumb.__all__} <= {*dir(plumb)}
-    with pytest.raises(AttributeError, match="no attribute 'raed'"):
-        plumb.raed  # noqa: B018
 
 
 def test_the_package_loads_its_functions_when_they_are_used():

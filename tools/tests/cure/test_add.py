@@ -8,10 +8,8 @@ from plumb.cure.machine_file import MARKS, SETTINGS, turn_sentences
 from plumb.fit.inputs import Inputs
 from plumb.fit.problem import PRIORS, Checked, priors_with
 from plumb.marks.read import Measurements, read_marks
-from plumb.model.predict import library
 from plumb.settings.files import read_settings
-from plumb.text.errors import InputError
-from synthetic import BELIEVED, EFFECTS, TRUE, distances_between, grid, marks_on
+from synthetic import BELIEVED, EFFECTS, TRUE, grid, marks_on
 
 STOCK = read_settings(SETTINGS)
 PUBLISHED_MARKS = read_marks(MARKS, sheet=STOCK.sheet)
@@ -114,39 +112,6 @@ def test_a_turn_that_may_be_none_asks_for_nothing(turn, said):
     assert len(turn_sentences(result)) == said
 
 
-def test_distances_alone_can_be_added_to():
-    pitch = replace(BELIEVED, effects={"chain_pitch": EFFECTS["chain_pitch"]})
-    board = distances_between(marks_on(pitch, BELIEVED, grid(4, 3)))
-    result = add(Inputs(BELIEVED, board), effects=["chain_pitch"])
-    assert result.after.shape_rms is None
-    assert result.after.fit_rms < 0.1 < result.before.fit_rms
-    assert result.after.worst < 0.1
-
-
-def test_too_few_numbers_are_refused_with_a_remedy():
-    few = Measurements(BOARD.marks[:3], source="few.csv")
-    with pytest.raises(InputError, match=r"few\.csv: 6 measured numbers .* 7 unknowns .*--prior"):
-        add(Inputs(BELIEVED, few), effects=["chain_pitch", "chain_sag"])
-    held = priors_with([("motor_height", 0.0), ("motor_gap", 0.0)])
-    assert (
-        add(Inputs(BELIEVED, few, priors=held), effects=["chain_pitch", "chain_sag"]).after.fit_rms
-        < 3
-    )
-
-
-def test_repeats_are_no_new_numbers():
-    twice = Measurements(BOARD.marks[:3] * 2, source="twice.csv")
-    with pytest.raises(InputError, match="6 measured numbers"):
-        add(Inputs(BELIEVED, twice), effects=["chain_pitch", "chain_sag"])
-
-
-def test_every_number_may_be_held():
-    held = priors_with([(name, 0.0) for name in PRIORS])
-    result = add(Inputs(BELIEVED, BOARD, priors=held), effects=["chain_pitch"])
-    assert result.before.fit_rms == pytest.approx(result.raw.rms)
-    assert result.settings.motor_gap == BELIEVED.motor_gap
-
-
 def test_what_was_measured_directly_holds_the_fit():
     # A tape and the frame draw nearly alike on few marks; a check says how long the tape is.
     true = replace(TRUE, motor_gap=TRUE.motor_gap + 4.0)
@@ -165,29 +130,6 @@ def test_what_was_measured_directly_holds_the_fit():
     # Numbers that are not fitted, or held, do not count.
     others = (Checked("frame_flex.inward", 0.01, 1e-4), Checked("rotation_radius", 139.0, 0.5))
     assert tape_of(others) == free
-
-
-def test_an_unknown_effect_is_refused_with_the_known_ones():
-    with pytest.raises(InputError) as refused:
-        add(Inputs(BELIEVED, BOARD), effects=["chain_sog"])
-    assert all(
-        effect["name"] in str(refused.value) for effect in library() if not effect["empirical"]
-    )
-
-
-def test_an_unknown_prior_is_refused_with_the_nearest():
-    with pytest.raises(InputError, match="did you mean motor_gap"):
-        priors_with([("motor_gape", 1.0)])
-    assert priors_with([("motor_gap", 1.0)]) == {**PRIORS, "motor_gap": 1.0}
-    assert PRIORS["motor_gap"] != 1.0
-
-
-def test_marks_that_cannot_be_reached_are_refused():
-    with pytest.raises(InputError, match="lead nowhere"):
-        add(
-            Inputs(replace(BELIEVED, motor_gap=9000.0), BOARD, cut_with=BELIEVED),
-            effects=["chain_sag"],
-        )
 
 
 def test_distances_alone_say_nothing_of_where_the_sheet_lies(run, ask, tmp_path):

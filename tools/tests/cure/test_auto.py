@@ -19,7 +19,6 @@ from plumb.marks.read import read_marks, without_marks
 from plumb.model.catalogue import EVERY_MACHINE, parameter_words
 from plumb.model.plain import noun_of
 from plumb.settings.files import read_settings
-from plumb.text.errors import InputError
 from synthetic import csv_of
 
 WIDE = plan(5, 5)
@@ -125,12 +124,6 @@ def test_adding_ends_with_a_reason_on_any_board(seed):
                 assert words["low"] < 0 or size > -0.02 * abs(words["typical"])
 
 
-def test_nothing_is_added_where_nothing_is_hidden():
-    result = add_auto(Inputs(MAKER, board({}, WIDE, seed=6)))
-    assert result.chosen == () and result.done
-    assert result.addition.effects_added == () and result.addition.by_effect == ()
-
-
 def test_nothing_is_fitted_to_a_slip_until_it_is_left_out():
     clean = board({}, WIDE, seed=7)
     slipped = moved(clean, 11, (0.0, 7.0))
@@ -140,11 +133,6 @@ def test_nothing_is_fitted_to_a_slip_until_it_is_left_out():
     assert set(result.slips) == {clean.marks[11].name}
     again = add_auto(Inputs(MAKER, without_marks(slipped, [clean.marks[11].name])))
     assert again.done and len(again.addition.after_fit.errors) == 24
-
-
-def test_a_mark_that_is_not_there_cannot_be_left_out():
-    with pytest.raises(InputError, match="--without unknown name 'A9'"):
-        without_marks(board({}, plan(3, 3), seed=1), ["A9"])
 
 
 def test_what_is_not_in_the_library_is_left_alone():
@@ -202,7 +190,3 @@ def test_the_command_writes_nothing_for_a_slip_and_says_so(tmp_path, capsys):
     report = json.loads(capsys.readouterr().out)
     assert code == 1 and not out.exists()
     assert report["auto"]["verdict"] == "slip" and report["written"] == []
-
-
-def test_auto_stands_alone():
-    assert main(["add", str(SETTINGS), str(MARKS), "--effect", "auto", "chain_sag"]) == 2

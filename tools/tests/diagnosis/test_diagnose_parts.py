@@ -1,13 +1,9 @@
 """The parts of a diagnosis, each against a number from elsewhere."""
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 from plumb.diagnosis.explanation import Board, explain
 from plumb.diagnosis.noise import KNOWN, Noise
-from plumb.diagnosis.outliers import without
-from plumb.diagnosis.readings import shifts
 from plumb.diagnosis.sizes import hidden_share, room_for, sizes_of
 from plumb.fit.expected import plausible_range
 from plumb.fit.fit import fit
@@ -49,27 +45,6 @@ def test_an_explanation_is_the_fit_of_plumb_add(effects):
         assert size.low == pytest.approx(max(estimate.low, least), abs=1e-3 * width)
 
 
-def test_a_shift_is_the_error_of_the_fit_without_that_mark():
-    frame = explain(board_of())
-    for shift in shifts(frame)[:4]:
-        left = explain(replace_rows(frame, without(frame.board.rows, shift.reading)))
-        full = explain(replace_rows(left, frame.board.rows), start=left)
-        del full
-        predicted = predict_at(frame.board, left.unknowns)[shift.reading.index]
-        wanted = frame.board.rows.measured[shift.reading.index] - predicted
-        assert shift.offset == pytest.approx(wanted, abs=5e-3)
-
-
-def replace_rows(explanation, rows):
-    board = explanation.board
-    return replace(board, problem=replace(board.problem, observations=rows))
-
-
-def predict_at(board, unknowns):
-    sighting, _ = board.problem.predict(unknowns)
-    return sighting.read.where[board.rows.mark_rows]
-
-
 def test_the_frame_swallows_what_it_can():
     frame = explain(board_of(columns=5, rows=5))
     shares = {name: hidden_share(frame, name) for name in effect_names()}
@@ -86,11 +61,3 @@ def test_room_for_what_is_not_there_holds_the_truth():
         others = explain(board, ("chain_sag", "chain_pitch"))
         held += room_for("chain_stretch", (others,), STATED).limits[0].largest >= 5.2e-6
     assert held >= 34  # 38 on average
-
-
-def test_room_of_two_parameters_is_that_of_both_together():
-    # Pitch of both chains moves these marks by 4.67 mm RMS; each chain alone by 4.22 and 1.61.
-    board = Board.of(BELIEVED, rows_of(noise=0.0, columns=5, rows=5), sigma=0.05)
-    others = explain(board, ("chain_sag", "chain_stretch"))
-    room = room_for("chain_pitch", (others,), Noise(0.05, KNOWN, "stated"))
-    assert room.mm == pytest.approx(4.672, abs=0.12)

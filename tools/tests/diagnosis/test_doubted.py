@@ -33,12 +33,6 @@ def test_a_reading_that_no_machine_explains_is_named_with_its_place_among_all(si
     assert doubt.sentence.startswith("it reads 38") and "remeasure" not in doubt.sentence
 
 
-def test_of_few_readings_that_is_doubted_which_lies_too_far():
-    (doubt,) = doubts(read_elsewhere(board(3, 1), 1, (90.0, 0.0)))
-    assert (doubt.index, doubt.is_mark) == (1, True)
-    assert doubts(board(3, 1)) == ()
-
-
 def test_a_reading_half_a_sheet_away_is_named_first_and_the_rest_is_looked_at_without_it():
     twice = read_elsewhere(read_elsewhere(board(), 3, (700.0, 0.0)), 11, (0.0, 40.0))
     far, near = doubts(twice)

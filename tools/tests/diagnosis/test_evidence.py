@@ -6,12 +6,9 @@ import numpy as np
 import pytest
 from linear_boards import NAMES, covariance_of, in_full, made_up
 from plumb.diagnosis.evidence import (
-    Noises,
     accounts_of,
     fitted,
-    log_orthant,
     noises_of,
-    weights_of,
 )
 from plumb.diagnosis.linear import Metric
 from plumb.diagnosis.priors import ACTS, ALL, UNUSUAL
@@ -63,30 +60,6 @@ def log_density_of_half_normal(board, covariance, spread):
     return special.logsumexp(logs, b=np.r_[0.5, np.ones(len(logs) - 1)]) + np.log(sizes[1, 0])
 
 
-def random_normals(source, k):
-    """A mean near the edge, and a covariance."""
-    root = source.standard_normal((k, 3 * k))
-    covariance = root @ root.T / k
-    return np.sqrt(np.diag(covariance)) * source.uniform(-1.5, 2.5, k), covariance
-
-
-def test_the_mass_of_independent_numbers_is_a_product():
-    mean = np.array([[0.5, -2.0], [-1.0, 9.0], [0.2, 0.0]])
-    covariance = np.repeat(np.diag([1.0, 4.0, 0.25])[:, :, np.newaxis], 2, axis=2)
-    wanted = special.log_ndtr(mean / np.array([[1.0], [2.0], [0.5]])).sum(axis=0)
-    assert log_orthant(mean, covariance) == pytest.approx(wanted, abs=1e-6)
-
-
-def test_what_has_either_sign_changes_no_mass():
-    mean, covariance = random_normals(np.random.default_rng(4), 4)
-    free = np.where([False, True, False, True], np.inf, mean)
-    bound = np.ix_([0, 2], [0, 2])
-    wanted = log_orthant(mean[[0, 2], np.newaxis], covariance[bound][:, :, np.newaxis])
-    assert log_orthant(free[:, np.newaxis], covariance[:, :, np.newaxis]) == pytest.approx(wanted)
-    nothing = log_orthant(np.full((4, 1), np.inf), covariance[:, :, np.newaxis])
-    assert nothing.tolist() == [0.0]
-
-
 def test_accounts_are_all_sets_of_a_few_effects_with_small_and_large_sizes():
     accounts = accounts_of(made_up(), 2)
     assert len(accounts.effects) == 1 + 4 + 6 + 1 and accounts.effects[-1] == NAMES
@@ -113,17 +86,6 @@ def test_an_account_is_as_likely_before_the_marks_as_its_effects():
     ):
         part, a = variant(accounts, *names)
         assert part.log_prior[a] == pytest.approx(np.log(odds))
-
-
-def test_sets_keep_their_weights_when_others_are_left_out():
-    board, noises = made_up(), Noises(SIGMAS, np.log([0.2, 0.5, 0.3]))
-    metric, accounts = Metric.of(board, SIGMAS), accounts_of(board, 2)
-    whole = weights_of(accounts, metric, noises)
-    few = weights_of(accounts.up_to(1), metric, noises)
-    assert few[:5] == pytest.approx(whole[:5]) and np.all(few[5:-1] == -np.inf)
-    wanted = np.arange(len(whole)) % 3 == 1
-    some = weights_of(accounts.among(wanted), metric, noises)
-    assert some[wanted] == pytest.approx(whole[wanted]) and np.all(some[~wanted] == -np.inf)
 
 
 # Readings that are off: an added column for each.

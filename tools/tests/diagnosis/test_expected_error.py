@@ -69,14 +69,6 @@ def explained(effects):
     return replace(frame, effects=tuple(effects), at=at)
 
 
-def test_rivals_that_lead_to_the_same_places_do_not_differ():
-    used = explained({"chain_pitch": 1.0})
-    assert rival_error([used], 0.0) is None
-    assert rival_error([used, used], 1e-6) is None
-    # Where the sheet lies and what only the tape does is no difference between holes.
-    assert rival_error([used, explained({"chain_pitch": 1.0, "tape_scale": 5.0})], 1e-6) is None
-
-
 def test_rivals_differ_by_what_is_left_when_the_sheet_is_laid_anew():
     used, rival = explained({}), explained({"chain_pitch": np.array([2.0, 2.0])})
     difference = rival_error([used, rival], 0.0)
@@ -100,12 +92,3 @@ def test_rivals_differ_by_what_is_left_when_the_sheet_is_laid_anew():
     assert difference.where in difference.sentence
     assert rival_error([used, rival], difference.mm * 1.01) is None
     assert rival_error([used, rival], difference.mm * 0.99) == difference
-
-
-def test_the_worst_rival_counts_and_each_place_by_itself():
-    used = explained({})
-    small, large = (explained({"chain_plane": size}) for size in (1.0, 4.0))
-    worst = rival_error([used, large], 0.0)
-    assert rival_error([used, small, large], 0.0) == worst
-    assert rival_error([used, large, small], 0.0) == worst
-    assert rival_error([used, small], 0.0).mm < 0.5 * worst.mm

@@ -7,7 +7,6 @@ import pytest
 from plumb.diagnosis import diagnose
 from plumb.fit.inputs import Inputs
 from plumb.marks.read import Measurements, read_marks
-from plumb.settings.toml import machine_toml
 from plumb.text.errors import InputError
 from synthetic import BELIEVED, SHEET, distances_between, grid, marks_on
 
@@ -97,12 +96,6 @@ def test_nothing_is_called_exchanged_without_need():
         assert diagnose(Inputs(BELIEVED, board(marks), sigma=0.3)).outliers == ()
 
 
-def test_far_exchanges_are_refused_when_the_file_is_read(file):
-    marks = exchanged(marks_on(PITCH, BELIEVED, grid(5, 3)), 3, 4)
-    with pytest.raises(InputError, match="the readings of 3 and 4 may be exchanged"):
-        read_marks(file("m.toml", toml(marks)), sheet=SHEET)
-
-
 def test_y_errors_with_the_other_sign_are_found_out():
     marks = [
         replace(mark, measured=(mark.measured[0], 2 * mark.target[1] - mark.measured[1]))
@@ -110,16 +103,6 @@ def test_y_errors_with_the_other_sign_are_found_out():
     ]
     said = diagnose(Inputs(BELIEVED, board(marks), sigma=0.3)).warnings
     assert any("with all y errors the other way round" in sentence for sentence in said)
-
-
-def test_a_file_given_twice_is_refused(run, file, tmp_path):
-    machine = file("machine.toml", machine_toml(BELIEVED))
-    marks = file("m.toml", toml(marks_on(PITCH, BELIEVED, grid(3, 3))))
-    again = tmp_path / "again.toml"
-    again.symlink_to(marks)
-    for command in ("compare", "diagnose"):
-        code, said, complained = run(command, machine, marks, again)
-        assert code == 2 and said == "" and "is given twice" in complained
 
 
 @pytest.mark.parametrize(

@@ -96,22 +96,6 @@ def test_a_misfit_is_as_likely_as_chance_says_where_the_noise_is_known():
     assert stats.kstest(chances, "uniform").pvalue > 0.01
 
 
-def test_a_misfit_is_no_surprise_where_the_noise_is_little_known():
-    frame = explain(board_of(noise=1.0))
-    chances = [misfit_chance(frame, stated) for stated in (FINAL, Stated(0.5), None)]
-    assert chances == sorted(chances) and chances[0] < 1e-6 and chances[2] > 0.03
-    loud = explain(board_of(noise=6.0))
-    assert misfit_chance(loud, None) < 0.02
-
-
-def test_repeats_that_scatter_make_a_misfit_no_surprise_and_quiet_repeats_do_not_make_one():
-    # The tape is said to be three times better than it is; each mark was read three times.
-    loud = explain(board_of(noise=0.5, rows=3, times=3))
-    assert misfit_chance(loud, Stated(0.17)) > 0.03
-    once = explain(board_of(noise=0.5, rows=3))
-    assert misfit_chance(once, Stated(0.17)) < misfit_chance(loud, Stated(0.17))
-
-
 def test_noise_leaves_what_it_leaves_of_many_boards():
     noise = Noise(0.5, KNOWN, "stated")
     left = [explain(board_of(noise=0.5, seed=seed)).rms ** 2 for seed in range(40)]

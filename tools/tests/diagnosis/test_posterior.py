@@ -1,7 +1,5 @@
 """One posterior: its parts are shares of a whole, and the accounts that are listed hold most."""
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 from hidden_boards import board, size_for
@@ -11,11 +9,9 @@ from plumb.diagnosis.explanation import measured_board
 from plumb.diagnosis.posterior import (
     LISTED,
     MOST_LISTED,
-    explain_account,
     listing,
     posterior_of,
 )
-from plumb.diagnosis.priors import usual_checks
 from plumb.fit.inputs import Inputs, Stated
 from plumb.model.catalogue import EVERY_MACHINE
 from scipy import special
@@ -82,16 +78,6 @@ def test_all_that_may_be_holds_the_whole(clean):
     assert clean.nothing_chance() < 0.01 < clean.effect_chances()["tape_scale"]
 
 
-def test_accounts_come_once_each_and_the_likeliest_first(clean):
-    effects = [frozenset(each.effects) for each in clean.accounts]
-    assert len({*effects}) == len(effects)
-    weights = [each.clean for each in clean.accounts]
-    assert weights == sorted(weights, reverse=True)
-    listed = clean.listed()
-    assert listed[0].account is clean.accounts[0] and "tape_scale" in listed[0].account.effects
-    assert listed[0].share >= np.exp(weights[0] - clean.clean)
-
-
 def bare_posterior(layout, noise):
     """Of a machine as every machine is, cut with settings that know of no sag and no stretch."""
     made = cut(Hidden(), layout, seed=3, noise=noise, settings=BARE).measurements
@@ -113,29 +99,3 @@ def test_sizes_that_no_machine_has_are_unlikely_by_themselves():
     posterior = posterior_of(measured_board(Inputs(MAKER, measured)), FINAL)
     assert posterior.listed()[0].account.effects == ("chain_sag",)
     assert not any(each.account.effects == ("frame_lean",) for each in posterior.listed())
-
-
-def test_an_account_is_refitted_with_what_every_machine_has():
-    frame = bare_posterior(NINE, 0.5).frame
-    bare = explain_account(frame, (), ())
-    assert {*bare.effects} == {*EVERY_MACHINE}
-    held = usual_checks(frame.board, EVERY_MACHINE)
-    values = bare.board.problem.start + bare.board.problem.scale * bare.unknowns
-    for check in held:
-        value = values[bare.board.problem.names.index(check.name)]
-        assert abs(value - check.value) < 3 * check.sigma
-    # What is asked for by itself is as free as any effect, and what settings have is left to them.
-    free = explain_account(frame, ("chain_stretch",), ("chain_stretch",))
-    assert free.board.usual == 1
-    known = replace(frame, board=measured_board(Inputs(MAKER, board({}, NINE, seed=3))))
-    assert explain_account(known, ("chain_pitch",), ("chain_pitch",)).effects == ("chain_pitch",)
-
-
-def test_a_size_that_cannot_be_is_held_at_zero():
-    frame = posterior_of(measured_board(Inputs(MAKER, board({}, NINE, seed=4))), FINAL).frame
-    for seed in range(6):
-        measured = board({}, NINE, seed=seed)
-        at = measured_board(Inputs(MAKER, measured))
-        fitted = explain_account(replace(frame, board=at), ("chain_plane",), ("chain_plane",))
-        (column,) = at.columns(["chain_plane"])
-        assert fitted.unknowns[column] > -2e-3

@@ -52,34 +52,12 @@ def test_of_several_the_two_likeliest_are_named():
     assert said_of("cannot_tell", *rivals, rivals[2]).endswith("2 more are possible.")
 
 
-def test_what_all_explanations_have_is_said_once():
-    sure = "motor_level"
-    either = account(sure, "chain_sag", share=0.8), account(sure, "tape_scale", share=0.2)
-    assert said_of("cannot_tell", *either) == (
-        "One cause is most likely motors that are not level. In addition: chain sag, at odds "
-        "of 4 to 1, or a tape that reads wrong, at 1 to 4."
-    )
-    assert said_of("cannot_tell", either[0], account(sure, share=0.2)).endswith(
-        "chain sag, at odds of 4 to 1, or nothing else, at 1 to 4."
-    )
-
-
 @pytest.mark.parametrize("sure", [(), ("motor_level",), ("motor_level", "chain_sag")])
 def test_no_first_sentence_names_more_than_two_causes(sure):
     said = said_of("cannot_tell", account(*sure, *PAIR), account(*sure, "sheet_skew"))
     assert "sheet edges" not in said and said.endswith("1 more is possible.")
     assert "sheet edges" in said_of(
         "cannot_tell", account(*sure, "tape_scale"), account(*sure, LONG[2])
-    )
-
-
-def test_no_cause_is_said_as_surely_as_it_is_known():
-    assert said_of("nothing_provable", nothing=0.6) == (
-        "The marks show no cause: all that is wrong may be the frame's numbers. With the frame "
-        "fitted 2.00 mm RMS is left; noise alone leaves 0.42 mm."
-    )
-    assert said_of("nothing_provable", nothing=0.4).startswith(
-        "Something may act, but the marks do not show what. With the frame"
     )
 
 

@@ -67,13 +67,6 @@ def test_what_the_library_does_not_know_is_said_once_it_is_likely_enough(
     assert said.verdict == ("not_in_library" if is_beyond else "one_suspect")
 
 
-def test_fields_and_rounds_count_together(monkeypatch):
-    each = 0.6 * UNKNOWN
-    assert judged({("a",): 1.0}, monkeypatch, field=each).verdict == "one_suspect"
-    said = judged({("a",): 1.0}, monkeypatch, field=each, moved=each)
-    assert said.verdict == "not_in_library" and said.listed
-
-
 @pytest.mark.parametrize(("chance", "is_beyond"), both(MISFIT))
 def test_more_than_noise_ever_leaves_is_the_last_guard(chance, is_beyond, monkeypatch):
     said = judged({("a",): 0.99, (): 0.01}, monkeypatch, misfit=chance)

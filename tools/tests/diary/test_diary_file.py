@@ -1,13 +1,12 @@
 """The diary's file: entries are only added, a cut line is noticed, and writers wait."""
 
-import json
 import os
 import subprocess
 import sys
 from datetime import UTC, datetime
 
 import pytest
-from plumb.diary.file import NAME, append, has_diary, read_diary
+from plumb.diary.file import NAME, append, read_diary
 from plumb.text.errors import InputError
 
 NOON = datetime(2026, 5, 1, 12, tzinfo=UTC)
@@ -27,13 +26,6 @@ def test_entries_come_back_as_they_were_written(tmp_path):
     assert diary.entries[1].at.tzinfo is not None
     assert diary.of_kind("program") == diary.entries[1:]
     assert diary.spoilt == ()
-
-
-def test_a_line_is_json_that_other_programs_read(tmp_path):
-    append(tmp_path, "fit", {"rms_mm": float("nan"), "pair": (1, 2)}, at=NOON)
-    line = json.loads((tmp_path / NAME).read_text())
-    assert line["kind"] == "fit" and line["at"] == "2026-05-01T12:00:00+00:00"
-    assert line["rms_mm"] is None and line["pair"] == [1, 2]
 
 
 def test_a_full_disk_leaves_the_diary_as_it_was(tmp_path):
@@ -56,19 +48,6 @@ def test_a_full_disk_leaves_the_diary_as_it_was(tmp_path):
         assert "diary.jsonl: cannot be written" in done.stdout, done.stderr
     assert (tmp_path / NAME).read_bytes() == before
     assert list((tmp_path / "new").iterdir()) == []
-
-
-def test_a_folder_without_a_diary_has_no_entries(tmp_path):
-    assert read_diary(tmp_path).entries == () and not has_diary(tmp_path)
-    append(tmp_path, "fit", {})
-    assert has_diary(tmp_path)
-
-
-def test_an_entry_changes_nothing_that_was_there(tmp_path):
-    append(tmp_path, "fit", {"number": 1})
-    before = (tmp_path / NAME).read_bytes()
-    append(tmp_path, "fit", {"number": 2})
-    assert (tmp_path / NAME).read_bytes().startswith(before)
 
 
 @pytest.mark.parametrize("kept", [1, 20, 40, -2, -1])
@@ -96,15 +75,6 @@ def test_a_line_that_somebody_changed_does_not_count(tmp_path, change):
     diary = read_diary(tmp_path)
     assert [entry.content["number"] for entry in diary.entries] == [0, 2]
     assert diary.spoilt == (2,)
-
-
-def test_other_people_of_the_computer_may_read_it(tmp_path):
-    before = os.umask(0)
-    try:
-        append(tmp_path, "fit", {})
-    finally:
-        os.umask(before)
-    assert (tmp_path / NAME).stat().st_mode & 0o777 == 0o644
 
 
 def test_two_writers_lose_nothing(tmp_path):

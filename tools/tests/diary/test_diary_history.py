@@ -140,12 +140,6 @@ def test_what_was_done_has_its_words(kind, content, said):
     assert noted(Entry(kind, FIRST, content)) == said
 
 
-def test_readings_are_marks_and_distances(tmp_path):
-    append(tmp_path, FIT, entry_with(marks=[{}] * 5, distances=[{}] * 2))
-    (fit,) = history_of(read_diary(tmp_path)).fits
-    assert fit.count == 7 and np.isnan(fit.rms)
-
-
 def test_numbers_and_programs_keep_what_was_sent(tmp_path):
     changed = {2: (2978.4, 2979.31)}
     content = numbers_entry(
@@ -165,16 +159,6 @@ def test_an_entry_is_kept_next_to_the_file_of_a_machine(tmp_path):
     assert keep(str(machine), "home", {}) == ""
     assert keep(str(machine), "home", {}, begin=False) == ""
     assert len(read_diary(tmp_path).entries) == 2
-
-
-def test_what_is_no_file_gets_no_diary(tmp_path):
-    assert keep("/dev/null", "home", {}) == "" and keep("-", "home", {}) == ""
-    assert keep(str(tmp_path / "none.toml"), "home", {}) == ""
-    assert list(tmp_path.iterdir()) == []
-
-
-def test_what_concerns_a_folder_is_kept_in_it(tmp_path):
-    assert keep(str(tmp_path), "home", {}) == "" and (tmp_path / NAME).exists()
 
 
 def test_a_diary_that_takes_no_entry_is_a_sentence_and_no_refusal(tmp_path):

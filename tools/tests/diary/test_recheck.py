@@ -7,13 +7,12 @@ import pytest
 from plumb.cure.add import add
 from plumb.cure.machine_file import record_of
 from plumb.diary.file import FIT, append, fit_entry, read_diary
-from plumb.diary.recheck import LEFT, RIGHT, SHEET_X, recheck
+from plumb.diary.recheck import LEFT, RIGHT, recheck
 from plumb.fit.inputs import Inputs
 from plumb.job.home import Touch
 from plumb.marks.read import Measurements
 from plumb.model.predict import lengths, places
 from plumb.settings.toml import machine_toml
-from plumb.text.errors import InputError
 from synthetic import BELIEVED, TRUE, grid, marks_on
 
 AT = np.array([(-900.0, 250.0), (900.0, -250.0)])
@@ -108,23 +107,3 @@ def test_what_the_fit_knew_less_well_is_expected_to_be_farther_off(machine):
     settings, diary = machine
     checked = recheck(diary, settings, touched(settings))
     assert (checked.expected > 3.03 * 0.5).all() and (checked.expected < 6).all()
-
-
-def test_settings_that_the_diary_does_not_know_are_refused(machine):
-    settings, diary = machine
-    with pytest.raises(InputError, match="knows no fit that gave these settings"):
-        recheck(diary, BELIEVED, touched(settings))
-
-
-@pytest.mark.parametrize("seed", range(6))
-def test_what_explains_marks_alike_comes_in_the_same_order_on_every_processor(machine, seed):
-    """Marks that lie off along x: the sheet moved, or both motors did, by the very same column."""
-    settings, diary = machine
-    rounding = 1e-12 * np.random.default_rng(seed).standard_normal(AT.shape)
-    along_x = np.array([(5.0, 0.0), (5.0, 0.0)])
-    checked = recheck(diary, settings, touched(settings, noise=along_x * (1 + rounding)))
-    first, second = checked.changes[:2]
-    assert (first.name, second.name) == (SHEET_X, "motor_center_x")
-    assert first.chi_square == pytest.approx(second.chi_square, rel=1e-9)
-    names = [change.name for change in checked.changes]
-    assert len(set(names)) == len(names) and {LEFT, RIGHT, "motor_gap"} <= set(names)

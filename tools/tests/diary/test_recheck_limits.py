@@ -6,9 +6,8 @@ import numpy as np
 import pytest
 from plumb.bench.causes import MAKER
 from plumb.diary.file import FIT, append, read_diary
-from plumb.diary.recheck import LEFT, RIGHT, SHEET_X, SHEET_Y, recheck
+from plumb.diary.recheck import SHEET_X, SHEET_Y, recheck
 from plumb.job.home import Touch
-from plumb.model.predict import lengths, places
 from plumb.settings.toml import machine_toml
 
 AT = np.array([(-900.0, 250.0), (900.0, -250.0)])
@@ -52,12 +51,6 @@ def test_marks_hold_up_to_the_99_percent_of_chi_square(checked, share, holds):
     assert checked(np.full((2, 2), size) * [[1, -1], [-1, 1]]).holds is holds
 
 
-def test_without_a_stated_error_a_touch_is_good_to_half_a_millimetre(checked):
-    assert checked(np.full((2, 2), 0.8), sigma=None).chi_square == pytest.approx(
-        4 * (0.8 / 0.5) ** 2
-    )
-
-
 def test_a_mark_is_expected_as_far_off_as_touch_and_fit_allow(checked):
     plain = checked(np.zeros((2, 2)))
     assert plain.expected == pytest.approx([SIGMA * math.sqrt(SURE_OF[2])] * 2, rel=1e-3)
@@ -65,20 +58,6 @@ def test_a_mark_is_expected_as_far_off_as_touch_and_fit_allow(checked):
     far = 0.002 * np.hypot(*AT[0])
     wide = math.sqrt(SURE_OF[2] * (SIGMA**2 + far**2))
     assert turned.expected == pytest.approx([wide] * 2, rel=1e-3)
-
-
-def test_a_turned_sheet_is_allowed_as_far_as_the_fit_did_not_know_its_rotation(checked):
-    known = {"sheet_rotation": 0.002}
-    assert checked(0.002 * along("turn"), known=known).chi_square == pytest.approx(1, rel=0.01)
-    assert checked(-0.002 * along("turn"), known=known).holds
-    mirrored = 0.002 * along("turn") * (-1, 1)
-    assert not checked(mirrored, known=known).holds
-
-
-def test_what_another_board_alone_depends_on_allows_nothing(checked):
-    errors = np.full((2, 2), 3 * SIGMA)
-    plain, other = checked(errors), checked(errors, known={"sheet2.x": 5.0})
-    assert other.chi_square == pytest.approx(plain.chi_square)
 
 
 @pytest.mark.parametrize(("change", "size"), [(SHEET_X, 3.0), (SHEET_Y, -2.0)])
@@ -90,14 +69,6 @@ def test_a_sheet_that_moved_is_named_with_its_size(checked, change, size):
     assert best.before == 0
     changes = {each.name: each for each in checked(size * along(change)).changes}
     assert changes["motor_gap"].before == MAKER.motor_gap
-
-
-@pytest.mark.parametrize(("name", "longer"), [(LEFT, (1.5, 0)), (RIGHT, (0, -1.5))])
-def test_a_chain_is_named_with_its_size(checked, name, longer):
-    where = places(MAKER, lengths(MAKER, AT)[0] + np.array(longer))[0]
-    best = checked(where - AT).changes[0]
-    assert (best.name, best.explains) == (name, True)
-    assert best.size == pytest.approx(sum(longer), abs=0.02)
 
 
 @pytest.mark.parametrize(("share", "explains"), [(0.99, True), (1.01, False)])

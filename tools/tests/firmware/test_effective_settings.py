@@ -61,23 +61,6 @@ def test_sag_is_that_of_the_published_firmware(numbers, correction, feed):
     assert abs(ours - published).max() < max(0.004 * most, 0.003)
 
 
-def test_all_together_are_those_of_the_published_firmware():
-    published, ours = both({8: 139.1, 37: 27.4, 40: 0.348, 41: -0.08})
-    assert abs(ours - published).max() < 0.1
-
-
-def test_our_own_numbers_are_added():
-    plain = machine_of({8: 139.1, 37: 10, 40: 0.1}, sheet=SHEET)
-    more = machine_of({8: 139.1, 37: 10, 40: 0.1, 160: 2e-12, 180: 0.002, 200: 1.5}, sheet=SHEET)
-    for effect, parameter, added in (
-        ("chain_sag", "weight_ratio_squared", 2e-12),
-        ("chain_pitch", "left", 0.002),
-        ("chain_zero", "left", 1.5),
-    ):
-        difference = more.effect(effect, parameter) - plain.effect(effect, parameter)
-        assert difference == pytest.approx(added, rel=1e-5)
-
-
 def test_positive_tolerance_means_a_longer_chain():
     """As in the lab: fewer links reach the same distance."""
     published = replace(BELIEVED, controller="stock", published=PublishedSettings(10, 0.2, 0.1))

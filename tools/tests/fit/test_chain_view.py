@@ -5,12 +5,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from chain_views import chain_view
-from plumb.fit.compare import chain_errors, compare
+from plumb.fit.compare import compare
 from plumb.fit.covariates import covariates
 from plumb.fit.inputs import Inputs
-from plumb.fit.observations import loaded, observe
+from plumb.fit.observations import observe
 from plumb.marks.read import Distance, Mark, Measurements
-from plumb.model.predict import lengths, places, reach, settings_of, values_of
+from plumb.model.predict import lengths, values_of
 from synthetic import BELIEVED, TRUE, grid, marks_on
 
 
@@ -54,52 +54,12 @@ def test_it_is_what_compare_says():
     assert view.errors == pytest.approx(np.array([mark.error for mark in compared]))
 
 
-def test_swapped_chains_that_lead_where_they_should_have_no_error():
-    machine = replace(BELIEVED, effects={"chain_pitch": {"left": 0.002, "right": 0.0}})
-    swapped = replace(BELIEVED, effects={"chain_pitch": {"left": 0.0, "right": 0.002}})
-    chains = np.array([[1800.0, 1700.0]])
-    where = tuple(places(swapped, chains)[0][0])
-    mark = Mark("1", (0.0, 0.0), where, chains=(1800.0, 1700.0), chains_swapped=True)
-    (compared,) = compare(Inputs(machine, Measurements((mark,)))).marks
-    assert np.hypot(*compared.error) < 1e-3
-    assert abs(compared.left_chain_residual) < 1e-3 and abs(compared.right_chain_residual) < 1e-3
-
-
-def test_where_no_chain_reaches_there_is_no_number():
-    places_of_two, errors = np.array([[0.0, 0.0], [0.0, 400.0]]), np.array([[1.0, 0.0], [0, 800.0]])
-    more = chain_errors(BELIEVED, places_of_two, errors, np.full(2, BELIEVED.sled_weight))
-    assert np.isfinite(more[0]).all() and np.isnan(more[1]).all()
-
-
 def test_distances_alone_have_no_chain_view():
     marks = (Mark("A", (0.0, 0.0)), Mark("B", (500.0, 0.0)))
     rows = observe(BELIEVED, Measurements(marks, (Distance(("A", "B"), 500.0),)))
     view = chain_view(values_of(BELIEVED), {}, rows, BELIEVED)
     assert view.chains.shape == (0, 2)
     assert known(rows)["tension"].values.shape == (2, 2)
-
-
-def test_tension_is_that_of_the_reach_and_follows_the_sled_of_each_visit():
-    heavy = 1.5 * BELIEVED.sled_weight
-    place = (400.0, -300.0)
-    rows = rows_at(Mark("1", place, place), Mark("2", place, place, sled_weight=heavy))
-    light_one, heavy_one = known(rows)["tension"].values
-    loaded_model = settings_of(
-        loaded(values_of(BELIEVED), heavy, BELIEVED.sled_weight)[0], like=BELIEVED
-    )
-    assert light_one == pytest.approx(reach(BELIEVED, [place]).tension[0], rel=0.02)
-    assert heavy_one == pytest.approx(reach(loaded_model, [place]).tension[0], rel=0.02)
-    assert heavy_one[0] / light_one[0] > 1.4
-
-
-def test_left_and_right_change_sides_with_the_place():
-    left, right = (-700.0, 200.0), (700.0, 200.0)
-    seen_there = known(rows_at(Mark("1", left, left), Mark("2", right, right)))
-    for name in ("tension", "length", "angle"):
-        values = seen_there[name].values
-        assert values[0] == pytest.approx(values[1][::-1], abs=1e-3), name
-    assert seen_there["length"].values[0, 0] < seen_there["length"].values[0, 1]
-    assert seen_there["angle"].values[0, 0] > seen_there["angle"].values[0, 1] > 0
 
 
 def test_a_straight_chain_closes_the_triangle():
@@ -112,20 +72,6 @@ def test_a_straight_chain_closes_the_triangle():
     assert length + BELIEVED.rotation_radius == pytest.approx(straight, abs=1.0)
     down = np.arctan2(sprocket[1] - place[1], place[0] - sprocket[0])
     assert angle == pytest.approx(down, abs=1.1 * BELIEVED.sprocket_radius / straight)
-
-
-@pytest.mark.parametrize(("feed", "side"), [("top", 1), ("bottom", -1)])
-def test_a_chain_leaves_its_sprocket_over_the_top_or_below(feed, side):
-    machine, place = replace(BELIEVED, feed=feed), np.array([300.0, -100.0])
-    rows = observe(machine, Measurements((Mark("1", tuple(place), tuple(place)),)))
-    angle = known(rows, machine)["angle"].values[0, 0]
-    sprocket = np.array([-machine.motor_gap / 2, machine.motor_height])
-    straight = np.hypot(*(place - sprocket))
-    down = np.arctan2(sprocket[1] - place[1], place[0] - sprocket[0])
-    tangent = np.arcsin(machine.sprocket_radius / straight)
-    assert angle - down == pytest.approx(side * tangent, rel=0.2)
-    whole = known(rows, machine)["wrap"].values + known(rows, machine)["length"].values
-    assert whole[0] == pytest.approx(rows.chains[0], abs=0.3)
 
 
 @pytest.mark.parametrize("pitch", [0.0, 0.004])  # of both chains: 8 mm in two metres

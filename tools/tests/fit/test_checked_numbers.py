@@ -5,7 +5,7 @@ from dataclasses import replace
 import pytest
 from plumb.fit.fit import fit
 from plumb.fit.observations import observe
-from plumb.fit.problem import PRIORS, Checked, Problem
+from plumb.fit.problem import PRIORS, Checked
 from plumb.marks.read import Measurements
 from synthetic import BELIEVED, TRUE, grid, marks_on
 
@@ -58,30 +58,6 @@ def test_what_no_setting_holds_can_be_held_too():
     assert held.lab_effects == {"tape_scale": {"strain": 0.002}}
     assert free.lab_effects.keys() == {"tape_scale"}
     assert held.rms != pytest.approx(fitted().rms, rel=0.05)
-
-
-def test_every_number_begins_where_the_settings_have_it():
-    problem = Problem.of(TRUE, ROWS, ["chain_pitch"], PRIORS, 0.3)
-    start = dict(zip(problem.names, problem.start, strict=True))
-    assert start["motor_gap"] == TRUE.motor_gap and start["motor_center_x"] == 1.5
-    assert start["chain_pitch.left"] == 0.0021
-    assert start["sheet_rotation"] == 0.0
-    before = {each.name: each.before for each in fit(TRUE, ROWS, sigma=0.3).estimates}
-    assert before["motor_height"] == TRUE.motor_height
-
-
-def test_a_prior_is_told_and_a_free_number_has_none():
-    known = {each.name: each.prior_sigma for each in fitted(effects=["chain_pitch"]).estimates}
-    assert {name: known[name] for name in PRIORS} == PRIORS
-    assert known["chain_pitch.left"] is None
-
-
-def test_a_search_that_begins_at_a_fit_ends_there_with_the_same_numbers():
-    cold = fitted(effects=["chain_pitch"])
-    warm = fitted(effects=["chain_pitch"], near=cold)
-    assert warm.settled
-    for known, again in zip(cold.estimates, warm.estimates, strict=True):
-        assert again.value == pytest.approx(known.value, abs=1e-3 * (known.high - known.low))
 
 
 def test_a_search_that_begins_at_another_fit_finds_the_least_all_the_same():

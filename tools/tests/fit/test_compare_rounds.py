@@ -1,6 +1,5 @@
 """compare with several files: the error of each by itself."""
 
-import numpy as np
 import pytest
 from plumb.fit.compare import compare
 from plumb.fit.inputs import Inputs
@@ -40,24 +39,6 @@ def test_each_file_has_the_errors_of_its_readings_alone():
         assert said.distance_rms == pytest.approx(alone.distance_rms)
         assert said.rms == (pytest.approx(alone.rms) if alone.marks else None)
     assert rounds[0].distance_rms is None and rounds[2].rms is None
-
-
-def test_a_single_file_is_no_round_and_two_are():
-    first = marks_alone("a")
-    assert compare(Inputs(BELIEVED, first)).rounds == ()
-    assert len(compare(Inputs(BELIEVED, join_measurements([first, marks_alone("b")]))).rounds) == 2
-
-
-def test_marks_and_distances_keep_their_worst_and_their_names():
-    comparison = compare(Inputs(BELIEVED, both_of("b")))
-    assert comparison.worst == max(mark.length for mark in comparison.marks)
-    for mark, read in zip(comparison.marks, both_of("b").marks, strict=True):
-        assert (mark.name, mark.target, mark.measured) == (read.name, read.target, read.measured)
-        assert mark.error == pytest.approx(np.subtract(mark.measured, mark.predicted))
-    spans = [distance.error for distance in comparison.distances]
-    assert comparison.distance_rms == pytest.approx(np.sqrt(np.mean(np.square(spans))))
-    alone = compare(Inputs(BELIEVED, distances_alone("c")))
-    assert alone.worst == max(abs(distance.error) for distance in alone.distances)
 
 
 def test_a_file_that_names_its_settings_warns_of_nothing():

@@ -2,7 +2,6 @@
 
 from dataclasses import replace
 
-import numpy as np
 import pytest
 from plumb.fit.compare import best_pose
 from plumb.fit.expected import (
@@ -10,16 +9,13 @@ from plumb.fit.expected import (
     MARGIN,
     ROWS,
     WIDE,
-    Expected,
     expected_anywhere,
     expected_error,
     expected_priors,
-    expected_sentence,
     places_over,
 )
 from plumb.fit.observations import rms
 from plumb.fit.problem import PRIORS
-from plumb.fit.sighting import SHEET_ROTATION
 from plumb.model.catalogue import parameter_words
 from plumb.model.predict import FOUND, NAMES, lengths, places
 from synthetic import BELIEVED, grid
@@ -52,19 +48,6 @@ def test_a_number_of_the_frame_counts_as_far_as_it_may_be_off(number):
     assert expected_error(BELIEVED, {number: 0.0}, at=AT).frame == 0.0
 
 
-def test_a_turned_sheet_moves_marks_and_keeps_their_shape():
-    expected = expected_error(BELIEVED, {SHEET_ROTATION: 0.01}, at=AT)
-    assert expected.frame == pytest.approx(0.01 * rms(AT))
-    assert expected.shape == 0.0
-
-
-def test_independent_numbers_add_up_by_their_squares():
-    alone = [expected_error(BELIEVED, {name: sigma}, at=AT) for name, sigma in PRIORS.items()]
-    together = expected_error(BELIEVED, PRIORS, at=AT)
-    assert together.frame == pytest.approx(np.hypot.reduce([each.frame for each in alone]))
-    assert together.shape == pytest.approx(np.hypot.reduce([each.shape for each in alone]))
-
-
 def test_effects_count_by_their_typical_sizes_until_the_settings_have_them():
     whole = expected_error(BELIEVED, {}, at=AT).effects
     for name, size in TYPICAL.items():
@@ -73,14 +56,6 @@ def test_effects_count_by_their_typical_sizes_until_the_settings_have_them():
         known = replace(BELIEVED, effects=with_effect(name, 1e-9 * size))
         left = expected_error(known, {}, at=AT).effects
         assert whole**2 - left**2 == pytest.approx(shape**2, rel=0.2, abs=1e-3 * whole**2), name
-
-
-def test_all_of_it_is_the_frame_and_the_effects():
-    expected = Expected(frame=4.0, shape=2.4, effects=3.0)
-    assert expected.whole == 5.0 and expected.all_shape == pytest.approx(np.hypot(2.4, 3.0))
-    said = expected_sentence(expected)
-    assert "off by 3.8 mm among each other" in said and "together by 5 mm" in said
-    assert expected_sentence(None) == ""
 
 
 def test_places_reach_all_over_the_sheet():
@@ -98,9 +73,3 @@ def test_what_an_owner_knows_replaces_what_is_usual():
     assert usual == {**PRIORS, **WIDE}
     known = expected_priors({"motor_gap": 0.5, "sled_weight": 1.0, "chain_pitch.left": 1e-4})
     assert known == {**usual, "motor_gap": 0.5, "sled_weight": 1.0}
-
-
-def test_where_no_sled_hangs_nothing_is_expected():
-    assert expected_anywhere(replace(BELIEVED, motor_height=-2000.0), PRIORS) is None
-    stock = replace(BELIEVED, controller="stock", motor_height=-2000.0)
-    assert expected_anywhere(stock, PRIORS) is None

@@ -5,11 +5,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from plumb.fit.fit import fit
-from plumb.fit.observations import observe, rms
+from plumb.fit.observations import observe
 from plumb.fit.problem import PRIORS, Problem
 from plumb.fit.sighting import SHEET_ROTATION
 from plumb.marks.read import Measurements
-from plumb.text.errors import InputError
 from synthetic import BELIEVED, EFFECTS, TRUE, distances_between, grid, marks_on
 
 WIDE = {**PRIORS, "motor_gap": 1e4, "motor_height": 1e4, "motor_center_x": 1e4}
@@ -53,15 +52,6 @@ def test_two_sleds_tell_stretch_from_everything_that_looks_like_it():
         assert stretch.low < 5.2e-6 < stretch.high
         widths.append(stretch.high - stretch.low)
     assert widths[1] < 0.6 * widths[0]
-
-
-def test_distances_alone_are_enough_for_the_shape():
-    truth = replace(BELIEVED, effects={"chain_pitch": EFFECTS["chain_pitch"]})
-    board = distances_between(marks_on(truth, BELIEVED, grid(4, 3)))
-    fitted = fit(BELIEVED, observe(BELIEVED, board), effects=["chain_pitch"], sigma=0.01)
-    assert fitted.rms < 0.01 and len(fitted.errors) == 0
-    assert fitted.settings.effect("chain_pitch", "left") == pytest.approx(0.0021, abs=2e-5)
-    assert fitted.left_out_rms >= fitted.rms
 
 
 def test_marks_and_distances_are_fitted_together():
@@ -115,31 +105,6 @@ def measured_minus_predicted(fitted, board: Measurements, i: int) -> np.ndarray:
     return rows.measured[i] - where[i] @ np.array([[cosine, sine], [-sine, cosine]])
 
 
-def test_a_prior_of_zero_holds_a_number():
-    board = Measurements(marks_on(TRUE, BELIEVED, grid(4, 3)))
-    fitted = fit(BELIEVED, observe(BELIEVED, board), priors={**PRIORS, "motor_gap": 0.0})
-    assert fitted.settings.motor_gap == BELIEVED.motor_gap
-    assert "motor_gap" not in [estimate.name for estimate in fitted.estimates]
-
-
-def test_a_tight_prior_pulls_harder_than_a_wide_one():
-    board = observe(BELIEVED, Measurements(marks_on(TRUE, BELIEVED, grid(4, 3))))
-    moved = [
-        fit(BELIEVED, board, priors={**PRIORS, "motor_gap": sigma}).settings.motor_gap - 2978.4
-        for sigma in (0.05, 3.0)
-    ]
-    assert abs(moved[0]) < abs(moved[1])
-
-
-def test_noise_is_found_and_an_added_effect_costs_what_it_took():
-    board = observe(BELIEVED, Measurements(marks_on(TRUE, BELIEVED, grid(9, 7), noise=0.4)))
-    fitted = fit(BELIEVED, board, effects=EFFECTS)
-    assert fitted.sigma == pytest.approx(0.4, rel=0.15) and fitted.sigma_from == "residuals"
-    assert 7 < fitted.spent <= len(fitted.estimates)
-    assert fitted.rms < fitted.corrected_rms < fitted.left_out_rms * 1.05
-    assert fit(BELIEVED, board, effects=EFFECTS, sigma=0.3).sigma_from == "stated"
-
-
 def test_intervals_hold_the_truth_about_as_often_as_they_say():
     inside = []
     for seed in range(40):
@@ -164,18 +129,6 @@ def test_a_prior_that_is_wider_than_the_marks_say_does_not_make_its_number_surer
         for fitted in (quiet, loud)
     ]
     assert widths[1] > 5 * widths[0]
-
-
-def test_a_model_on_which_the_sled_cannot_hang_is_refused():
-    board = observe(BELIEVED, Measurements(marks_on(TRUE, BELIEVED, grid(4, 3))))
-    with pytest.raises(InputError, match="cannot hang"):
-        fit(replace(BELIEVED, motor_gap=9000.0), board)
-
-
-def test_the_rms_of_places_is_that_of_their_lengths():
-    assert rms(np.array([[3.0, 4.0], [0.0, 0.0]])) == pytest.approx(np.sqrt(12.5))
-    assert rms(np.array([3.0, -4.0])) == pytest.approx(np.sqrt(12.5))
-    assert np.isnan(rms(np.zeros((0, 2))))
 
 
 def test_the_slopes_of_all_residuals_are_those_of_finite_differences():

@@ -2,12 +2,10 @@
 
 from dataclasses import replace
 
-import pytest
 from plumb.fit.inputs import known_outside, with_settings_in_force
 from plumb.marks.read import Mark, Measurements, Round
 from plumb.settings.machine import SettingsFile
 from plumb.settings.toml import FitRecord, FittedBoard
-from plumb.text.errors import InputError
 from synthetic import BELIEVED, TRUE
 
 OLD = replace(BELIEVED, file=SettingsFile("groundcontrol.ini", ""))
@@ -40,40 +38,6 @@ def in_force(part, settings=FITTED, *, cut_with=None):
 def test_a_known_board_was_cut_with_what_the_fit_took_it_for():
     assert in_force(board("digest a")) is OLD
     assert in_force(board("digest b")) is OTHER
-
-
-def test_what_is_said_goes_first():
-    assert in_force(board("digest a", cut_with=TRUE)) is TRUE
-    assert in_force(board("digest a"), cut_with=TRUE) is None
-    assert in_force(board("", changed="gone.ini"), cut_with=TRUE) is None
-
-
-def test_an_unknown_board_is_asked_about_with_names():
-    with pytest.raises(InputError, match=r"cut with groundcontrol\.ini and other\.ini"):
-        in_force(board("else"))
-    nameless = replace(RECORD, boards=(replace(FIRST, cut_with=BELIEVED),))
-    with pytest.raises(InputError, match="cut with other settings"):
-        in_force(board("else"), replace(TRUE, fitted=nameless))
-
-
-def test_nothing_is_asked_where_nothing_can_be_mistaken():
-    assert in_force(board("else"), TRUE) is None  # never fitted
-    # Fitted to marks that these settings cut themselves.
-    same = replace(RECORD, boards=(replace(FIRST, cut_with=TRUE),))
-    assert in_force(board("else"), replace(TRUE, fitted=same)) is None
-    chains = replace(board("else"), marks=(Mark("1", PLACE, PLACE, chains=(1700.0, 1700.0)),))
-    assert in_force(chains) is None
-
-
-def test_chains_of_some_marks_are_not_enough():
-    marks = (Mark("1", PLACE, PLACE, chains=(1700.0, 1700.0)), Mark("2", PLACE, PLACE))
-    with pytest.raises(InputError, match="does not say which settings"):
-        in_force(replace(board("else"), marks=marks))
-
-
-def test_settings_that_changed_since_are_refused():
-    with pytest.raises(InputError, match=r"groundcontrol\.ini, which has changed since"):
-        in_force(board("else", changed="groundcontrol.ini"), TRUE)
 
 
 def test_what_a_fit_found_outside_of_the_machine_is_known_by_name():

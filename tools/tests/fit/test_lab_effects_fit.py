@@ -19,7 +19,7 @@ from plumb.settings.files import read_settings
 from plumb.settings.toml import write_machine_toml
 from plumb.text.answers import json_of
 from plumb.text.errors import InputError
-from synthetic import BELIEVED, EFFECTS, TRUE, distances_between, grid, marks_on
+from synthetic import BELIEVED, EFFECTS, TRUE, grid, marks_on
 
 HIDDEN = {
     "sled_friction": {"drag": 7.0},
@@ -62,19 +62,6 @@ def test_all_are_found_at_once_beside_those_of_the_machine():
     assert fitted.settings.effect("chain_pitch", "left") == pytest.approx(0.0021, rel=0.02)
 
 
-def test_distances_see_the_tape():
-    truth = replace(BELIEVED, effects={})
-    spans = distances_between(marks_on(truth, BELIEVED, grid(4, 3)))
-    stretched = replace(
-        spans,
-        distances=tuple(
-            replace(distance, length=distance.length * 1.0004) for distance in spans.distances
-        ),
-    )
-    fitted = fit(BELIEVED, observe(BELIEVED, stretched), effects=["tape_scale"], sigma=0.01)
-    assert fitted.lab_effects["tape_scale"]["strain"] == pytest.approx(0.0004, rel=0.02)
-
-
 def test_a_lab_effect_is_told_with_its_cure_and_pays():
     board = Measurements(marks({"tape_scale": {"strain": 0.001}}, noise=0.1), source="marks.toml")
     result = add(Inputs(BELIEVED, board), effects=[*EFFECTS, "tape_scale"])
@@ -111,19 +98,6 @@ def test_settings_with_a_lab_effect_are_refused(effect, tmp_path):
     write_machine_toml(path, replace(BELIEVED, effects=sizes))
     with pytest.raises(InputError, match=effect.name):
         read_settings(path, known=known_effects())
-
-
-def test_friction_without_any_approach_is_refused():
-    board = Measurements(marks_on(TRUE, BELIEVED, grid(4, 3)), source="marks.toml")
-    with pytest.raises(InputError, match=r"marks\.toml: sled_friction needs marks with an appr"):
-        add(Inputs(BELIEVED, board), effects=["sled_friction"])
-
-
-def test_skew_from_distances_alone_is_refused():
-    board = distances_between(marks_on(TRUE, BELIEVED, grid(4, 3)))
-    with pytest.raises(InputError, match=r"sheet_skew needs .* not distances alone"):
-        add(Inputs(BELIEVED, board), effects=["sheet_skew"])
-    assert add(Inputs(BELIEVED, board), effects=["tape_scale"]).after_fit.lab_effects
 
 
 def test_one_side_only_hides_friction_behind_sag_and_two_sides_show_it():

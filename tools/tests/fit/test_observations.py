@@ -8,7 +8,6 @@ from plumb.fit.observations import model_and_observations, observe
 from plumb.marks.read import Distance, Mark, Measurements
 from plumb.model.predict import lengths
 from plumb.settings.machine import PublishedSettings
-from plumb.text.errors import InputError
 from synthetic import BELIEVED, TRUE
 
 A = Mark("A", (0.0, 0.0), (1.0, 2.0))
@@ -28,12 +27,6 @@ def test_rows_are_visits_and_distances_join_them():
     assert rows.count == 2 * 2 + 2
 
 
-def test_chains_that_the_machine_reported_outweigh_the_formula():
-    rows = observe(BELIEVED, BOARD)
-    assert rows.chains[2].tolist() == [1500.0, 1600.0]
-    assert rows.chains[:2] == pytest.approx(lengths(BELIEVED, [A.target, B.target])[0])
-
-
 def test_a_mark_without_a_weight_has_that_of_the_file_then_of_the_model_then_of_the_settings():
     assert observe(BELIEVED, BOARD).sled_weights.tolist() == [97.9, 97.9, 120.0]
     assert observe(BELIEVED, BOARD, sled_weight=99.0).sled_weights.tolist() == [99.0, 99.0, 120.0]
@@ -49,12 +42,6 @@ def test_the_option_outweighs_the_marks_and_they_the_settings():
     assert plumb == pytest.approx(lengths(STOCK.as_plumb_model(), target)[0], abs=1e-9)
     assert np.abs(stock - plumb).max() > 0.01
     assert observe(STOCK, marks, controller="plumb").chains.tolist() == plumb.tolist()
-
-
-def test_a_target_that_the_controller_cannot_reach_is_refused_with_the_file():
-    marks = Measurements((Mark("1", (0.0, 3000.0), (0.0, 0.0)),), source="marks.csv")
-    with pytest.raises(InputError, match=r"^marks\.csv: target .* out of reach; check the target"):
-        observe(BELIEVED, marks)
 
 
 def test_published_settings_mean_what_their_controller_made_of_them():

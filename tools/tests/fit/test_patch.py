@@ -7,10 +7,8 @@ import pytest
 from hidden_boards import board
 from plumb.bench.boards import plan
 from plumb.bench.causes import MAKER
-from plumb.cli.main import main
 from plumb.cure.add import add
 from plumb.cure.auto import add_auto
-from plumb.cure.machine_file import MARKS, SETTINGS, toml_of
 from plumb.fit.compare import compare
 from plumb.fit.covariates import PATCH, SIZES
 from plumb.fit.inputs import Inputs
@@ -95,19 +93,3 @@ def test_it_goes_into_the_machine_and_comes_back(tmp_path):
     for name, value in fitted.settings.effects[PATCH].items():
         assert again.effect(PATCH, name) == pytest.approx(value, rel=1e-6)
         assert abs(value) < 4 * max(SIZES)
-
-
-def test_the_settings_file_says_what_the_patch_is():
-    strange = board({}, plan(5, 5), seed=8, bump=3.0)
-    said = toml_of(
-        add(Inputs(MAKER, strange, sigma=0.5), effects=(), patch=True), source="here"
-    ).decode()
-    assert "# residual_patch: It is no physics" in said
-    assert (
-        "no physics" not in toml_of(add(Inputs(MAKER, strange), effects=()), source="here").decode()
-    )
-
-
-def test_nothing_to_add_is_refused(capsys):
-    assert main(["add", str(SETTINGS), str(MARKS)]) == 2
-    assert "--effect auto" in capsys.readouterr().err

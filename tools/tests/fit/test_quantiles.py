@@ -3,7 +3,6 @@
 import numpy as np
 import pytest
 from plumb.fit.quantiles import quantiles
-from scipy.stats import norm
 
 MARKS = 25
 
@@ -37,16 +36,3 @@ def test_noise_that_is_larger_or_has_a_tail_leaves_it():
     for far, place in ((2.4, -1), (-2.4, 0)):
         errors[3, 1] = far
         assert np.flatnonzero(quantiles(errors, 0.4 * np.sqrt(2)).beyond) == [place % errors.size]
-
-
-def test_points_stand_at_the_quantiles_of_the_noise_and_name_their_marks():
-    errors = np.array([[0.3, -0.1], [0.2, -0.4]])
-    placed = quantiles(errors, np.sqrt(2) * 0.5)
-    assert placed.order.tolist() == [3, 1, 2, 0]
-    assert placed.at == pytest.approx(0.5 * norm.ppf([0.125, 0.375, 0.625, 0.875]))
-    assert placed.values.tolist() == [-0.4, -0.1, 0.2, 0.3]
-    assert np.all(placed.low < placed.at) and np.all(placed.at < placed.high)
-
-
-def test_a_board_of_distances_alone_has_none():
-    assert quantiles(np.zeros((0, 2)), 0.5).order.size == 0

@@ -8,9 +8,8 @@ from plumb.diagnosis import diagnose
 from plumb.fit.fit import fit
 from plumb.fit.inputs import Inputs
 from plumb.fit.observations import model_and_observations, observe
-from plumb.fit.problem import Problem
 from plumb.fit.rounds import round_priors
-from plumb.marks.read import Distance, Mark, Measurements, Round, join_measurements, read_marks
+from plumb.marks.read import Mark, Measurements, Round, join_measurements, read_marks
 from plumb.model.predict import lengths
 from plumb.settings.toml import machine_toml
 from plumb.text.errors import InputError
@@ -99,23 +98,6 @@ def test_distances_of_a_later_round_join_its_own_holes():
     assert fit(model, rows, priors={}).rms < 1e-6
 
 
-def test_a_heavier_sled_makes_other_marks_of_the_same_names():
-    targets = grid(2, 2)
-    light = board(marks_on(TRUE, BELIEVED, targets, sled_weight=98.0), source="light.toml")
-    heavy = board(marks_on(TRUE, BELIEVED, targets, sled_weight=140.0), source="heavy.toml")
-    both = join_measurements([light, heavy, replace(light, source="again.toml")])
-    assert [mark.name for mark in both.marks[4:8]] == ["heavy:0", "heavy:1", "heavy:2", "heavy:3"]
-    assert set(both.repeats) == {"0", "1", "2", "3"}
-
-
-def test_files_of_one_name_are_told_apart_by_their_folders():
-    parts = [
-        board([Mark("A", (0.0, y), (0.0, y))], source=f"{folder}/marks.toml")
-        for folder, y in (("spring", 0.0), ("autumn", 9.0))
-    ]
-    assert join_measurements(parts).marks[1].name == "autumn:A"
-
-
 def test_a_moved_frame_is_refused_with_advice():
     first, two = (board([Mark("A", (0.0, 0.0), (1.0, 1.0))]) for _ in range(2))
     two = replace(two, rounds=(Round(frame_moved=True),), source="b.toml")
@@ -155,32 +137,6 @@ def test_another_sheet_lies_where_it_lies():
     assert values["sheet2.rotation"] == pytest.approx(0.003, abs=1e-4)
 
 
-def test_slopes_by_what_a_round_has_of_its_own_are_exact():
-    later = moved(marks_on(zeroed(TRUE, 2.0, 1.0), BELIEVED, grid(2, 2)), (1.0, 2.0), 0.001)
-    both = two_rounds(later, new_sheet=True, chains_rezeroed=True)
-    ends = (Distance(("b:0", "b:1"), 2200.0),)
-    model, rows = model_and_observations(TRUE, replace(both, distances=ends))
-    problem = Problem.of(model, rows, (), {"sheet_rotation": 0.02}, 0.5)
-    here = np.full(len(problem.names), 0.1)
-    exact = problem.at(here).slopes
-    for i, step in enumerate(1e-4 * np.eye(len(here))):
-        ends = [problem.at(here + side * step).residual for side in (1, -1)]
-        assert exact[:, i] == pytest.approx((ends[1] - ends[0]) / 2e-4, abs=1e-4)
-
-
-def test_distances_alone_do_not_ask_where_a_later_sheet_lies():
-    parts = [
-        replace(
-            distances_between(marks_on(TRUE, BELIEVED, grid(3, 2), noise=0.1, seed=ord(name))),
-            source=f"{name}.toml",
-            rounds=(Round(new_sheet=name == "b"),),
-        )
-        for name in "ab"
-    ]
-    _, rows = model_and_observations(BELIEVED, join_measurements(parts))
-    assert round_priors(rows) == {}
-
-
 def test_a_round_of_its_own_zeros_does_not_hide_the_effect():
     pitch = replace(BELIEVED, effects={"chain_pitch": {"left": 0.002, "right": 0.0005}})
     later = marks_on(zeroed(pitch, 6.35, 0.0), BELIEVED, grid(5, 3), noise=0.3, seed=7)
@@ -192,33 +148,6 @@ def test_a_round_of_its_own_zeros_does_not_hide_the_effect():
         "cannot_tell",
     )
     assert diagnosis.explanations[0].rms_after < 0.6
-
-
-def test_a_copy_of_a_file_is_no_repeat():
-    first = board(marks_on(TRUE, BELIEVED, grid(3, 3), noise=0.5), source="a.toml")
-    with pytest.raises(InputError, match=r"b\.csv: its 9 readings are those of a\.toml .* a copy"):
-        join_measurements([first, replace(first, source="b.csv")])
-    spans = distances_between(first.marks)
-    with pytest.raises(InputError, match="a copy is no repeat"):
-        join_measurements([spans, replace(spans, source="b.toml")])
-    again = board(marks_on(TRUE, BELIEVED, grid(3, 3), noise=0.5, seed=2), source="b.toml")
-    assert len(join_measurements([first, again]).repeats) == 9
-
-
-def test_compare_tells_the_error_of_each_file(run, ask, file):
-    paths = [file("machine.toml", machine_toml(BELIEVED))]
-    for name, machine in (("calm", BELIEVED), ("wild", TRUE)):
-        lines = ['frame = "machine"', "date = 2026-05-01"]
-        for mark in marks_on(machine, BELIEVED, grid(3, 3), noise=0.1, seed=len(paths)):
-            place = np.round(mark.measured, 2).tolist()
-            lines += ["[[mark]]", f"target = {list(mark.target)}", f"measured = {place}"]
-        paths.append(file(f"{name}.toml", "\n".join(lines)))
-    _, answer = ask("compare", *paths)
-    calm, wild = answer["rounds"]
-    assert (calm["name"], calm["count"], calm["date"]) == ("calm", 9, "2026-05-01")
-    assert calm["rms_mm"] < 0.3 < 2 < wild["rms_mm"] and wild["distance_rms_mm"] is None
-    assert "distances, RMS" in run("compare", *paths, "--details")[1]
-    assert ask("compare", *paths[:2])[1]["rounds"] == []
 
 
 def test_add_says_what_the_numbers_of_a_round_mean(run, file):

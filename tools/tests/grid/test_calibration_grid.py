@@ -1,19 +1,13 @@
 """Tests of tools/calibration_grid.py: its programs are run by a small interpreter."""
 
-import argparse
 import math
 import re
-import subprocess
-import sys
 import tomllib
 from collections import Counter, namedtuple
 from itertools import pairwise
-from pathlib import Path
 
 import plumb.grid as grids
 import pytest
-
-TOOL = Path(__file__).resolve().parents[2] / "calibration_grid.py"
 
 SLED = 229.0  # [mm] radius of the largest usual sled, 18 inch across
 
@@ -181,24 +175,6 @@ def test_every_mark_is_announced_just_before_it_is_made():
     assert lines[place] == "G1 X0 Y0 F700"
 
 
-def test_the_comment_says_who_switches_the_router():
-    assert "(touch 0.5 mm deep: leave the router off)" in gcode()
-    assert "(drill 5 mm deep: switch the router on first)" in gcode(depth=5.0)
-    assert "(touch 1 mm deep" in gcode(depth=1.0) and "(drill 1.1 mm" in gcode(depth=1.1)
-
-
-def test_the_rows_are_made_there_and_back_and_the_repeats_on_the_way_back():
-    made = [int(mark.name) for mark in touches(columns=3, rows=3)]
-    assert made == [1, 2, 3, 6, 5, 4, 7, 8, 9, 9, 8, 7, 4, 6, 3, 2, 1]
-
-
-def test_repeats_stand_inwards_so_that_both_holes_can_be_measured():
-    by_visit = {(mark.name, mark.visit): mark for mark in touches()}
-    assert by_visit["5", 1].x == by_visit["5", 0].x - 20
-    assert by_visit["1", 1].x == by_visit["1", 0].x + 20
-    assert by_visit["3", 1].x == 20 and by_visit["3", 1].y == by_visit["3", 0].y
-
-
 def test_tensions_agree_with_published_ones():
     def pulls(x, y):
         return grids.tensions(grids.PlainMachine(), x, y)
@@ -260,13 +236,6 @@ def test_a_bad_request_gets_one_line_exit_code_2_and_no_file(words, hint, tmp_pa
     assert list(tmp_path.iterdir()) == []
 
 
-def test_a_folder_that_is_not_there_leaves_no_half_of_the_files(tmp_path, capsys):
-    arguments = ["--output", str(tmp_path / "grid.nc"), "--marks", str(tmp_path / "no" / "m.toml")]
-    code, _, complaint = run(arguments, capsys)
-    assert code == 2 and complaint.count("\n") == 1
-    assert list(tmp_path.iterdir()) == []
-
-
 def test_readings_already_written_are_never_overwritten(tmp_path, capsys):
     readings = tmp_path / "marks.toml"
     readings.write_text("an hour's work")
@@ -274,15 +243,6 @@ def test_readings_already_written_are_never_overwritten(tmp_path, capsys):
     assert code == 2 and "exists" in complaint
     assert readings.read_text() == "an hour's work"
     assert list(tmp_path.iterdir()) == [readings]
-
-
-def test_settings_are_read_whatever_the_case_of_their_keys(tmp_path):
-    path = tmp_path / "groundcontrol.ini"
-    path.write_text(INI)
-    parser = argparse.ArgumentParser()
-    grids.add_arguments(parser)
-    _, machine = grids.from_arguments(parser.parse_args(["--settings", str(path)]))
-    assert machine == (2000, 1000, 3000, 500, 140, 97.9)
 
 
 @pytest.mark.parametrize(
@@ -313,10 +273,3 @@ def test_the_list_of_marks_holds_every_target_and_approach_in_the_sheet_frame():
         assert entry["target"] == pytest.approx([mark.x + 1219.2, 609.6 - mark.y])
         assert entry["approach"] == [0.0, -40.0]
         assert "measured" not in entry
-
-
-def test_the_same_request_always_gives_the_same_program_from_any_folder(tmp_path):
-    call = [sys.executable, "-I", str(TOOL), "--preset", "nine"]
-    said = [subprocess.run(call, cwd=tmp_path, capture_output=True, text=True) for _ in range(2)]
-    assert said[0].stdout == said[1].stdout == gcode(columns=3, rows=3, repeats=False)
-    assert [call.returncode for call in said] == [0, 0]

@@ -1,7 +1,5 @@
 """What the guide takes for an answer, keeps, and calls normal."""
 
-from dataclasses import replace
-
 import pytest
 from plumb.fit.expected import expected_anywhere, expected_priors, expected_sentence
 from plumb.guide.steps import Visit, _judge_mark, show_reach
@@ -15,13 +13,6 @@ from synthetic import BELIEVED
 def owner_of(*answers):
     left = list(answers)
     return PreparedOwner(lambda question: left.pop(0))
-
-
-def test_a_step_is_kept_once(tmp_path):
-    progress = Progress(tmp_path)
-    progress.finish("read")
-    progress.finish("read")
-    assert progress_in(tmp_path).done == ["read"]
 
 
 def test_a_damaged_file_is_refused(tmp_path):
@@ -49,8 +40,3 @@ def test_the_guide_calls_normal_what_plumb_reach_does(tmp_path):
     assert show_reach(Visit(None, owner, Progress(tmp_path, [], SIGMAS)))
     expected = expected_anywhere(BELIEVED, expected_priors(SIGMAS))
     assert owner.said[-1].endswith(expected_sentence(expected))
-
-
-def test_nothing_is_normal_where_no_sled_hangs():
-    assert expected_anywhere(replace(BELIEVED, motor_height=-2000.0), expected_priors({})) is None
-    assert expected_sentence(None) == ""

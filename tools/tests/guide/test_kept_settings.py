@@ -28,10 +28,3 @@ def test_another_file_that_is_replaced_gets_a_further_name(path):
     keep_other(path, b"third")
     assert path.with_name("machine-old-2.toml").read_bytes() == b"second"
     assert path.with_name("machine-old.toml").read_bytes() == b"first"
-
-
-@pytest.mark.parametrize("content", [b"first", b""])
-def test_the_same_and_nothing_need_no_copy(path, content):
-    path.write_bytes(content)
-    keep_other(path, b"first")
-    assert names(path) == ["machine.toml"]

@@ -4,7 +4,7 @@ from types import SimpleNamespace
 
 import pytest
 from plumb.guide import steps
-from plumb.guide.steps import Visit, check_wires, first_mark, set_chains, show_reach, tell_numbers
+from plumb.guide.steps import Visit, check_wires, first_mark, set_chains, tell_numbers
 from plumb.guide.talk import Progress
 from plumb.settings.toml import machine_toml
 from prepared_owner import PreparedOwner
@@ -87,21 +87,10 @@ def test_a_mark_is_made_only_in_the_middle(tmp_path, numbers, place, is_there):
     assert (said in visit.said) is not is_there
 
 
-def test_an_alarm_on_the_way_to_the_middle_is_said_and_no_mark_made(tmp_path, numbers):
-    visit = Sent(tmp_path, ["y"], alarms={"B15": "Sled Not Keeping Up"})
-    assert not first_mark(visit) and visit.sent == ["B15"]
-    assert visit.said[-1] == "The sled is not in the middle: Sled Not Keeping Up"
-
-
 @pytest.mark.parametrize("answers", [["n"], ["y", "n"]])
 def test_a_mark_that_was_not_agreed_to_is_not_made(tmp_path, numbers, answers):
     visit = Sent(tmp_path, answers)
     assert not first_mark(visit) and visit.sent == ["B15"][: len(answers) - 1]
-
-
-def test_an_alarm_at_the_mark_is_no_mark(tmp_path, numbers):
-    visit = Sent(tmp_path, ["y", "y"], alarms={"Z-2": "Z is stuck"})
-    assert not first_mark(visit) and visit.said[-1] == "The machine stopped: Z is stuck"
 
 
 def test_a_sled_on_brackets_is_none_of_the_labs(tmp_path):
@@ -120,14 +109,3 @@ def test_z_is_jogged_only_where_it_has_a_motor(tmp_path, numbers, attached, axes
     assert len(jogs) == 2 * len(axes) and len(visit.sent) == 6 * len(axes)
     assert ("G0 Z1" in visit.sent) is ("G0 Z-1" in visit.sent) is (attached > 0)
     assert ("B09 L-20 F300" in visit.sent) and ("B09 R20 F300" in visit.sent)
-
-
-def test_what_is_known_less_well_is_normal_too(tmp_path):
-    visit = Sent(tmp_path, [])
-    said = []
-    for sigma in (1.0, 20.0):
-        visit.progress.sigmas["motor_height"] = sigma
-        assert show_reach(visit)
-        said.append(visit.said[-1])
-    assert all("of the sheet" in each and "normal" in each for each in said)
-    assert said[0] != said[1]

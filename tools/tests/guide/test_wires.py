@@ -145,7 +145,3 @@ def test_what_ran_away_is_not_called_good(tmp_path):
         (1, 0.69, False),
     ]:
         assert (ran_away(asked, counted) == "") is is_good
-
-
-def test_an_alarm_that_names_no_wire_is_said_as_it_is():
-    assert "no such thing" in remedy("left", "s", "no such thing")

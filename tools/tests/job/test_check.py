@@ -74,14 +74,6 @@ def test_each_wrong_line_has_its_number_and_the_machines_words():
     assert not checked.is_good
 
 
-def test_what_holds_for_many_lines_is_said_once():
-    checked = check_job(MAKER, ["G21", "G41 D1", "G0 Z5", "G41 D1 G41", "G42 D1"])
-    assert [(each.line, each.count, each.says) for each in checked.findings] == [
-        (2, 2, "this machine does no G41"),
-        (5, 1, "this machine does no G42"),
-    ]
-
-
 def test_the_sheets_edge_a_pause_and_a_foreign_code_are_found():
     assert lines_and_kinds(["G0 Z2", "G0 X1300", "G0 X0"]) == [(2, LEAVES)]
     assert lines_and_kinds(["M8", "G0 Z2", "T3 M6", "M0"]) == [(1, IGNORED), (3, WAITS)]
@@ -118,30 +110,6 @@ def test_a_limit_that_slows_the_sled_is_named(lines, cause, asked, feed):
         assert slower[0].feed == pytest.approx(feed, rel=0.02)
 
 
-def test_no_limit_is_named_where_none_acts():
-    assert check_job(MAKER, ["G0 Z3", "G1 X50 F600", "G4 P10"]).slower == ()
-
-
-def test_the_limit_that_acts_most_often_comes_first_with_its_slowest_line():
-    lines = ["G0 Z3", "G1 Z-1 F300", "G1 X30 F1000", "G1 X60 F3000", "G1 X90 F2000"]
-    slower = check_job(MAKER, lines, numbers={15: 900}).slower
-    assert [(each.because, each.moves, each.line) for each in slower] == [
-        (GREATEST, 3, 3),
-        (Z, 1, 2),
-    ]
-    once = check_job(
-        MAKER, [lines[0], "G1 Z-1 F300", "G1 Z1 F300", lines[2]], numbers={15: 900}
-    ).slower
-    assert [(each.because, each.moves) for each in once] == [(Z, 2), (GREATEST, 1)]
-
-
-def test_times_are_those_of_the_ways():
-    times = check_job(MAKER, ["G0 Z3", "G0 X100", "G1 X200 F600", "G4 P2000"]).times
-    assert times.asked == pytest.approx(10.0)
-    assert times.cutting == pytest.approx(10.0, abs=0.3)
-    assert times.whole == pytest.approx(times.cutting + times.rapid + 2.0, abs=0.2)
-
-
 def test_times_are_told_as_the_feeds_ask_and_as_the_cap_allows():
     lines = [
         "G0 Z3",
@@ -167,25 +135,6 @@ def test_cuts_that_lie_apart_are_parts_in_the_order_of_the_program():
     assert [(part.first_line, part.last_line) for part in parts] == [(3, 24), (11, 16)]
     assert parts[0].low == pytest.approx((100, 50)) and parts[0].size == pytest.approx((40, 40))
     assert parts[1].size == pytest.approx((30, 30)) and parts[1].deepest == pytest.approx(-2.5)
-
-
-def test_cuts_that_meet_at_a_corner_are_one_part():
-    lines = ["G1 Z-1 F60", "G1 X2 Y2 F500", "G0 Z3", "G0 X12 Y12", "G1 Z-1 F60", "G1 X14 Y14 F500"]
-    assert len(check_job(MAKER, lines).parts) == 1
-
-
-def test_the_softest_cut_is_named():
-    hanging = check_job(
-        MAKER, [*square(0, 300, 20), *square(900, -500, 20), *square(0, 0, 20)]
-    ).hanging
-    assert hanging is not None and 11 <= hanging.give_line <= 16
-    assert 0.05 < hanging.give < 0.2
-
-
-def test_an_arc_reaches_as_far_as_its_circle():
-    part = check_job(MAKER, ["G1 Z-1 F60", "G2 X40 I20 J0 F600"]).parts[0]
-    assert part.high == pytest.approx((40, 20), abs=0.1)
-    assert part.low == pytest.approx((0, 0), abs=0.1)
 
 
 TRUE = replace(
@@ -239,32 +188,6 @@ def test_a_part_comes_out_as_expected(file, corner):
         assert abs(part.width_error.mm) < 0.35
 
 
-class Sheared:
-    """A machine whose errors grow evenly over the sheet."""
-
-    root = 0.001 * np.eye(2)
-
-    def __init__(self, matrix):
-        self.matrix = np.array(matrix)
-
-    def seen(self, settings, places):
-        slopes = np.einsum("nj,jku->nku", places, np.ones((2, 2, 2)))
-        return places @ self.matrix.T + [3, 4], slopes
-
-
-def test_a_turn_and_a_shift_are_no_errors_of_a_part():
-    part = check_job(MAKER, square(0, 0, 100)).parts
-    turned = with_errors(Sheared([[0, -0.01], [0.01, 0]]), MAKER, part)[0]
-    for error in (turned.width_error, turned.height_error, turned.skew):
-        assert error.mm == pytest.approx(0, abs=1e-9)
-    sheared = with_errors(Sheared([[0.002, 0.01], [0.005, -0.003]]), MAKER, part)[0]
-    errors = [error.mm for error in (sheared.width_error, sheared.height_error, sheared.skew)]
-    assert errors == pytest.approx([0.2, -0.3, 1.5])
-    within = 1.96 * 100 * 0.001 * np.sqrt(2)
-    assert sheared.width_error.within == pytest.approx(within)
-    assert sheared.skew.within == pytest.approx(2 * within)
-
-
 def test_more_marks_leave_less_open():
     settings = read_settings(SETTINGS)
     inputs = example_inputs(settings)
@@ -279,16 +202,6 @@ def test_more_marks_leave_less_open():
     assert within[1] < within[0]
 
 
-def test_a_part_that_is_too_small_says_nothing():
-    settings = read_settings(SETTINGS)
-    parts = check_job(
-        settings, [*square(0, 0, 10), "G0 X100 Y0", "G1 Z-1 F60", "G1 X190 F500"]
-    ).parts
-    small, line = with_errors(Believed.of(example_inputs(settings)), settings, parts)
-    assert small.width_error is small.height_error is small.skew is None
-    assert line.width_error is not None and line.height_error is None
-
-
 def test_the_outline_goes_round_everything_above_the_sheet():
     checked = check_job(MAKER, ["G0 Z8", "G0 X10", *square(100, 50, 40), "G0 X0 Y0"])
     program = outline_of(checked.done.moves, checked.samples, name="a (b).nc").splitlines()
@@ -301,13 +214,6 @@ def test_the_outline_goes_round_everything_above_the_sheet():
     assert slow["length"].sum() == pytest.approx(160) and (slow["z_to"] == 8).all()
     assert slow["asked"] == pytest.approx(500)
     assert (slow["to_x"][-1], slow["to_y"][-1]) == tuple(corners[0])
-
-
-def test_the_outline_of_a_line_and_of_nothing():
-    checked = check_job(MAKER, ["G1 Z-1 F60", "G1 X50 F500", "X20"])
-    assert len(hull_of(checked.done.moves, checked.samples)) == 2
-    checked = check_job(MAKER, ["G0 X5"])
-    assert "cuts nothing" in outline_of(checked.done.moves, checked.samples, name="job")
 
 
 def test_a_hundred_thousand_lines_are_checked_and_the_share_that_is_done_grows():
@@ -374,11 +280,3 @@ def test_the_command_ends_with_1_where_something_is_wrong(ask, run, tmp_path):
 def test_bad_words_are_refused(run, words, says):
     code, _, complaint = run("check", PROGRAMS / "easel_tabs.nc", SETTINGS, *words)
     assert code == 2 and says in complaint
-
-
-def test_how_far_it_is_ends_with_the_check_and_not_with_the_last_line():
-    lines, shares = [*square(100, 50, 40)] * 500, []
-    check_job(MAKER, lines, progress=shares.append)
-    assert shares == sorted(shares) and shares[-1] == 1.0
-    assert len([share for share in shares if share < 0.5]) > 1  # while lines are sent
-    assert len([share for share in shares if 0.5 < share < 1]) > 1  # and after the last

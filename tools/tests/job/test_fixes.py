@@ -77,30 +77,6 @@ def test_a_program_of_fusion_runs_and_cuts_what_it_means():
     assert fix(mended.lines) == type(mended)(mended.lines, ())
 
 
-def test_behind_an_arc_a_place_is_still_cut_at_the_feed():
-    lines = ["G0 Z5", "G1 Z-1 F300", "G2 X10 I5 J0", "G28 G91 Z0", "G90", "G0 X30", "G1 Z-1", "X40"]
-    mended = fix(lines)
-    assert mended.lines[3] == "G91 G53 G0 Z5.000 G1"
-    assert_cuts_the_same(mended.lines, [*lines[:3], "G0 Z5", *lines[5:]])
-
-
-def test_in_inches_the_bit_rises_as_high():
-    lines = ["G20 G90", "G0 Z0.5", "G0 X1 Y1", "G1 Z-0.1 F20", "X2", "G91 G28 Z0", "G90 M5"]
-    mended = fix(lines)
-    assert mended.lines[5] == "G91 G53 G0 Z0.5000 G1"
-    assert_cuts_the_same(mended.lines, [*lines[:5], "G0 Z0.5", "M5"])
-
-
-def test_the_top_of_another_machine_is_a_retract():
-    lines = ["G90", "G53G0Z-5.000", "M3S18000", "G0X9Y9", "G1Z-2F300", "X40", "G53G0Z-5.000"]
-    lines += ["M5", "G0X60Y9", "M3", "G1Z-1", "Y40", "G0Z6"]
-    mended = fix(lines)
-    # In G1 the line drives down at the feed; here the code of the line itself says G0.
-    assert [each.line for each in mended.changes] == [2, 7]
-    assert "G53 G0 Z6.000" in mended.lines[1]
-    assert_cuts_the_same(mended.lines, [each.replace("G53G0Z-5.000", "G0 Z6") for each in lines])
-
-
 def test_a_retract_behind_holes_leaves_no_motion_in_force_and_keeps_what_else_its_line_says():
     lines = ["G0 Z3", "G81 X9 Z-4 R2 F200", "G80", "G28 G91 Z0 S9000 T2", "G90", "X20", "G0 X0"]
     mended = fix(lines)
@@ -108,12 +84,6 @@ def test_a_retract_behind_holes_leaves_no_motion_in_force_and_keeps_what_else_it
     assert mended.lines[3] == "G91 S9000 T2 G53 G0 Z5.000 G80"
     assert mended.lines[5] == "G0 X20"
     assert_cuts_the_same(mended.lines, [*lines[:3], "G0 Z5", "G90", "G0 X20", "X0"])
-
-
-def test_a_place_near_the_top_that_is_cut_at_the_feed_is_left_to_its_owner():
-    # The cause is changed; in G1 the same place is a cut, whatever it was meant to be.
-    lines = ["G0 Z9", "G53 G0 Z-5", "G0 Z9", "G1 X30 F600", "G53 G1 Z-5", "G0 Z9"]
-    assert [each.line for each in fix(lines).changes] == [2]
 
 
 @pytest.mark.parametrize("name", NAMES)

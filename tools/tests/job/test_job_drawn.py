@@ -34,28 +34,10 @@ def test_the_piece_is_shaded_by_its_depth_and_seen_whole():
 SLOT = ("G0 Z3", "G0 X100 Y50", "G1 Z-1 F60", "G1 X140 F600", "G0 Z3")
 
 
-def test_each_way_is_of_its_kind():
-    sheet, _ = drawn(*SLOT, "G0 X0 Y0")
-    rapid, cut, bad = sheet.ways
-    assert sheet.title == "job.nc: nothing is wrong" and sheet.good
-    assert ends(cut)[-1] == (140.0, 50.0)
-    assert ends(rapid)[-1] == (0.0, 0.0)
-    assert (100.0, 50.0) in ends(rapid) and bad.lines == []
-    assert [(spot.x, spot.y, spot.words) for spot in sheet.spots] == [(120.0, 50.0, "1")]
-
-
 def test_what_is_wrong_is_drawn_so():
     sheet, _ = drawn(*SLOT, "G0 Z-1", "G0 X160", "G0 Z3")
     assert sheet.title == "job.nc: something is wrong" and not sheet.good
     assert ends(sheet.ways[-1]) == [(160.0, 50.0)] and sheet.ways[-1].colour == WRONG
-
-
-def test_a_wrong_way_straight_down_is_seen_from_above():
-    def dots(*lines):
-        return [spot for spot in drawn(*lines)[0].spots if spot.colour == WRONG]
-
-    assert dots(*SLOT) == dots(*SLOT, "G0 Z-1", "G0 X160", "G0 Z3") == []
-    assert len(dots("G0 Z3", "G0 X100 Y50", "G0 Z-2", "G0 Z3")) == 1
 
 
 def test_a_cut_where_the_sled_hangs_badly_is_wrong_and_a_way_above_it_is_not():

@@ -1,6 +1,5 @@
 """The hole to touch next: it settles what touches leave open, and no other hole does it better."""
 
-from dataclasses import replace
 from itertools import product
 
 import numpy as np
@@ -53,10 +52,3 @@ def test_the_worst_pair_of_slips_is_named_after_it():
         (third,) = touched(machine, mishap, source, marks=np.array([place]))
         settled = find_slip(machine.settings, [*two, third])
         assert (settled.verdict, settled.best.links) == (SLIP, (3, -3))
-
-
-def test_it_is_on_the_sheet_where_a_sled_can_hang():
-    finding = find_slip(MAKER, [touch_of(FIRST, links=(1, 0))])
-    x, y = next_hole(MAKER, finding)
-    assert abs(x) < MAKER.sheet_width / 2 - 199 and abs(y) < MAKER.sheet_height / 2 - 199
-    assert next_hole(replace(MAKER, motor_gap=60.0, motor_height=100.0), finding) is None

@@ -96,17 +96,3 @@ def test_a_full_circle_returns_and_a_limit_of_z_cuts_it_flat():
     corners = polyline(done.moves.only(done.moves["line"] == 3))
     assert corners[:, 2].max() == pytest.approx(10, abs=1e-3)
     assert corners[:, 2].min() == pytest.approx(5, abs=0.01)
-
-
-def test_feed_as_time_holds_for_the_whole_arc():
-    done = run_dry(["G0 X0 Y0 Z10", "G93 G19 G3 Y10 Z10 J5 K0 F20", "G94"])
-    moves = done.moves.only(done.moves["line"] == 2)
-    assert 60 * float((moves.way / moves["feed"]).sum()) == pytest.approx(3.0, rel=0.01)
-
-
-def test_g2_in_g18_dips_into_the_wood_on_its_way_along_x():
-    # Seen from y, z turns towards x by the right hand; on the sheet that looks the other way round.
-    over = run_dry(["G0 X0 Y0 Z0", "G18 G3 X20 Z0 I10 K0 F900"]).moves
-    below = run_dry(["G0 X0 Y0 Z0", "G18 G2 X20 Z0 I10 K0 F900"]).moves
-    assert over["z_to"].max() == pytest.approx(10, abs=0.01) and not over.cut.any()
-    assert below["z_to"].min() == pytest.approx(-10, abs=0.01) and below.cut.any()

@@ -45,13 +45,6 @@ def test_what_holds_no_program_is_refused_before_the_line_is_opened(name, said, 
     assert capsys.readouterr().err == f"plumb: {path}: {said}\n"
 
 
-def test_a_folder_in_the_working_folder_is_no_line_of_code(tmp_path, monkeypatch, capsys):
-    (tmp_path / "jobs").mkdir()
-    monkeypatch.chdir(tmp_path)
-    assert main(["send", "--port", "USB", "jobs"]) == 2
-    assert "jobs: is a folder" in capsys.readouterr().err
-
-
 @pytest.mark.parametrize(
     ("text", "said"),
     [
@@ -66,14 +59,6 @@ def test_a_folder_in_the_working_folder_is_no_line_of_code(tmp_path, monkeypatch
 def test_a_text_that_is_no_program_says_what_it_is(text, said):
     with pytest.raises(InputError, match=f"^job: .*{said}|^job, {said}"):
         refuse_what_is_no_program("job", text)
-
-
-def test_every_program_is_taken():
-    programs = [each for each in (ROOT / "test/programs").iterdir() if each.suffix != ".places"]
-    programs = [each for each in programs if each.suffix != ".md"]
-    assert len(programs) > 10
-    for path in [EXAMPLE / "pocket.nc", *programs]:
-        refuse_what_is_no_program(path, path.read_text())
 
 
 @pytest.mark.parametrize("text", ["%\nG21\n", "G5 X1\n", "G1 X1\n", "B05\n", "$$\n", "; nothing\n"])

@@ -1,7 +1,5 @@
 """plumb check names the places where the sled may sink when its motors let go."""
 
-from dataclasses import replace
-
 import pytest
 from plumb.bench.causes import MAKER
 from plumb.cli.main import main
@@ -26,22 +24,6 @@ def rests(lines, settings=MAKER):
 def test_the_end_of_a_program_is_looked_at(y, lines):
     assert rests(["G21", "G0 Z5", f"G0 X0 Y{y}"]) == lines
     assert rests(["G0 Z5", f"G0 X0 Y{y}", "G0 Y0"]) == []
-
-
-def test_a_pause_and_a_dwell_are_no_rest():
-    assert rests(["G0 Z5", f"G0 Y{HIGH}", "M0", "G4 P9000", "G0 Y0"]) == []
-    assert rests(["G0 Z5", f"G0 Y{HIGH}", "M0"]) == [2]
-    assert rests(["M0", "G4 P1"]) == []
-
-
-def test_the_tighter_chain_counts():
-    for x in (600, -600):  # where the chains pull with 91 and 111 N
-        assert rests(["G0 Z5", f"G0 X{x} Y350"]) == [2]
-
-
-def test_a_heavier_sled_sinks_from_lower_places():
-    end = ["G0 Z5", f"G0 X0 Y{LOW}"]
-    assert rests(end, replace(MAKER, sled_weight=1.2 * MAKER.sled_weight)) == [2]
 
 
 def test_a_caution_is_said_and_is_no_error(tmp_path, capsys):

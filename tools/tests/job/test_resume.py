@@ -96,23 +96,6 @@ def test_the_cut_after_a_halt_is_the_cut_without(name):
     assert off.max() < APART
 
 
-def test_it_begins_where_the_bit_was_free_last():
-    lines = ["G0 Z4", "G0 X9", "G0 Z1", "G1 Z-1 F60", "G1 X20 F500", "X30", "G0 Z4", "G0 X50"]
-    assert [resume_at_line(MACHINE, lines, line).first for line in range(1, 9)] == [
-        *(1, 2, 3, 4),
-        *(4, 4, 4, 8),
-    ]
-    assert resume_at_line(MACHINE, lines, 6).begins == pytest.approx((9, 0, 1), abs=0.01)
-
-
-def test_the_way_to_the_place_is_as_high_as_the_job_ever_crosses():
-    # Whatever the job rises over later, a clamp or a part, may lie on the way too.
-    lines = ["G0 Z4", "G0 X9", "G1 Z-1 F60", "G1 X20 F500", "G0 Z20", "G0 X50"]
-    assert "G0 Z20.0000" in resume_at_line(MACHINE, lines, 4).lines
-    assert "G0 Z20.0000" in resume_at_place(MACHINE, lines, (15, 0)).lines
-    assert "G0 Z5.0000" in resume_at_line(MACHINE, lines[:4], 4).lines
-
-
 def test_a_cycle_is_drilled_from_its_beginning():
     lines = ["G0 Z4", "G81 X9 Z-3 R1 F60", "X20", "(c)", "X30", "G80", "G0 X0"]
     assert [resume_at_line(MACHINE, lines, line).first for line in range(1, 8)] == [
@@ -209,13 +192,6 @@ def test_in_the_middle_of_a_cut_too(code, z):
     assert rest["length"] == pytest.approx(cut["length"] / 2, abs=0.1)
 
 
-def test_the_end_of_an_arc_is_no_whole_circle():
-    lines = ["G0 Z4", "G1 Z-1 F60", "G2 X40 I20 F500", "G1 X80", "G0 Z4"]
-    resumed = resume_at_place(MACHINE, lines, (40, 0), 3)
-    cut = check_job(MAKER, resumed.lines).done.moves
-    assert cut.only(cut.cut)["length"].sum() < 40 + 2 + 0.2, "the plunge and the line behind it"
-
-
 def test_the_first_pass_is_taken_unless_a_line_says_which():
     lines = ["G0 Z4", "G1 Z-1 F60", "G1 X50 F500", "Y20", "Y0", "X0", "G1 Z-2 F70", "X50", "G0 Z4"]
     resumed = resume_at_place(MACHINE, lines, (25, 1))
@@ -234,17 +210,6 @@ def test_what_cannot_be_is_refused():
         resume_at_place(MACHINE, ["G1 Z-1 F60", "G1 X20 F500"], (9, 50))
     with pytest.raises(InputError, match="cuts nothing"):
         resume_at_place(MACHINE, ["G0 X20"], (9, 50))
-
-
-@pytest.mark.parametrize("way", ["{} {}", "{}={}"])
-def test_a_place_on_the_left_half_needs_no_equals_sign(way, run, tmp_path):
-    job = PROGRAMS / "kirimoto_outline.nc"
-    wanted = run("resume", job, SETTINGS, "--at=-60,65", "--start=-.5,-7")
-    words = f"{way.format('--at', '-60,65')} {way.format('--start', '-.5,-7')}".split()
-    assert run("resume", job, SETTINGS, *words) == wanted
-    assert wanted[0] == 0
-    code, _, complaint = run("resume", job, SETTINGS, "--at", "-x,7")
-    assert code == 2 and "--at" in complaint
 
 
 def test_the_command_writes_the_program(run, ask, tmp_path):

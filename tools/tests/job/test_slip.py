@@ -17,11 +17,9 @@ from plumb.job.slip import (
     SHEET,
     SLIP,
     find_slip,
-    pose_slopes,
 )
 from plumb.model.predict import lengths, places
-from plumb.settings.toml import FitRecord, FittedBoard
-from plumb.text.errors import InputError
+from plumb.settings.toml import FitRecord
 
 HOLES = np.array([(-900.0, 250.0), (900.0, -250.0)])
 THIRD = np.array([(0.0, -400.0)])
@@ -54,25 +52,12 @@ def test_the_repair_is_the_chains_as_they_are_at_the_last_touch():
     assert finding.true_chains - believed == pytest.approx([6.35, -12.7])
 
 
-def test_errors_are_the_hole_against_the_bit_and_vanish_with_the_slip():
-    finding = find_slip(MAKER, touches(links=(1, 0)))
-    # A left chain that is longer lets the sled hang lower than the machine believes.
-    assert finding.errors[0, 1] < -3
-    assert np.abs(finding.left).max() < 1e-6
-
-
 @pytest.mark.parametrize("moved", [(6.0, 0, 0), (4, -5, 0), (0, 0, 0.006), (-25, 10, 0.01)])
 def test_a_moved_sheet_is_no_slip(moved):
     finding = find_slip(MAKER, touches(np.concatenate([HOLES, THIRD]), moved=moved))
     assert finding.verdict == SHEET
     assert np.abs(finding.left).max() < 0.2 < np.abs(finding.errors).max()
     assert finding.left.shape == finding.errors.shape == (3, 2)
-
-
-def test_a_slip_on_a_sheet_that_moved_too_has_its_count():
-    holes = np.concatenate([HOLES, THIRD, [(-900.0, -400.0)]])
-    finding = find_slip(MAKER, touches(holes, links=(0, 2), moved=(4.0, 2.0, 0.001)))
-    assert (finding.verdict, finding.best.links) == (SLIP, (0, 2))
 
 
 def test_holes_in_the_frame_rule_out_a_sheet():
@@ -89,49 +74,6 @@ def test_a_single_hole_tells_only_if_it_cannot_move(links):
     assert open_question.verdict == CANNOT_TELL and open_question.best.links == links
     settled = find_slip(MAKER, asked, fixed=True)
     assert (settled.verdict, settled.best.links) == (SLIP, links)
-
-
-def test_what_lies_between_two_counts_is_no_slip():
-    half = touches(links=(0.5, 0), errors=0.0)
-    assert find_slip(MAKER, half, fixed=True).verdict in (OTHER, CANNOT_TELL)
-
-
-def test_odds_are_of_all_accounts_together():
-    finding = find_slip(MAKER, touches(links=(1, 0), errors=0.4))
-    assert sum(account.odds for account in finding.accounts) == pytest.approx(1)
-    odds = [account.odds for account in finding.accounts]
-    assert odds == sorted(odds, reverse=True) and len(odds) == 51
-
-
-def test_where_touches_say_nothing_the_odds_are_how_often_each_happens():
-    finding = find_slip(MAKER, touches(), sigma=1e7)
-    odds = {(account.kind, account.links): account.odds for account in finding.accounts}
-    nothing = odds[NOTHING, NO_LINKS] / 0.45
-    slips = {links: each / nothing for (kind, links), each in odds.items() if kind == SLIP}
-    assert odds[SHEET, NO_LINKS] / nothing == pytest.approx(0.25, rel=1e-4)
-    assert sum(slips.values()) == pytest.approx(0.25, rel=1e-4)
-    single = {links: each for links, each in slips.items() if 0 in links}
-    assert sum(single.values()) == pytest.approx(0.8 * 0.25, rel=1e-4)
-    for count, share in ((1, 0.6), (2, 0.25), (3, 0.15)):
-        for links in ((count, 0), (-count, 0), (0, count), (0, -count)):
-            assert slips[links] == pytest.approx(0.25 * 0.8 * share / 4, rel=1e-4)
-    assert slips[1, -3] == pytest.approx(0.25 * 0.2 * 0.6 * 0.15 / 4, rel=1e-4)
-    # A touch that is as bad as what nothing explains.
-    far = find_slip(MAKER, touches(), sigma=30.0).accounts
-    odds = {(account.kind, account.links): account.odds for account in far}
-    assert odds[OTHER, NO_LINKS] / odds[NOTHING, NO_LINKS] == pytest.approx(0.02 / 0.45)
-
-
-def test_holes_follow_a_sheet_that_is_shifted_and_turned():
-    shift, turn = np.array([0.3, -0.2]), 1e-6
-    turned = HOLES @ np.array([[1, turn], [-turn, 1]]) + shift - HOLES
-    assert (pose_slopes(HOLES) @ [*shift, turn]).reshape(-1, 2) == pytest.approx(turned)
-
-
-def test_a_worse_touch_makes_it_less_sure():
-    asked = touches(links=(1, 0))
-    odds = [find_slip(MAKER, asked, sigma=sigma).best.odds for sigma in (0.3, 1.0, 2.0)]
-    assert odds[0] > odds[1] > odds[2] and find_slip(MAKER, asked, sigma=2.0).verdict == CANNOT_TELL
 
 
 def test_a_taped_hole_is_as_good_as_the_fit():
@@ -155,18 +97,3 @@ def test_a_tape_on_a_turned_sheet_finds_the_holes_where_the_fit_has_them(turn):
     # Holes that the machine made are where it was sent, however the sheet hangs.
     made = find_slip(fitted, touches(holes, moved=(0.0, 0.0, -turn)))
     assert made.verdict == SHEET
-
-
-def test_the_sheet_that_was_fitted_last_counts():
-    first, last = (FittedBoard("m.toml", "", MAKER, sheet=(0, 0, turn)) for turn in (0.0, 0.003))
-    record = FitRecord(5.0, 1.0, 1.1, 0.6, sheet_rotation=0.001, boards=(first, last))
-    assert record.last_sheet_rotation == pytest.approx(0.004)
-    fitted = replace(MAKER, fitted=record)
-    holes = np.array([(-900.0, 400.0), (900.0, 400.0), (-900.0, -400.0), (900.0, -400.0)])
-    asked = touches(holes, moved=(0.0, 0.0, -0.004))
-    assert find_slip(fitted, asked, taped=True).verdict == NOTHING
-
-
-def test_what_cannot_be_shown_is_refused():
-    with pytest.raises(InputError, match="what the machine shows cannot be"):
-        find_slip(MAKER, [Touch("1", (0.0, 0.0), (0.0, 5000.0))])

@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 from plumb.bench.causes import MAKER
 from plumb.firmware.settings import values_of
-from plumb.job.dry_run import Run
 from plumb.job.time_left import TimeLeft, Timetable, timetable
 from workshop import lines_of, run_dry
 
@@ -20,22 +19,6 @@ def test_the_timetable_is_that_of_the_check():
     last = int(done.moves["line"][20])
     ends = done.moves["ends"][done.moves["line"] == last].max()
     assert table.done_at[last] == pytest.approx(ends, abs=0.1)
-
-
-def test_the_numbers_and_the_place_of_the_machine_count():
-    numbers = values_of(MAKER)
-    usual = timetable(numbers, LINES, (0.0, 0.0, 0.0)).whole
-    assert timetable({**numbers, 15: 500.0}, LINES, (0.0, 0.0, 0.0)).whole > 1.2 * usual
-    assert timetable(numbers, LINES, (-900.0, 0.0, 0.0)).whole > usual + 30
-    slow_z = Run(MAKER, numbers={18: 9.0})
-    slow_z.send(LINES)
-    assert timetable({**numbers, 18: 9.0}, LINES, (0.0, 0.0, 0.0)).whole == pytest.approx(
-        slow_z.finish().seconds, abs=0.1
-    )
-
-
-def test_a_machine_whose_numbers_hang_no_sled_has_no_timetable():
-    assert timetable(values_of(MAKER), LINES, (0.0, 5000.0, 0.0)) is None
 
 
 @pytest.mark.parametrize("slower", [0.5, 1.0, 1.6])
@@ -59,14 +42,3 @@ def test_pauses_do_not_count_and_the_end_is_the_end():
     assert left.seconds == pytest.approx(before, abs=1.0)
     left.note(5100.0, 100, pauses=False)
     assert left.seconds < 2 and left.share > 0.99
-
-
-def test_within_a_long_line_the_clock_counts():
-    # A single move of 100 s: it is answered 1 s before its end.
-    left = TimeLeft(Timetable(np.array([0.0, 100.0, 100.0])), ahead=1.0)
-    left.note(0.0, 0, pauses=False)
-    left.note(60.0, 0, pauses=False)
-    assert left.seconds == pytest.approx(40), "meanwhile the clock counts"
-    assert left.share == pytest.approx(0.6)
-    left.note(99.0, 1, pauses=False)
-    assert left.share == pytest.approx(0.99)

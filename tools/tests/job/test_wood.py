@@ -5,7 +5,7 @@ import pytest
 from plumb.bench.causes import MAKER
 from plumb.job.bits import Tools
 from plumb.job.check import check_job
-from plumb.job.findings import DEEP, GOUGES, SINKS, STILL
+from plumb.job.findings import DEEP, GOUGES, STILL
 
 R = 6.35 / 2  # [mm] of the usual bit
 PLUNGE = "a rapid move drives the bit {} mm down into wood that nothing has cut"
@@ -56,14 +56,6 @@ def test_adaptive_clearing_goes_back_through_what_is_cut():
     assert checked.piece.deepest == pytest.approx(6.0)
 
 
-def test_a_way_back_through_the_wood_is_one_finding_with_its_first_line_and_count():
-    lines = adaptive(link="G0 X-20")
-    (gouge,) = (each for each in findings(*lines) if each.kind == GOUGES)
-    assert gouge.line == lines.index("G0 X-20") + 1
-    assert gouge.says == ACROSS.format("3.00")
-    assert gouge.count == lines.count("G0 X-20") == 46
-
-
 @pytest.mark.parametrize(
     ("lines", "wrong"),
     [
@@ -100,12 +92,6 @@ def test_a_way_back_through_the_wood_is_one_finding_with_its_first_line_and_coun
 )
 def test_a_rapid_into_wood_is_said_once_with_its_cause(lines, wrong):
     assert gouges(*lines) == wrong
-
-
-def test_a_rim_that_touches_the_side_of_a_slot_is_no_gouge():
-    slot = ["G1 Z-2 F60", "G1 X40 F500"]
-    assert gouges(*slot, "G0 Y0.4", "G0 X0") == []
-    assert len(gouges(*slot, "G0 Y1.2", "G0 X0")) == 1
 
 
 CARBIDE = [
@@ -174,29 +160,6 @@ def test_a_cut_deeper_than_the_bit_is_long_is_wrong():
     assert deep.kind == DEEP
 
 
-def test_the_volume_is_that_of_a_slot_and_of_a_cone():
-    slot = piece("G1 Z-4 F60", "G1 X100 F500", "G0 Z5")
-    assert slot.removed == pytest.approx(4 * (100 * 2 * R + np.pi * R**2), rel=0.01)
-    assert (slot.deepest, slot.line, slot.is_said) == (4.0, 1, False)
-    cone = piece("(V-Bit {90 deg 20 mm})", "G1 Z-6 F60", "G0 Z5")
-    assert cone.removed == pytest.approx(np.pi * 6**3 / 3, rel=0.02)
-    engraved = piece("(V-Bit {90 deg 20 mm})", "G1 Z-5 F60", "G1 X10 F500", "G0 Z9")
-    assert engraved.removed == pytest.approx(10 * 5**2 + np.pi * 5**3 / 3, rel=0.02)
-    ramp = piece("G1 Z0", "G1 X100 Z-10 F500", "G0 Z5", diameter=2.0)
-    assert ramp.removed == pytest.approx(100 * 2 * 5, rel=0.05)
-    assert piece("G0 Z5", "G1 X9 F500") is None
-
-
-def test_heights_are_those_of_the_deepest_cut():
-    lines = ["G1 Z-4 F60", "G1 X20 F500", "G1 Z-2", "G1 X0", "G1 Y20", "G0 Z5"]
-    cut = piece(*lines)
-    column = int((10 - cut.corner[0]) / cut.cell)
-    assert cut.heights[int(-cut.corner[1] / cut.cell), column] == -4.0
-    assert cut.heights[int((10 - cut.corner[1]) / cut.cell), column] == 0.0
-    up = int((15 - cut.corner[1]) / cut.cell)
-    assert cut.heights[up, int(-cut.corner[0] / cut.cell)] == -2.0
-
-
 @pytest.mark.parametrize(
     ("lines", "bits"),
     [
@@ -223,44 +186,3 @@ def test_the_bit_is_what_the_program_says(lines, bits):
     numbers = [(each.diameter, each.half_angle) for each in named]
     assert np.allclose(numbers, [bit[1:3] for bit in bits])
     assert [each.diameter for each in Tools.of(lines, diameter=8.0).bits] == [8.0]
-
-
-def test_a_finer_bit_leaves_wood_that_a_wide_one_takes():
-    lines = ["G1 Z-2 F60", "G1 X40 F500", "G0 Y3", "G0 Z5"]
-    assert findings(*lines, diameter=6.35)[0].kind == GOUGES
-    finer = ["(2mm endmill)", "G1 Z-2 F60", "G0 Z5", "(20mm endmill)", "G0 X2", "G1 Z-2", "G0 Z5"]
-    assert findings(*finer) == () and [bit.diameter for bit in piece(*finer).bits] == [2, 20]
-
-
-def test_a_bit_narrower_than_a_cell_is_led_as_surely():
-    wide = ["G1 Z-1 F60", "G1 X900 F900", "G1 Y500", "G1 X0", "G0 X900", "G0 Y0", "G0 X0"]
-    assert findings(*wide, "G0 Z5", diameter=0.2) == ()
-    cut = piece(*wide, "G0 Z5", diameter=0.2)
-    assert cut.cell > 0.2
-    for y in (0, 500):
-        assert (cut.heights[int((y - cut.corner[1]) / cut.cell), 1:-2] == -1).all()
-    assert (cut.heights[1:-2, int((900 - cut.corner[0]) / cut.cell)] == -1).all()
-
-
-def test_an_arc_is_cut_round():
-    cut = piece("G1 X0 Y0 F500", "G1 Z-1", "G2 X0 Y0 I100 J0", "G0 Z5", diameter=2.0)
-    rows, columns = np.indices(cut.heights.shape)
-    x, y = cut.corner[0] + (columns + 0.5) * cut.cell, cut.corner[1] + (rows + 0.5) * cut.cell
-    off = np.abs(np.hypot(x - 100, y) - 100)
-    assert (cut.heights[off < 0.98] == -1).all() and (cut.heights[off > 1.02] == 0).all()
-
-
-def test_the_map_of_a_hundred_thousand_lines_says_where_the_bit_sinks():
-    count = 25_000
-    lines = ["G1 Z-3 F300"]
-    for turn in range(count):
-        x, y = turn % 250, turn // 250 * 3
-        lines += [
-            f"G1 X{x} Y{y} F900",
-            f"G1 X{x + 0.5} Y{y + 2}",
-            f"G1 X{x + 1} Y{y}",
-            f"G0 X{x} Y{y}",
-        ]
-    checked = check_job(MAKER, lines)
-    assert len(checked.done.moves) > 99_000
-    assert {each.kind for each in checked.findings} <= {SINKS}

@@ -1,7 +1,7 @@
 """Lines with numbers for the machine: the right file's, and those that it had before."""
 
 import pytest
-from plumb.line.memory import kept_before, lines_for
+from plumb.line.memory import kept_before
 from plumb.settings.machine import MachineSettings
 from plumb.text.errors import InputError
 
@@ -16,16 +16,6 @@ def settings(controller):
         feed="top",
         controller=controller,
     )
-
-
-def test_the_published_numbers_are_refused():
-    with pytest.raises(InputError, match=r"^stock\.ini: holds the published numbers"):
-        lines_for(settings("stock"), "stock.ini")
-
-
-def test_the_numbers_of_this_firmware_are_lines():
-    lines = lines_for(settings("plumb"), "machine.toml")
-    assert lines and all(line.startswith("$") for line in lines)
 
 
 def test_the_newest_numbers_come_back(tmp_path):

@@ -2,7 +2,7 @@
 
 import pytest
 from numbers_machine import NumbersMachine
-from plumb.line.memory import as_lines, read_numbers, version_of, write_numbers
+from plumb.line.memory import read_numbers, write_numbers
 from plumb.line.sender import Sender
 from plumb.text.errors import InputError
 
@@ -16,13 +16,6 @@ def test_a_board_without_numbers_is_no_machine():
     machine.numbers = {}
     with pytest.raises(InputError, match="is it a Maslow's firmware"):
         read_numbers(Sender(machine))
-
-
-def test_the_version_is_the_line_that_names_the_firmware():
-    machine = NumbersMachine()
-    assert version_of(Sender(machine)) == "Firmware Version 1.28"
-    machine.says = ["Plumb v0.1"]
-    assert version_of(Sender(machine)) == ""
 
 
 def test_what_changed_is_said_with_its_old_number():
@@ -55,11 +48,3 @@ def test_a_machine_that_moves_gets_no_numbers():
     with pytest.raises(InputError, match="the machine moves"):
         write_numbers(Sender(machine), ["$38=15.5"])
     assert machine.written == []
-
-
-def test_a_machine_at_rest_may_report_a_place_that_jitters():
-    write_numbers(Sender(NumbersMachine(speed=0.01)), ["$38=15.5"])
-
-
-def test_only_numbers_that_a_line_may_set_are_written_as_lines():
-    assert as_lines({12: 2978.4, 99: 1.0, 13: 1234.56789}) == "$12=2978.4\n$13=1234.56789\n"

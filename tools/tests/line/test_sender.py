@@ -85,14 +85,6 @@ class HaltedBoard(Board):
         return super().read().replace(b"Idle", self.state.encode())
 
 
-def test_a_machine_that_halted_before_is_not_waited_for():
-    board = HaltedBoard()
-    with pytest.raises(RefusedError, match=r"^'G0 X5': the machine has halted; press Stop first$"):
-        Sender(board).stream(["G0 X5", "G0 X6"])
-    assert board.time < 3
-    assert Sender(HaltedBoard(questions=["$$", "B05"])).stream(["$$"] * 20 + ["B05"] * 20) == 40
-
-
 def test_a_machine_that_holds_is_waited_for_longer():
     board = HaltedBoard()
     board.state = "Pause"
@@ -113,12 +105,6 @@ def test_a_stop_forgets_the_lines_behind_a_refused_line():
     assert board.waiting == []
 
 
-def test_an_alarm_stops_the_stream_too():
-    board = Board(lambda line: "ALARM: the sled was not keeping up")
-    with pytest.raises(RefusedError, match="ALARM: the sled"):
-        Sender(board).stream(["G0 X1"])
-
-
 def test_what_is_said_besides_answers_is_heard_in_order():
     said = []
     board = Board(lambda line: "Left: 1651.00mm\r\nRight: 1651.00mm\r\nok")
@@ -128,13 +114,6 @@ def test_what_is_said_besides_answers_is_heard_in_order():
     assert sender.ask("B10 L") == said
     assert len(said) == 2
     assert sender.status == Status("Idle", (1.0, -2.5, 0.0))
-
-
-def test_a_silent_machine_is_named():
-    with pytest.raises(InputError, match="does not answer: check the cable"):
-        Sender(Board(deaf=True)).await_start()
-    with pytest.raises(InputError, match="silent for 5 s"):
-        Sender(Board(deaf=True)).stream(["G0 X1"])
 
 
 def test_a_machine_that_a_sender_of_grbl_left_reports_again():
@@ -260,23 +239,6 @@ def test_what_came_while_this_program_stood_still_is_read_before_the_machine_is_
     assert Sender(board).stream([f"G0 X{i}" for i in range(20)]) == 20
 
 
-def test_a_line_may_come_in_pieces():
-    board = Board()
-    pieces = [b"<Idle,MPos:3.0", b"0,4.00,5.00,WPos:0,0,0>\r", b"\no", b"k\r\n"]
-    board.read = iter(pieces).__next__
-    sender = Sender(board)
-    assert sender.stream(["G0 X3"]) == 1
-    assert sender.status == Status("Idle", (3.0, 4.0, 5.0))
-
-
-def test_a_place_that_is_reported_in_inches_is_one_in_mm():
-    board = Board()
-    board.read = iter([b"<Idle,MPos:1.0000,-2.5000,0.1000,WPos:0,0,0>\r\nok\r\n"]).__next__
-    sender = Sender(board)
-    sender.stream(["G20"])
-    assert sender.status == Status("Idle", pytest.approx((25.4, -63.5, 2.54)))
-
-
 def test_the_answer_of_a_line_that_is_slipped_in_is_for_no_line_of_the_program():
     board = Board(lambda line: "error: only z" if line == "G0 X5" else "ok")
     heard = list[str]()
@@ -324,11 +286,6 @@ def test_whoever_stops_sends_nothing_more():
         sender.stream([f"G1 X{i}.123456789 Y{i}.123456789" for i in range(40)])
     assert board.written.endswith(STOP)
     assert b"X39" not in board.written
-
-
-def test_comments_and_blanks_are_left_out():
-    text = ["(a grid)", "", "  G0 X1 (there) Y2 ; and more", "G21"]
-    assert list(cleaned(text)) == ["G0 X1  Y2", "G21"]
 
 
 @pytest.mark.parametrize(

@@ -4,7 +4,6 @@ from threading import Event
 
 import pytest
 from line_board import SlowBoard, until
-from plumb.line.port import LostError
 from plumb.line.sender import GO_ON, STOP, StoppedError
 from plumb.line.worker import LineWorker
 from plumb.text.errors import InputError
@@ -43,14 +42,6 @@ def test_a_program_is_sent_and_counted_and_then_something_is_done(worker, board)
     assert program.outcome == "done"
     assert then[0].place[0] == board.x == 20
     assert b"other" not in board.written and not worker.state.moves
-
-
-def test_the_line_is_let_go_of_when_the_place_is_kept(worker, board):
-    ends = []
-    worker.send("grid.nc", JOB[:5], lambda sender: ends.append(board.time))
-    until(lambda state: state.phase == "ready", worker)
-    worker.close()
-    assert board.is_closed and board.time - ends[0] > 2.5
 
 
 def test_a_line_of_a_machine_that_holds_is_let_go_of_at_once(worker, board):
@@ -181,20 +172,6 @@ def test_a_hold_that_the_machine_ignores_is_forgotten(worker, board, monkeypatch
     until(lambda state: not state.holds, worker)
 
 
-def test_what_halted_the_machine_is_not_covered_by_that_it_has_halted(worker, board):
-    board.greeting, board.state = b"ALARM: a chain is stuck. Press Stop.\r\n", "Stop"
-    until(lambda state: state.trouble, worker)
-    look_on(worker, board)
-    assert worker.state.trouble == "ALARM: a chain is stuck. Press Stop."
-
-
-def test_a_halt_is_said_until_it_is_over(worker, board):
-    board.state = "Stop"
-    until(lambda state: state.trouble == "The machine has halted: press Stop.", worker)
-    board.state = "Idle"
-    until(lambda state: state.trouble == "", worker)
-
-
 def send(worker):
     """A program of a line."""
     worker.send("one.nc", ["G1 X1"])
@@ -213,12 +190,6 @@ def test_a_line_lost_in_mid_cut_is_said_and_the_place_is_not_known(worker, board
         worker.send("grid.nc", JOB)
     worker.await_end()
     assert board.is_closed
-
-
-def test_a_line_lost_at_rest_takes_no_place_away(worker, board):
-    board.is_pulled = True
-    until(lambda state: state.phase == "lost", worker)
-    assert worker.state.knows_place
 
 
 def test_a_machine_that_falls_silent_is_lost_also_at_rest(worker, board):
@@ -329,16 +300,3 @@ def test_work_has_ended_when_the_line_takes_other_work(board):
     assert future.result(10) is None
     assert worker.do(lambda sender: "next").result(10) == "next"
     worker.close()
-
-
-def test_work_that_comes_while_the_line_is_lost_is_given_up(worker, board):
-    futures = []
-
-    def read():
-        futures.append(worker.do(lambda sender: None))
-        raise LostError("USB: the line was lost; check the cable")
-
-    board.read = read
-    until(lambda state: state.phase == "lost", worker)
-    with pytest.raises(LostError, match="check the cable"):
-        futures[0].result(10)

@@ -6,9 +6,8 @@ from dataclasses import replace
 import numpy as np
 import plumb.grid as grids
 import pytest
-from plumb.cure.machine_file import MARKS, SETTINGS
 from plumb.grid import pattern
-from plumb.marks.benchmark import score_as_cut, score_of
+from plumb.marks.benchmark import score_as_cut
 from plumb.marks.read import read_marks
 from plumb.model.predict import lengths, places
 from plumb.settings.toml import machine_toml
@@ -73,12 +72,6 @@ def test_the_program_touches_every_mark_once_in_the_usual_way():
         grids.program(GRID, grids.PlainMachine(sheet_width=1800.0))
 
 
-def test_the_tool_and_plumb_give_the_same_program(run, capsys):
-    assert grids.main(["--preset", "benchmark"]) == 0
-    alone = capsys.readouterr().out
-    assert run("grid", "--preset", "benchmark")[1] == alone
-
-
 def test_the_form_it_writes_can_be_read_once_filled_in(file, tmp_path):
     form = tmp_path / "form.toml"
     assert grids.main(["--preset", "benchmark", "--marks", str(form)]) == 0
@@ -117,17 +110,6 @@ def test_a_form_that_cannot_be_meant_is_refused(file, line, complaint):
         read_marks(path, sheet=SHEET)
 
 
-def test_spans_of_other_marks_are_not_counted(file):
-    text = (
-        PUBLISHED.replace("[benchmark]", "", 1).split("across")[0]
-        + '[[mark]]\nname = "1"\ntarget = [0, 0]\n[[mark]]\nname = "2"\ntarget = [900, 0]\n'
-        '[[distance]]\nbetween = ["1", "2"]\nmm = 901\n'
-    )
-    assert score_as_cut(read_marks(file("m.toml", text), sheet=SHEET)) is None
-    both = text + PUBLISHED[PUBLISHED.index("[benchmark]") :]
-    assert str(score_as_cut(read_marks(file("b.toml", both), sheet=SHEET))) == "0.50-?"
-
-
 def test_the_score_falls_when_the_effect_is_added(ask, run, file):
     machine, marks = file("m.toml", machine_toml(BELIEVED)), file("b.toml", measured_on(PITCH))
     code, compared = ask("compare", machine, marks)
@@ -140,12 +122,3 @@ def test_the_score_falls_when_the_effect_is_added(ask, run, file):
     assert "Calibration Benchmark Score" in run("compare", machine, marks)[1]
     said = run("add", machine, marks, "--effect", "chain_pitch", "--details")[1]
     assert "to expect when it is cut again" in " ".join(said.split())
-
-
-def test_marks_without_the_test_have_no_score(ask):
-    assert ask("compare", SETTINGS, MARKS)[1]["benchmark"] is None
-
-
-def test_a_score_names_what_was_not_measured(file):
-    measurements = read_marks(file("b.toml", PUBLISHED), sheet=SHEET)
-    assert score_of(measurements, [0.0] * 6).small is None

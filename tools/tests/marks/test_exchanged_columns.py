@@ -70,12 +70,3 @@ def test_coarse_or_perfect_readings_are_no_reason_to_ask(step, error, tmp_path):
     for seed in range(20):
         pairs = board(5, 3, seed=seed, step=step, error=error)
         assert read_marks(csv_of(pairs, tmp_path / "marks.csv"), sheet=SHEET)
-
-
-def test_few_marks_and_scattered_targets_are_no_reason_to_ask(tmp_path):
-    chance = random.Random(3)
-    scattered = [((chance.uniform(-1e3, 1e3), chance.uniform(-500, 500)), None) for _ in range(12)]
-    pairs = [(place, (place[0] + chance.gauss(0, 2), place[1])) for place, _ in scattered]
-    assert read_marks(csv_of(pairs, tmp_path / "marks.csv"), sheet=SHEET)
-    few = [(read, sent) for sent, read in board(3, 3)][:5]
-    assert read_marks(csv_of(few, tmp_path / "few.csv"), sheet=SHEET)

@@ -3,7 +3,7 @@
 import pytest
 from plumb.marks.model import Mark, Measurements
 from plumb.marks.plausible import far_reading
-from plumb.marks.read import join_measurements, read_marks
+from plumb.marks.read import read_marks
 from plumb.text.errors import InputError
 
 SHEET = (2440.0, 1220.0)
@@ -63,24 +63,3 @@ def test_a_far_distance_is_refused_with_the_names_of_its_ends(tmp_path):
         path.write_text(f'frame = "machine"\n{ends}[[distance]]\nbetween = ["A", "B"]\nmm = {size}')
         with pytest.raises(InputError, match=rf"distance A-B: .*508 mm apart; {remedy}"):
             read_marks(path, sheet=SHEET)
-
-
-def test_the_second_distance_is_called_so(tmp_path):
-    path = tmp_path / "marks.toml"
-    good = '[[distance]]\nbetween = ["A", "B"]\nmm = 500.0\n'
-    path.write_text(f'frame = "machine"\n{good}[[distance]]\nbetween = ["A", "B"]\n')
-    with pytest.raises(InputError, match=r"distance.* number 2: mm or inch is missing"):
-        read_marks(path, sheet=SHEET)
-
-
-def test_files_of_the_same_name_are_counted_and_their_marks_too():
-    def board(*readings):
-        return Measurements(
-            tuple(Mark("A", sent, read) for sent, read in readings), source="sheet/marks.toml"
-        )
-
-    joined = join_measurements(
-        [board(((0, 0), (1, 1))), board(((500, 0), (501, 0))), board(((0, 500), (0, 502)))]
-    )
-    assert [each.name for each in joined.rounds] == ["sheet 1", "sheet 2", "sheet 3"]
-    assert [mark.name for mark in joined.marks] == ["A", "sheet 2:A", "sheet 3:A"]

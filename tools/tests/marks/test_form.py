@@ -43,29 +43,6 @@ def form(tmp_path):
     return read_form(path, sheet=SHEET)
 
 
-def test_the_lines_before_the_first_key_are_kept_without_the_last_blank(form):
-    assert form.comment == ("# Cut on a Sunday.", "", "# Blue tape.")
-
-
-def test_a_reading_is_written_as_the_file_counts(form):
-    # 10 inch right of the middle and 1/128 inch above it, from the top left corner.
-    head = with_readings(form, {1: (254.0, 25.4 / 128)})
-    assert head["mark"][1]["measured"] == [58.0, 23.99219]
-    assert "unread" not in head["mark"][1] and head["mark"][2]["unread"]
-    assert form.head["mark"][1]["unread"]  # the form itself stays as it was
-
-
-def test_a_reading_is_taken_out_and_the_mark_waits(form):
-    head = with_readings(form, {0: None})
-    assert head["mark"][0] == {"name": "A", "target": [48.0, 24.0], "unread": True}
-
-
-@pytest.mark.parametrize("index", [-1, 3])
-def test_a_mark_that_is_not_there_is_named_as_people_count(form, index):
-    with pytest.raises(ValueError, match=rf"no mark number {index + 1}$"):
-        with_readings(form, {index: None})
-
-
 def test_a_distance_that_stays_keeps_its_table_and_another_is_added(form):
     stays = (("A", "B"), 254.25)
     head = with_distances(form, [stays, (("A", "C"), 253.00004)])

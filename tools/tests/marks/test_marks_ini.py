@@ -68,14 +68,6 @@ def test_bad_files_are_refused_with_the_place(tmp_path, old, new, hint):
     assert "\n" not in str(caught.value)
 
 
-def test_case_of_sections_and_keys_does_not_matter(tmp_path):
-    path = tmp_path / "marks.ini"
-    path.write_text(EXAMPLE.read_text().upper())
-    assert np.array_equal(
-        read_marks(path, sheet=SHEET).measured, read_marks(EXAMPLE, sheet=SHEET).measured
-    )
-
-
 def test_inches_are_recognised(tmp_path):
     lines = []
     for line in EXAMPLE.read_text().splitlines():
@@ -86,12 +78,3 @@ def test_inches_are_recognised(tmp_path):
     path.write_text("\n".join(lines))
     with pytest.raises(InputError, match="looks like inches"):
         read_marks(path, sheet=SHEET)
-
-
-def test_an_equal_target_is_a_repeat(tmp_path):
-    path = tmp_path / "marks.ini"
-    path.write_text(
-        "[global]\nnumpositions = 2\n[actual_positions]\nx0 = 500\ny0 = 501\nx1 = 502\ny1 = 503\n"
-        "[target_positions]\ntx0 = 500\nty0 = 500\ntx1 = 500\nty1 = 500\n"
-    )
-    assert read_marks(path, sheet=SHEET).repeats == {"0": (0, 1)}

@@ -59,15 +59,6 @@ def test_all_that_can_be_said_is_read(tmp_path):
     assert measurements.distance_lengths.tolist() == [1119.5]
 
 
-def test_the_machine_frame_is_taken_as_it_is(tmp_path):
-    measurements = read(
-        tmp_path,
-        'frame = "machine"\n[[mark]]\ntarget = [5, 6]\nmeasured = [7, 8]\napproach = [0, -1]\n',
-    )
-    assert measurements.marks == (Mark("1", (5.0, 6.0), (7.0, 8.0), (0.0, -1.0)),)
-    assert measurements.controller is None
-
-
 def test_distances_alone_are_measurements_too():
     path = Path(__file__).parents[1] / "data" / "madgrizzle_2018-09-02.toml"
     measurements = read_marks(path, sheet=(2438.4, 1219.2))
@@ -158,21 +149,6 @@ def test_bad_files_are_refused_with_the_place(tmp_path, old, new, hint):
 def test_a_file_without_marks_is_refused(tmp_path):
     with pytest.raises(InputError, match="no measured mark"):
         read(tmp_path, 'frame = "machine"\n')
-
-
-def test_inches_are_recognised(tmp_path):
-    text = 'frame = "machine"\n'
-    for x, y in ((-40, 15), (0, 0), (40, -15)):
-        text += f"[[mark]]\ntarget = [{x}, {y}]\nmeasured = [{x + 0.1}, {y}]\n"
-    with pytest.raises(InputError, match="looks like inches"):
-        read(tmp_path, text)
-
-
-def test_repeats_of_one_mark_are_no_inches(tmp_path):
-    text = 'frame = "machine"\n'
-    for offset in (0.0, 0.1, 0.2, 0.3):
-        text += f'[[mark]]\nname = "A"\ntarget = [0, 0]\nmeasured = [{offset}, 0]\n'
-    assert read(tmp_path, text).repeats == {"A": (0, 1, 2, 3)}
 
 
 def test_the_examples_in_the_docs_can_be_read(tmp_path):

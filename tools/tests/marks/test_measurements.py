@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from plumb.marks.read import Distance, Mark, Measurements, join_measurements, read_marks
+from plumb.marks.read import Mark, Measurements, join_measurements, read_marks
 from plumb.text.errors import InputError
 
 SHEET = (2438.4, 1219.2)
@@ -44,17 +44,7 @@ def test_other_files_are_refused(tmp_path, name, text, hint):
         read_marks(path, sheet=SHEET)
 
 
-def test_missing_file_is_refused(tmp_path):
-    with pytest.raises(InputError, match="there is no such file"):
-        read_marks(tmp_path / "marks.csv", sheet=SHEET)
-
-
 A = Mark("A", (0.0, 0.0), (1.0, 1.0), sled_weight=98.0)
-
-
-def test_one_file_joined_is_itself():
-    first = Measurements((A,), source="one.toml")
-    assert join_measurements([first]) is first
 
 
 def test_the_same_name_and_target_is_a_repeat():
@@ -64,17 +54,6 @@ def test_the_same_name_and_target_is_a_repeat():
     assert both.repeats == {"A": (0, 1)}
     assert (both.controller, both.tape_sigma, both.sled_weight) == ("stock", 0.5, None)
     assert both.source == "one.toml + two.toml"
-
-
-def test_the_same_name_with_another_target_is_another_mark():
-    other = Mark("A", (9.0, 9.0), (9.0, 8.0))
-    second = Measurements(
-        (other, Mark("B", (5.0, 5.0))), (Distance(("A", "B"), 5.7),), source="/tmp/two.toml"
-    )
-    both = join_measurements([Measurements((A,), source="one.toml"), second])
-    assert [mark.name for mark in both.marks] == ["A", "two:A", "two:B"]
-    assert both.distances[0].between == ("two:A", "two:B")
-    assert both.target_of("two:A") == (9.0, 9.0)
 
 
 def test_contradictions_between_files_are_refused():

@@ -128,18 +128,3 @@ def test_what_is_not_asked_for_is_not_worked_out_and_changes_nothing():
         assert part.read.slopes[:, :, i] == pytest.approx(
             whole.read.slopes[:, :, EVERY.index(name)], abs=1e-12
         )
-
-
-def test_a_visit_where_no_sled_can_hang_stays_still():
-    chains = ROWS.chains.copy()
-    chains[0] = 900.0
-    sighting = sighted(
-        values_of(TRUE),
-        TYPICAL,
-        replace(ROWS, chains=chains),
-        over_top=True,
-        usual_weight=TRUE.sled_weight,
-        names=EVERY,
-    )
-    assert sighting.outcome[0] != 0 and not sighting.outcome[1:].any()
-    assert np.isfinite(sighting.read.where).all() and np.isfinite(sighting.read.slopes).all()

@@ -57,27 +57,10 @@ def test_friction_holds_the_sled_back_as_far_as_published(place, axis, published
     assert lag(place, tuple(back))[axis] == pytest.approx(published, abs=slack)
 
 
-def test_friction_goes_by_the_direction_and_not_the_length_of_the_approach():
-    assert lag((700, -200), (3.0, 4.0)) == pytest.approx(lag((700, -200), (300.0, 400.0)))
-    half = (lag((700, -200), (5.0, 0.0)) * 0.6) + (lag((700, -200), (0.0, 5.0)) * 0.8)
-    assert lag((700, -200), (3.0, 4.0)) == pytest.approx(half, abs=1e-9)
-
-
-def test_a_mark_without_approach_does_not_feel_friction():
-    assert not lag((1150, -550), None).any()
-
-
 def test_a_sideways_lag_in_a_lower_corner_drags_the_mark_up_or_down_too():
     # Coming from the middle it stays behind, and the slacker chain lets it stay higher.
     x, y = lag((1150, -550), (1.0, 0.0))
     assert x < 0 < y and abs(y) == pytest.approx(0.0733 * 6.6, rel=0.02)
-
-
-def test_a_heavier_sled_sags_less_and_lags_less():
-    light = lag((1150, -550), (1.0, 0.0))
-    marks = (Mark("one", (1150.0, -550.0), approach=(1.0, 0.0), sled_weight=150.0),)
-    heavy = (seen(marks, sled_friction__drag=6.6).read.where - seen(marks).read.where)[0]
-    assert abs(heavy[0]) < 0.5 * abs(light[0])
 
 
 def test_a_tape_that_reads_too_long_gives_larger_numbers():

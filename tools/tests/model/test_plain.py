@@ -8,9 +8,7 @@ from plumb.model.catalogue import every_effect, parameter_words
 from plumb.model.plain import (
     noun_of,
     plain_before,
-    plain_range,
     plain_size,
-    plainly,
 )
 from plumb.model.predict import judged, with_parameters
 from plumb.text.values import shown_in
@@ -56,13 +54,6 @@ def test_a_size_is_said_as_a_maker_would(name, numbers, said):
     assert plain_size(name, *numbers) == said
 
 
-def test_the_size_before_and_the_range_are_in_the_same_unit():
-    assert plain_before("chain_pitch.left", 0.0012) == "0.120 %"
-    assert plain_before("chain_pitch.left", 0.0) == "0"
-    assert plain_range("chain_pitch.left", -0.001, 0.006) == "-0.100 to 0.600 %"
-    assert plain_range("frame_lean.tangent_squared", 0.0, 0.2) == "0.0 to 24.1 degrees"
-
-
 @pytest.mark.parametrize(
     "name", [f"{e['name']}.{p['name']}" for e in every_effect() for p in e["parameters"]]
 )
@@ -84,13 +75,6 @@ def test_every_effect_has_a_noun():
     for effect in every_effect():
         assert noun_of(effect["name"]) == effect["noun"] != effect["name"]
     assert noun_of("mount_give") == "mount_give"
-
-
-def test_several_effects_are_listed_with_an_and():
-    assert plainly(["chain_sag"]) == "chain sag"
-    assert plainly(["chain_sag", "chain_stretch"]) == "chain sag and chain stretch"
-    assert plainly(["a", "b", "c"]) == "a, b and c"
-    assert plainly(()) == "the frame alone"
 
 
 @pytest.mark.parametrize(

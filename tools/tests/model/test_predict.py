@@ -17,7 +17,6 @@ from plumb.model.predict import (
     parameter_names,
     places,
     places_with_slopes,
-    settings_of,
     values_of,
 )
 from plumb.settings.machine import PublishedSettings
@@ -26,16 +25,6 @@ from synthetic import BELIEVED, TRUE, grid, marks_on
 CHAINS = lengths(TRUE, grid(5, 3))[0]
 SIZES = {number["name"]: abs(number["usual"]) or 10.0 for number in frame_words()}
 SIZES |= {f"{e['name']}.{p['name']}": abs(p["typical"]) for e in library() for p in e["parameters"]}
-
-
-def test_values_and_settings_are_each_others_undoing():
-    assert settings_of(values_of(TRUE), like=BELIEVED) == TRUE
-
-
-def test_an_effect_without_a_value_is_absent():
-    values = values_of(TRUE)
-    values[[NAMES.index(name) for name in parameter_names("chain_pitch")]] = 0.0
-    assert set(settings_of(values, like=TRUE).effects) == set(TRUE.effects) - {"chain_pitch"}
 
 
 def test_every_parameter_of_the_library_has_its_place_among_the_values():
@@ -47,11 +36,6 @@ def test_places_undo_lengths():
     where, outcome = places(TRUE, CHAINS)
     assert (outcome == FOUND).all()
     assert where == pytest.approx(grid(5, 3), abs=5e-5)
-
-
-def test_single_precision_is_near_and_not_the_same():
-    rough, _ = lengths(TRUE, grid(5, 3), float32=True)
-    assert 0 < np.abs(rough - CHAINS).max() < 0.01
 
 
 @pytest.mark.parametrize("feed", ["top", "bottom"])
@@ -75,14 +59,6 @@ def test_the_slope_of_places_is_that_of_finite_differences(name, feed):
     assert slopes[:, :, column] == pytest.approx(difference, abs=1e-3 * size + 1e-9)
 
 
-def test_a_place_out_of_reach_has_no_slope():
-    _, slopes, outcome = places_with_slopes(
-        values_of(TRUE), over_top=True, chains=np.array([[900.0, 900.0], [1700.0, 1700.0]])
-    )
-    assert outcome[0] != FOUND and outcome[1] == FOUND
-    assert not slopes[0].any() and slopes[1].any()
-
-
 def test_the_stock_controller_believes_its_own_formula_and_plumb_ours():
     stock = replace(
         BELIEVED, controller="stock", published=PublishedSettings(chain_sag_correction=8.2)
@@ -93,11 +69,6 @@ def test_the_stock_controller_believes_its_own_formula_and_plumb_ours():
     assert ours == pytest.approx(lengths(stock.as_plumb_model(), target)[0])
     assert ours != pytest.approx(lengths(BELIEVED, target)[0], abs=0.5)
     assert believed_lengths(stock, target) != pytest.approx(ours, abs=1e-3)
-
-
-def test_a_target_out_of_reach_is_named():
-    with pytest.raises(ValueError, match=r"target \(0, 3000\) is out of reach"):
-        believed_lengths(BELIEVED, np.array([[0.0, 0.0], [0.0, 3000.0]]))
 
 
 def test_a_heavier_sled_stretches_more_and_sags_less():

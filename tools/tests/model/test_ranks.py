@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 import plumb
 import pytest
-from plumb.model.plain import TIE, ascending, greatest, least, ranked
+from plumb.model.plain import TIE, ascending, greatest, least
 
 
 def rounded_otherwise(numbers, seed):
@@ -28,20 +28,6 @@ def test_what_is_apart_is_in_order():
     assert ascending([0.0, -0.5 * TIE, -5 * TIE]).tolist() == [2, 0, 1]
     assert ascending([np.inf, 1e300, -np.inf, np.inf]).tolist() == [2, 1, 0, 3]
     assert ascending([]).tolist() == []
-
-
-def test_a_row_of_ties_is_one_tie():
-    """Else it would matter where a row is entered."""
-    assert ascending([1.2 * TIE, 0.6 * TIE, 0.0]).tolist() == [0, 1, 2]
-
-
-def test_a_table_is_counted_through_its_rows():
-    table = np.array([[1.0, 7.0], [7.0, 0.0]])
-    assert (greatest(table), least(table)) == (1, 3)
-
-
-def test_items_come_by_their_numbers():
-    assert ranked(["bb", "a", "cc", "d"], len) == ["a", "d", "bb", "cc"]
 
 
 def test_nothing_that_users_get_is_ranked_by_the_last_bit():

@@ -7,13 +7,10 @@ import subprocess
 from dataclasses import replace
 from pathlib import Path
 
-import numpy as np
 import pytest
 from hidden_boards import board
 from plumb.bench.boards import cut, plan
 from plumb.bench.causes import MAKER, Cause, Hidden
-from plumb.model.sketches import SKETCHES, Strands
-from plumb.model.sketches.sketch import load
 from plumb.settings.toml import machine_toml
 from synthetic import csv_of
 
@@ -123,18 +120,6 @@ def test_a_sketch_that_cannot_be_used_is_told_in_one_line(tmp_path, text, hint):
 def test_the_folder_that_is_named_must_be_there(tmp_path):
     done = run(tmp_path, "effects", folder_of_user="nowhere")
     assert done.returncode == 2 and "PLUMB_SKETCHES" in done.stderr
-
-
-def test_what_is_set_aside_is_not_ranked_and_stands_by_when_it_is_not(tmp_path):
-    assert "mount_give" not in [words.name for words in SKETCHES]
-    shutil.copy(FOLDER / "_mount_give.py", tmp_path / "mount_give.py")
-    loaded = load([tmp_path])
-    assert [words.name for words in loaded.sketches] == ["mount_give"] and loaded.broken == ()
-    words = np.array([[1500.0, 1600.0]])
-    strands = Strands(words, words, words, np.array([[60.0, 80.0]]), words, words)
-    assert loaded.sketches[0].extra(np.array([0.01]), strands) == pytest.approx(
-        np.array([[-0.6, -0.8]])
-    )
 
 
 def test_a_hose_that_pulls_the_sled_is_fitted_in_newtons(tmp_path):

@@ -14,7 +14,7 @@ from plumb.diagnosis.priors import SizePriors, turned
 from plumb.marks.read import Measurements
 from plumb.plan.case import Check, Planned
 from plumb.plan.options import many_marks
-from plumb.plan.outlook import Outlooks, _is_right, _named, _shown
+from plumb.plan.outlook import Outlooks, _is_right, _shown
 from plumb.plan.planned_visits import nowhere
 from synthetic import BELIEVED, grid, marks_on
 
@@ -44,24 +44,12 @@ def checks(*names, sigma):
     return Planned(nowhere(), [Check(name, sigma) for name in names])
 
 
-def test_what_tells_nothing_is_worth_nothing(case):
-    outlooks = Outlooks(case)
-    nothing, blunt = outlooks.of(Planned(nowhere())), outlooks.of(checks(*PITCH, sigma=10.0))
-    assert nothing.bits < 0.02 and blunt.bits == pytest.approx(nothing.bits, abs=1e-3)
-    assert blunt.chance == pytest.approx(nothing.chance, abs=0.02)
-
-
 def test_measuring_the_cause_itself_settles_what_marks_leave_open(case):
     outlooks = Outlooks(case)
     before = outlooks.of(Planned(nowhere()))
     sharp, less = (outlooks.of(checks(*PITCH, sigma=sigma)) for sigma in (5e-5, 1e-3))
     assert sharp.chance > before.chance + 0.3 and sharp.bits > less.bits > before.bits
     assert 1 <= sharp.left < less.left <= before.left + 0.1  # as far as draws tell
-
-
-def test_the_same_is_promised_twice(case):
-    planned = Planned(many_marks(case).visits)
-    assert Outlooks(case).of(planned) == Outlooks(case).of(planned)
 
 
 def drawn_machines(board, accounts, count, source):
@@ -165,37 +153,6 @@ def is_settled(board, accounts, clean, acting, shown):
     return len(named) == 1 and _is_right([several[named[0][0]]], acting, shown)
 
 
-@pytest.mark.parametrize(
-    ("named", "acting", "right"),
-    [
-        ([("chain_zero",)], ("chain_zero",), True),
-        ([("chain_zero", "chain_stretch")], ("chain_zero",), True),
-        ([("chain_zero", "frame_lean")], ("chain_zero",), False),
-        ([("chain_zero",), ("frame_lean",)], ("chain_zero",), False),
-        ([("chain_zero",)], ("chain_zero", "frame_lean"), False),
-        ([("chain_sag",)], ("chain_pitch",), False),
-        ([("chain_sag",)], ("chain_stretch",), False),
-        ([], (), True),
-        ([], ("chain_zero",), False),
-        ([("chain_zero",)], (), False),
-    ],
-)
-def test_a_verdict_is_right_that_names_just_what_is_there(named, acting, right):
-    assert _is_right(named, acting, acting) is right
-
-
-def test_what_the_marks_cannot_show_may_stay_unnamed():
-    both = ("chain_zero", "frame_lean")
-    assert _is_right([("chain_zero",)], both, ["chain_zero"])
-    assert not _is_right([("frame_lean",)], both, ["chain_zero"])
-    assert not _is_right([("sheet_skew",)], both, [])
-
-
-def test_what_every_machine_has_may_be_named():
-    assert _is_right([("chain_stretch",)], (), [])
-    assert not _is_right([("chain_stretch",), ("chain_sag",)], (), [])
-
-
 def sizes_of(count):
     """Priors under which nothing is usual."""
     zeros, ones = np.zeros(count), np.ones(count)
@@ -225,18 +182,6 @@ def test_the_marks_show_what_the_frame_and_others_do_not_draw():
             left = read - known @ np.linalg.lstsq(known, read, rcond=None)[0]
             assert shown[name][i] == (left @ left >= 9 + 2 * len(mine)), (name, i)
     assert all(0 < each.sum() < 40 for each in shown.values())
-
-
-def test_a_verdict_names_nothing_where_nothing_is_too_likely():
-    sets = [(), ("chain_zero",), ("frame_lean",)]
-    assert _named(sets, np.log([NOTHING + 0.01, 0.99 - NOTHING, 1e-9])) == []
-    assert _named(sets, np.log([NOTHING - 0.01, 1.01 - NOTHING, 1e-9])) == [("chain_zero",), ()]
-    assert _named(sets, np.log([1e-9, 0.6, 0.4])) == [("chain_zero",), ("frame_lean",)]
-    # Sets that ask for the same effects count together.
-    assert _named([(), ("frame_lean",), ("frame_lean",)], np.log([0.4, 0.5, 0.5])) == [
-        ("frame_lean",),
-        (),
-    ]
 
 
 def test_where_nothing_is_proved_each_effect_is_looked_for():

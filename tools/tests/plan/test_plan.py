@@ -7,18 +7,16 @@ import pytest
 from hidden_boards import board, board_cut, size_for
 from plumb.bench.boards import plan
 from plumb.bench.causes import MAKER, SLED
-from plumb.bench.judged_board import BoardOwner, followed, true_value
-from plumb.diagnosis import Checked, diagnose
+from plumb.bench.judged_board import BoardOwner, followed
+from plumb.diagnosis import diagnose
 from plumb.fit.inputs import Inputs
-from plumb.fit.problem import PRIORS
-from plumb.model.catalogue import effect_names, parameter_words
+from plumb.model.catalogue import effect_names
 from plumb.model.predict import FOUND, lengths
 from plumb.plan import propose
 from plumb.plan.case import case_of
-from plumb.plan.options import ROOM_FOR_A_SECOND, _Shop, many_marks, options
+from plumb.plan.options import ROOM_FOR_A_SECOND, many_marks, options
 from plumb.plan.planned_visits import sent, usable
-from plumb.plan.separation import ENOUGH, FRAME_CHECKS, Chooser, effect_checks
-from synthetic import BELIEVED, distances_between, grid, marks_on
+from plumb.plan.separation import ENOUGH, Chooser
 
 NINE = plan(3, 3)
 NOISE = 0.5
@@ -93,12 +91,6 @@ def test_new_marks_lie_where_the_sled_can_go_and_not_in_old_holes(pitch):
         assert (outcome == FOUND).all() and visits.chains == pytest.approx(chains)
 
 
-def test_a_sled_that_is_too_heavy_for_a_place_is_not_proposed():
-    corners = np.array([(-1100.0, 500.0), (0.0, 500.0), (1100.0, 500.0), (0.0, -500.0)])
-    light, heavy = usable(MAKER, corners, SLED), usable(MAKER, corners, 4 * SLED)
-    assert light.sum() > heavy.sum()
-
-
 def test_more_rows_never_lower_lambda_and_chosen_ones_beat_random_ones(pitch):
     *_, case = pitch
     pool = many_marks(case).visits
@@ -113,18 +105,6 @@ def test_more_rows_never_lower_lambda_and_chosen_ones_beat_random_ones(pitch):
     )
 
 
-def test_next_to_many_marks_few_places_are_thought_of(pitch):
-    _, _, _, case = pitch
-    marks = board({"chain_pitch": 3.0}, plan(15, 9), seed=101)
-    dense_case = case_of(diagnose(Inputs(MAKER, marks)), Inputs(MAKER, marks))
-    pool = _Shop(dense_case).pool(SLED)
-    assert 9 < len(pool) <= 40
-    assert np.ptp(pool.targets, axis=0) == pytest.approx((2180, 980), abs=40)
-    near = _Shop(case).pool(SLED).targets[: len(NINE.targets)]  # next to few marks all are
-    gaps = np.linalg.norm(near[:, np.newaxis] - NINE.targets, axis=2).min(axis=1)
-    assert gaps == pytest.approx(np.full(9, np.hypot(20, 20)), abs=20)
-
-
 def test_look_alikes_are_told_by_what_parts_them_only(pitch):
     # A tape and chains that are long draw nearly the same arrows; a steel rule parts them.
     cut, marks, diagnosis, _ = pitch
@@ -136,40 +116,6 @@ def test_look_alikes_are_told_by_what_parts_them_only(pitch):
     assert max(each.chance for each in heavier) < best.chance - 0.2
     done = diagnose(Inputs(MAKER, marks, checked=owner().checked(cut, best.option.checks)))
     assert done.verdict == "one_suspect" and done.suspects == ("chain_pitch",)
-
-
-def test_a_frame_that_would_lean_like_no_other_is_not_suspected_beside_sag():
-    # Both draw the same arrows, but the frame would have to lean by 58 degrees.
-    _, diagnosis = nine("chain_sag")
-    assert diagnosis.verdict == "one_suspect" and diagnosis.suspects == ("chain_sag",)
-    chances = {each.effect: each.chance for each in diagnosis.ranking}
-    assert chances["frame_lean"] < 0.2 and chances["chain_sag"] > 0.99
-
-
-def test_swapped_chains_take_their_pitch_along(pitch):
-    cut, _, _, case = pitch
-    option = next(option for option in options(case) if option.kind == "swap")
-    assert option.visits.swapped.all()
-    board_now = owner().with_marks(cut, option.visits).measurements
-    diagnosis = diagnose(Inputs(MAKER, board_now))
-    sizes = next(ranked for ranked in diagnosis.ranking if ranked.effect == "chain_pitch").sizes
-    for size, side in zip(sizes, ("left", "right"), strict=True):
-        truth = true_value(cut, f"chain_pitch.{side}")
-        assert size.low - 2e-4 <= truth <= size.high + 2e-4
-    # Read as if they had not been swapped, the same marks fit nothing so well.
-    marks = tuple(replace(mark, chains_swapped=False) for mark in board_now.marks)
-    wrong = diagnose(Inputs(MAKER, replace(board_now, marks=marks)))
-    after = {ranked.effect: ranked.rms_after for ranked in diagnosis.ranking}["chain_pitch"]
-    assert (
-        after < 0.8 * {ranked.effect: ranked.rms_after for ranked in wrong.ranking}["chain_pitch"]
-    )
-
-
-def test_a_check_that_finds_nothing_clears_its_effect(pitch):
-    _, marks, diagnosis, _ = pitch
-    assert "tape_scale" in diagnosis.suspects
-    cleared = diagnose(Inputs(MAKER, marks, checked=[Checked("tape_scale.strain", 0.0, 0.0001)]))
-    assert "tape_scale" not in cleared.suspects and "chain_pitch" in cleared.suspects
 
 
 def test_where_nothing_is_provable_doubt_is_removed_first(clean):
@@ -207,53 +153,6 @@ def test_a_slip_is_read_again_and_nothing_else():
     option = answer.proposals[0].option
     assert option.visits.names == (slipped[7].name,)
     assert option.do[0].startswith(f"Read {slipped[7].name} again")
-
-
-def test_what_nobody_explains_is_looked_at_where_it_is_worst():
-    measured = board({}, plan(5, 5), seed=905, bump=4.0)
-    diagnosis = diagnose(Inputs(MAKER, measured))
-    assert diagnosis.verdict == "not_in_library"
-    answer = propose(diagnosis, Inputs(MAKER, measured))
-    assert set(kinds(answer)) == {"repeats", "near"}
-    assert all(proposal.chance is None for proposal in answer.proposals)
-    errors = measured.measured - measured.targets
-    worst = measured.targets[
-        np.argsort(-np.linalg.norm(errors - np.median(errors, axis=0), axis=1))[:6]
-    ]
-    near = next(
-        proposal for proposal in answer.proposals if proposal.option.kind == "near"
-    ).option.visits
-    gaps = np.linalg.norm(near.targets[:, np.newaxis] - worst, axis=2).min(axis=1)
-    assert gaps.max() <= 450
-
-
-def test_distances_that_nobody_explains_are_measured_again():
-    true = replace(BELIEVED, motor_gap=2980.0)
-    board_now = distances_between(marks_on(true, BELIEVED, grid(4, 3)))
-    odd = [
-        replace(distance, length=distance.length + (6.0 if i % 5 == 0 else 0.0))
-        for i, distance in enumerate(board_now.distances)
-    ]
-    changed = replace(board_now, distances=tuple(odd))
-    diagnosis = diagnose(Inputs(BELIEVED, changed, sigma=0.3))
-    assert diagnosis.verdict in ("not_in_library", "slip")
-    answer = propose(diagnosis, Inputs(BELIEVED, changed))
-    words = " ".join(answer.proposals[0].option.do)
-    assert any(" - ".join(distance.between) in words for distance in odd)
-
-
-def test_checks_are_of_numbers_that_exist():
-    for effect, check in effect_checks().items():
-        assert effect in effect_names()
-        assert {f"{effect}.{part}" for part in check.sigmas} == {
-            name for name in parameter_words() if name.startswith(f"{effect}.")
-        }
-        for part, sigma in check.sigmas.items():
-            # What is no better than the whole range says nothing.
-            words = parameter_words()[f"{effect}.{part}"]
-            assert 0 < sigma < (words["high"] - words["low"]) / 4
-    assert set(effect_checks()) >= {"chain_pitch", "sheet_skew", "tape_scale", "frame_flex"}
-    assert set(FRAME_CHECKS) >= set(PRIORS) & {"motor_gap", "motor_height"}
 
 
 @pytest.mark.slow

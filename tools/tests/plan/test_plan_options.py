@@ -1,12 +1,9 @@
 """Each kind of option: where its marks lie, how heavy, from which side, and its minutes."""
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 from plan_cases import MACHINE, case_on, nine
 from plumb.fit.problem import Checked
-from plumb.marks.read import Measurements
 from plumb.plan.options import (
     FEW,
     HANGING,
@@ -17,15 +14,13 @@ from plumb.plan.options import (
     ROUND,
     SHARPER,
     SWAPPING,
-    _Shop,
     checks_for,
     options,
     spots,
 )
-from plumb.plan.planned_visits import sent
 from plumb.plan.separation import FRAME_CHECKS, effect_checks
 from plumb.settings.machine import GRAVITY
-from synthetic import distances_between, grid, marks_on
+from synthetic import grid
 
 USUAL = MACHINE.sled_weight
 
@@ -68,15 +63,6 @@ def test_extra_weight_is_hung_on_as_told(by_kind):
     assert (np.abs(near.targets) <= np.abs(grid(3, 3)) + ROOM_FOR_A_SECOND).all()
 
 
-def test_a_light_sled_is_not_loaded_beyond_its_double():
-    light = replace(MACHINE, sled_weight=50.0)
-    marks = marks_on(light, light, grid(3, 3), noise=0.5)
-    weighed = tuple(replace(mark, sled_weight=50.0) for mark in marks)
-    offered = _Shop(case_on(Measurements(weighed), "chain_stretch")).heavier()
-    extra = {round((option.visits.sled_weights[0] - 50.0) / GRAVITY, 6) for option in offered}
-    assert extra == {2.5, 5.0}
-
-
 def test_two_marks_close_together_are_touched_from_opposite_sides(by_kind):
     (sides,) = by_kind["approach"]
     visits = sides.visits
@@ -97,14 +83,6 @@ def test_two_marks_close_together_are_touched_from_opposite_sides(by_kind):
     assert "opposite sides" in sides.do[0] and spots(visits) in sides.do[0]
 
 
-def test_sides_and_swapped_chains_are_for_effects_that_feel_them():
-    plain = _Shop(case_on(nine(), "frame_lean"))
-    assert plain.sides() == [] and plain.swapped() == []
-    assert _Shop(case_on(nine(), "sled_friction")).swapped() == []
-    (swapped,) = _Shop(case_on(nine(), "chain_pitch")).swapped()
-    assert swapped.visits.swapped.all() and len(swapped.visits) == FEW
-
-
 def test_every_mark_is_read_again_as_it_was_made(by_kind, case):
     (again,) = by_kind["repeats"]
     assert not again.is_cut and by_kind["marks"][0].is_cut
@@ -112,36 +90,6 @@ def test_every_mark_is_read_again_as_it_was_made(by_kind, case):
     assert again.visits.names == case.board.rows.names * READ_AGAIN
     assert again.visits.chains == pytest.approx(np.tile(case.board.rows.chains, (READ_AGAIN, 1)))
     assert again.do == ("Read each of the 9 marks 3 more times with a newly laid tape.",)
-
-
-def test_repeated_marks_count_as_a_single_place():
-    marks = nine().marks + nine(seed=2).marks[:2]
-    shop = _Shop(case_on(Measurements(marks), "chain_pitch"))
-    assert shop.old().names == tuple("012345678") and len(shop.repeats().visits) == 27
-    assert shop.old_targets.tolist() == grid(3, 3).tolist()
-
-
-def test_distances_alone_have_no_marks_to_read_again():
-    board = distances_between(marks_on(MACHINE, MACHINE, grid(3, 2), noise=0.5))
-    shop = _Shop(case_on(board, "chain_pitch"))
-    assert shop.repeats() is None and shop.old_targets.shape == (0, 2)
-    assert len(shop.ordinary()[0].visits) == FEW
-
-
-def test_a_suspect_alone_is_confirmed_by_no_repeats():
-    kinds = {
-        option.kind for option in options(case_on(nine(), "chain_pitch", verdict="one_suspect"))
-    }
-    assert kinds == {"marks", "weight", "swap", "check"}
-
-
-def test_new_marks_come_as_the_nearest_mark_did():
-    sides = [(0.0, 1.0) if mark.target[0] > 0 else (1.0, 0.0) for mark in nine().marks]
-    marks = [replace(mark, approach=side) for mark, side in zip(nine().marks, sides, strict=True)]
-    shop = _Shop(case_on(Measurements(tuple(marks)), "chain_pitch"))
-    visits = shop.visits(np.array([(1000.0, 450.0), (-1000.0, 450.0)]), USUAL)
-    assert visits.approaches.tolist() == [[0.0, 1.0], [1.0, 0.0]]
-    assert len(shop.visits(np.array([(0.0, 9000.0)]), USUAL)) == 0
 
 
 def test_a_number_is_checked_if_that_tells_more_than_is_known():
@@ -163,21 +111,3 @@ def test_checks_of_suspects_bring_their_numbers_and_words():
     }
     assert (check.title, check.minutes) == (direct.direct.title, direct.direct.minutes)
     assert check.do == (direct.direct.steps,) and check.value == direct.direct.value
-
-
-def test_many_marks_spread_all_over_the_sheet(case):
-    many = _Shop(case).many()
-    assert many.kind == "many" and len(many.visits) == 28
-    assert many.minutes == ROUND + 28 * MARK
-    assert np.abs(many.visits.targets).max(axis=0) == pytest.approx((1050.0, 460.0))
-
-
-def test_places_are_told_once_and_old_marks_by_name():
-    visits = sent(
-        MACHINE,
-        [(100.0, 200.0), (100.0, 200.0), (-0.0, 50.4)],
-        controller="plumb",
-        sled_weight=USUAL,
-        names=("7", "7", "0/50"),
-    )
-    assert spots(visits) == "7 (100, 200), (0, 50)"

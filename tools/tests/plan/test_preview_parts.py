@@ -12,10 +12,9 @@ from plumb.diagnosis.explanation import Board, explain
 from plumb.diagnosis.linear import LinearBoard
 from plumb.fit.observations import model_and_observations
 from plumb.marks.read import Mark, Measurements
-from plumb.model.catalogue import EVERY_MACHINE, effect_names, parameter_words
-from plumb.plan.preview import APART, POWER, _named, preview
+from plumb.model.catalogue import EVERY_MACHINE
+from plumb.plan.preview import APART, POWER, preview
 from plumb.plan.proposal import AGAIN
-from plumb.text.errors import InputError
 from synthetic import grid
 
 
@@ -52,41 +51,6 @@ def test_the_smallest_size_is_named_with_the_power_that_is_said(effect):
     total = clean_of(replace(board, read=read), accounts, noises).total
     nothing = np.exp(total[0] - np.logaddexp.reduce(total, axis=0))
     assert np.mean(nothing < NOTHING) == pytest.approx(POWER, abs=0.1)
-
-
-def test_what_is_seen_better_is_named_in_smaller_sizes(nine):
-    for i, each in enumerate(nine.outlines):
-        assert each.effect == nine.effects[i] == effect_names()[i]
-        assert each.seen == nine.matrix[i, i]
-        if each.smallest is None:
-            assert each.seen <= 0.01
-    single = [each for each in nine.outlines if len(each.parameters) == 1 and each.smallest]
-    sigmas = [each.seen * each.smallest for each in single]
-    assert min(sigmas) > 2 and max(sigmas) < 8
-    sag = outline(nine, "chain_sag")
-    (only,) = sag.parameters
-    words = parameter_words()["chain_sag.weight_ratio_squared"]
-    assert (only.name, only.unit) == ("weight_ratio_squared", words["unit"])
-    assert only.smallest == pytest.approx(sag.smallest * words["typical"])
-
-
-def test_a_sharper_tape_sees_as_much_more(nine):
-    sharp = preview(MACHINE, plan_of(3, 3, approach=(0.0, 1.0)), sigma=SIGMA / 5, is_quick=True)
-    sag, sharper = outline(nine, "tape_scale"), outline(sharp, "tape_scale")
-    assert sharper.raw == pytest.approx(sag.raw)
-    assert sag.seen < sharper.seen < 5 * sag.seen * (1 + 1e-9)
-    assert sharp.additions == () and sharp.sigma == SIGMA / 5
-
-
-def test_a_tape_that_is_long_moves_marks_by_their_distance():
-    # About the middle: the tape hooks on the sheet's corner for edges, so only the order of size.
-    seen = preview(MACHINE, plan_of(3, 3), sigma=SIGMA, is_quick=True)
-    words = parameter_words()["tape_scale.strain"]["typical"]
-    radius = np.sqrt(np.mean(np.sum(grid(3, 3) ** 2, axis=1)))
-    assert outline(seen, "tape_scale").raw == pytest.approx(words * radius, rel=1.0)
-    friction = outline(seen, "sled_friction")
-    assert friction.seen == 0.0 and friction.smallest is None and friction.hidden_share is None
-    assert all(each.smallest is None for each in friction.parameters)
 
 
 def test_effects_are_alike_that_the_marks_cannot_part(nine):
@@ -128,22 +92,3 @@ def test_additions_are_worth_the_information_that_they_bring(nine):
     )
     whole = preview(MACHINE, Measurements(marks), sigma=SIGMA, is_quick=True)
     assert whole.named == pytest.approx(many.named, abs=1)
-
-
-def test_what_is_added_is_counted_as_the_plan_itself_is():
-    """At noises at which effects show one after the other."""
-    model, rows = model_and_observations(MACHINE, plan_of(5, 5))
-    counts = []
-    for sigma in (SIGMA / 8, SIGMA / 4, SIGMA / 2, SIGMA):
-        seen = preview(MACHINE, plan_of(5, 5), sigma=sigma, is_quick=True)
-        board = Board.of(model, rows, sigma=sigma)
-        assert _named(board, seen.matrix) == seen.named <= seen.seen
-        counts.append(seen.named)
-    assert counts == sorted(counts, reverse=True) and counts[0] > counts[-1]
-
-
-def test_a_plan_of_too_few_places_is_refused():
-    with pytest.raises(InputError, match="plan at least three"):
-        preview(MACHINE, Measurements(plan_of(2, 1).marks, source="m.toml"), sigma=SIGMA)
-    three = preview(MACHINE, Measurements(plan_of(3, 1).marks), sigma=SIGMA, is_quick=True)
-    assert (three.marks, three.distances) == (3, 0)

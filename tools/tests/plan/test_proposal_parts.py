@@ -1,18 +1,12 @@
 """What a proposal promises apart from its chance: pairs that are parted, and rooms."""
 
 from dataclasses import replace
-from itertools import combinations
 
 import numpy as np
 import pytest
 from plan_cases import MACHINE, case_on, nine
-from plumb.diagnosis.sizes import Room
 from plumb.marks.read import Measurements
-from plumb.plan.case import Check, Planned
-from plumb.plan.options import many_marks
-from plumb.plan.planned_visits import nowhere
-from plumb.plan.proposal import DISTINGUISHED, _parted, _rooms, _smallest
-from plumb.plan.separation import ENOUGH, Chooser, apart, drawn_by, pairs_of
+from plumb.plan.separation import apart, pairs_of
 from synthetic import grid, marks_on
 
 
@@ -21,59 +15,6 @@ def pitch_board(left=0.006):
     effects = {**MACHINE.effects, "chain_pitch": {"left": left, "right": 0.0}}
     machine = replace(MACHINE, effects=effects)
     return Measurements(marks_on(machine, MACHINE, grid(3, 3), noise=0.2))
-
-
-def test_rooms_shrink_as_the_least_visible_direction_grows():
-    case = case_on(nine())
-    rooms = [Room("chain_sag", (), 5.0), Room("frame_lean", (), 2.0), Room("chain_zero", (), None)]
-    checks = (Check("chain_sag.weight_ratio_squared", 1e-14),)
-    then = _rooms(case, Planned(nowhere(), checks), rooms)
-    assert [room.effect for room in then] == ["chain_sag", "frame_lean"]
-    assert then[0].now == 5.0 and then[0].then < 0.1
-    assert (then[1].now, then[1].then) == (2.0, pytest.approx(2.0))
-    nothing = _rooms(case, Planned(nowhere()), rooms)
-    assert [room.then for room in nothing] == pytest.approx([5.0, 2.0])
-    more = _rooms(case, Planned(many_marks(case).visits), rooms[:1])
-    assert 0.1 * 5.0 < more[0].then < 0.9 * 5.0
-
-
-def test_the_least_visible_direction_is_what_the_frame_leaves_of_it():
-    slopes = np.array([[1.0, 1.0, 0.0], [0.0, 3.0, 0.0], [0.0, 0.0, 2.0]])
-    frame, columns = np.array([0]), np.array([1, 2])
-    assert _smallest(slopes, columns, frame) == pytest.approx(2.0)
-    assert _smallest(slopes, columns[:1], frame) == pytest.approx(3.0)
-    assert _smallest(slopes, columns, np.array([], dtype=int)) == pytest.approx(2.0)
-
-
-def test_pairs_are_parted_that_were_not_before():
-    case = case_on(pitch_board(0.0045), "frame_lean", "chain_pitch", "tape_scale")
-    names = [hypothesis.effects[0] for hypothesis in case.hypotheses]
-    planned = Planned(many_marks(case).visits)
-
-    def least(first, second, slopes_of):
-        return min(
-            apart(
-                slopes_of(truth),
-                drawn_by(truth),
-                np.concatenate([case.board.frame, case.board.columns(rival.effects)]),
-            )
-            for truth, rival in ((first, second), (second, first))
-        )
-
-    expected = []
-    for first, second in combinations(case.hypotheses, 2):
-        now = least(first, second, lambda each: each.at.slopes)
-        then = least(first, second, lambda each: planned.ahead(each.at).slopes)
-        if then >= DISTINGUISHED > now:
-            expected.append((first.effects[0], second.effects[0]))
-    pairs = _parted(case, planned)
-    assert pairs == tuple(expected) and len(pairs) == 2
-    assert all(names.index(first) < names.index(second) for first, second in pairs)
-    assert _parted(case, Planned(nowhere())) == ()
-
-
-def test_a_pair_counts_as_parted_below_what_is_enough():
-    assert 0.5 * ENOUGH < DISTINGUISHED < ENOUGH
 
 
 def test_two_effects_are_apart_by_what_a_fit_of_the_other_leaves():
@@ -107,23 +48,3 @@ def test_every_suspect_is_held_against_every_other():
     assert len(pairs_of(hidden)) == len(hidden.hypotheses)
     for pair in pairs_of(hidden):
         assert pair.fitted.tolist() == hidden.board.frame.tolist()
-
-
-def test_visits_are_chosen_without_repeating_any_and_exchanged_for_better():
-    case = case_on(nine(), "chain_pitch", "frame_lean")
-    pool = many_marks(case).visits
-    chooser = Chooser(case, pool)
-    allowed = [3, 5, 8, 13, 21]
-    best = chooser.best(allowed, 3)
-    assert len(set(best)) == 3 and set(best) <= set(allowed)
-    greedy = []
-    for _ in range(3):
-        left = [i for i in allowed if i not in greedy]
-        greedy.append(max(left, key=lambda i: chooser.worth([*greedy, i])))
-    assert chooser.worth(best) >= chooser.worth(greedy)
-    assert chooser.worth([]) == pytest.approx(
-        sum(
-            pair.weight * min(ENOUGH, apart(pair.at.slopes, pair.drawn, pair.fitted))
-            for pair in pairs_of(case)
-        )
-    )

@@ -4,13 +4,10 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from plumb.cli.next import _table as table_of
 from plumb.model.plain import noun_of
-from plumb.plan import Next
 from plumb.plan.options import Option
 from plumb.plan.planned_visits import nowhere
 from plumb.plan.proposal import (
-    AGAIN,
     CONFIRM,
     EXPLORE,
     FIND,
@@ -78,20 +75,6 @@ def test_where_an_effect_may_act_unseen_the_hope_is_how_much_less():
     assert both == f"{noun_of('motor_level')} 9.0 -> 1.0 mm, {noun} 5.0 -> 1.2 mm"
 
 
-def test_a_table_of_what_may_act_unseen_fits_the_screen():
-    rooms = (RoomThen("motor_level", 9.0, 1.0), RoomThen("chain_zero", 6.0, 5.2))
-    both = (proposal(FIND, rooms=rooms), proposal(FIND, rooms=rooms))
-    lines = table_of(Next("", None, both, None)).splitlines()
-    assert max(map(len, lines)) <= 80 and "may act unseen then" in lines[0]
-    assert f"{noun_of('chain_zero')} 6.0 -> 5.2 mm" in " ".join(" ".join(lines).split())
-
-
-def test_without_such_rooms_a_promise_is_a_chance():
-    assert promise_of(proposal()) == "40 %"
-    assert promise_of(proposal(FIND)) == "40 %"
-    assert promise_of(proposal(SETTLE, rooms=ROOMS)) == "40 %"
-
-
 def test_a_step_names_each_cause_that_it_tries_once_in_one_sentence():
     assert steps_of(proposal()) == ["Cut four."]
     pairs = (
@@ -108,13 +91,6 @@ def test_a_step_names_each_cause_that_it_tries_once_in_one_sentence():
     assert steps_of(proposal(parts=pairs[2:3]))[1:] == [f"It shows whether {lean} acts."]
     assert steps_of(proposal(parts=pairs[3:]))[1:] == [f"It shows whether {sag} acts."]
     assert steps_of(proposal(parts=(("chain_sag", "chain_sag"),)))[1:] == []
-
-
-def test_the_rate_is_what_is_gained_for_each_minute_with_a_round_more():
-    assert proposal().rate == pytest.approx(0.42 / (9.4 + AGAIN))
-    assert proposal(SETTLE, None).rate == 0.0
-    gained = (5.0 - 1.24) + (2.0 - 1.9)
-    assert proposal(FIND, rooms=ROOMS).rate == pytest.approx(gained / (9.4 + AGAIN))
 
 
 def test_a_single_suspect_is_checked_before_marks_are_cut():

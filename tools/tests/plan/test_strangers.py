@@ -7,9 +7,8 @@ import numpy as np
 import pytest
 from plan_cases import MACHINE, SIGMA, case_on, nine
 from plumb.diagnosis.outliers import Outlier
-from plumb.marks.read import Measurements
 from plumb.plan.options import MARK, READING, ROUND
-from plumb.plan.planned_visits import BELOW, NEAR, check_places, grid, new_places, usable
+from plumb.plan.planned_visits import BELOW, check_places, grid, usable
 from plumb.plan.proposal import BESIDE, READ_AGAIN, SURE, for_slips, near_the_worst
 from synthetic import distances_between, marks_on
 from synthetic import grid as targets_of
@@ -35,18 +34,6 @@ def test_a_second_reading_shows_a_slip_as_often_as_noise_allows():
     assert chances == pytest.approx([0.5, 0.9772, 0.00135], abs=1e-3)
 
 
-def test_the_mark_is_read_again_as_it_was_made_and_a_distance_by_its_name():
-    marks = nine().marks
-    board = Measurements(marks, distances_between(marks[:2]).distances)
-    case = case_on(board, "chain_pitch")
-    slips = [slip("3", 5.0, 0.0), slip("1 - 0", 5.0)]
-    (mark, _), (span, _) = for_slips(slips, case.board.rows, case.noise)
-    assert mark.visits.names == ("3",) and mark.visits.targets[0].tolist() == [-1100.0, 0.0]
-    assert mark.visits.chains[0].tolist() == case.board.rows.chains[3].tolist()
-    assert mark.do[0].startswith("Read 3 again") and not mark.is_cut
-    assert len(span.visits) == 0 and "the distance 1 - 0" in span.do[0]
-
-
 def test_marks_around_the_worst_place_lie_inwards_of_it():
     case = case_on(with_offset(nine(), 8, (6.0, 0.0)), "chain_pitch")
     again, near = near_the_worst(case)
@@ -60,29 +47,6 @@ def test_marks_around_the_worst_place_lie_inwards_of_it():
     half = np.array(MACHINE.sheet) / 2
     assert (np.abs(near.visits.targets) <= half - 50).all()
     assert (near.visits.targets % 10 == 0).all()
-
-
-def test_marks_around_the_middle_of_the_sheet_are_not_in_the_old_hole():
-    _, near = near_the_worst(case_on(with_offset(nine(), 4, (9.0, 0.0)), "chain_pitch"))
-    places = {tuple(place) for place in near.visits.targets.tolist()}
-    assert {(-BESIDE, 0.0), (0.0, -BESIDE)} <= places and (0.0, 0.0) not in places
-
-
-def test_places_at_the_edge_are_brought_onto_the_sheet_in_whole_centimetres():
-    targets = targets_of(3, 3) * [1.0, 1.16] + np.array((3.0, 0.0))
-    marks = Measurements(marks_on(MACHINE, MACHINE, targets, noise=SIGMA))
-    case = case_on(with_offset(marks, 7, (9.0, 0.0)), "chain_pitch")
-    _, near = near_the_worst(case)
-    # Below the middle the mark lies at y -580, so the mark beside it is brought in to -560.
-    assert (-BESIDE, -560.0) in {tuple(place) for place in near.visits.targets.tolist()}
-
-
-def test_the_worst_is_worst_by_the_likeliest_account():
-    case = case_on(with_offset(nine(), 8, (6.0, 0.0)), "chain_pitch")
-    for best in (case.frame, case.best):
-        errors = np.linalg.norm(best.numbers.reshape(-1, 2), axis=1)
-        again = near_the_worst(replace(case, best=best))[0]
-        assert list(dict.fromkeys(again.visits.names)) == [str(i) for i in np.argsort(-errors)[:2]]
 
 
 def test_distances_that_are_worst_are_measured_again():
@@ -100,27 +64,6 @@ def test_distances_that_are_worst_are_measured_again():
     assert again.minutes == ROUND + READING * 3 * 4 and len(again.visits) == 0
 
 
-def test_a_grid_spreads_to_its_margins_from_the_top_left():
-    places = grid((2000.0, 1000.0), 3, 2, margin=(0.1, 0.2))
-    assert places.tolist() == [
-        [-800.0, 300.0],
-        [0.0, 300.0],
-        [800.0, 300.0],
-        [-800.0, -300.0],
-        [0.0, -300.0],
-        [800.0, -300.0],
-    ]
-    assert grid((2000.0, 1000.0), 1, 1).tolist() == [[0.0, 0.0]]
-
-
-def test_new_places_are_not_near_known_ones():
-    sheet = (2000.0, 1000.0)
-    assert new_places(sheet, np.zeros((0, 2))).tolist() == grid(sheet).tolist()
-    at, beyond = np.array([(NEAR, 0.0)]), np.array([(NEAR + 1.0, 0.0)])
-    assert len(new_places(sheet, at)) == len(grid(sheet)) - 1
-    assert len(new_places(sheet, beyond)) == len(grid(sheet))
-
-
 def test_check_marks_lie_far_from_what_was_fitted_and_from_each_other():
     known = targets_of(3, 3)
     first, second = check_places(MACHINE, known)
@@ -136,8 +79,3 @@ def test_check_marks_lie_far_from_what_was_fitted_and_from_each_other():
     assert gap(second, both) == max(gap(place, both) for place in places)
     assert len(check_places(MACHINE, known, 4)) == 4
     assert len(check_places(MACHINE, np.zeros((0, 2)))) == 2
-
-
-def test_a_machine_that_reaches_nothing_has_no_place_for_a_check():
-    low = replace(MACHINE, motor_height=-2000.0)
-    assert check_places(low, np.zeros((0, 2))).shape == (0, 2)

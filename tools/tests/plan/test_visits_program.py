@@ -5,15 +5,12 @@ import dataclasses
 import numpy as np
 import pytest
 from plumb.marks.form import read_form
-from plumb.marks.model import Mark
 from plumb.plan.planned_visits import (
     joined,
     marks_file,
     nowhere,
-    place_name,
     program,
     sent,
-    way_into,
 )
 from synthetic import BELIEVED
 
@@ -66,34 +63,6 @@ def test_a_form_keeps_place_side_weight_and_swap(file, swapped):
         assert mark.approach == pytest.approx(tuple(side), abs=0.001)
         assert mark.sled_weight == 147.0 and mark.chains_swapped == swapped
     assert {visit.chains_swapped for visit in visits.each} == {swapped}
-
-
-def test_places_on_the_sheet_are_counted_from_its_top_left_corner():
-    visits = sent(BELIEVED, [(-1219.2, 609.6), (0.0, 0.0)], controller="plumb", sled_weight=98.0)
-    text = marks_file(visits, sheet=BELIEVED.sheet, controller="plumb", said=("Two.", "Read it."))
-    assert "target = [0.000, 0.000]" in text and "target = [1219.200, 609.600]" in text
-    assert text.count("# measured = [ , ]") == 2 and "# Two.\n# Read it.\n" in text
-    assert "approach" not in text and "chains_swapped" not in text
-    assert 'name = "0/0"' in text and "sled_weight_n = 98.0" in text
-
-
-def test_a_new_mark_is_named_by_its_place():
-    assert place_name(np.array([-120.4, 35.0])) == "-120/35"
-    assert place_name(np.array([-0.0, -0.0])) == "0/0"
-
-
-@pytest.mark.parametrize("kilograms", [2.5, 10.0])
-def test_the_weight_to_hang_is_told_in_kilograms(kilograms):
-    heavy = 98.0 + kilograms * 9.81
-    visits = sent(BELIEVED, [(0.0, 0.0)], controller="plumb", sled_weight=heavy)
-    assert f"let {kilograms} kg more hang" in program(visits, usual_weight=98.0)
-
-
-def test_a_mark_is_entered_from_its_side_as_far_as_usual():
-    usual = np.subtract(way_into(Mark("1", (100.0, 200.0))), (100.0, 200.0))
-    assert usual == pytest.approx((0.0, -40.0))
-    fromleft = way_into(Mark("1", (100.0, 200.0), approach=(1.0, 0.0)))
-    assert fromleft == pytest.approx((60.0, 200.0))
 
 
 def test_what_to_do_first_is_said_in_comments_that_no_bracket_ends():

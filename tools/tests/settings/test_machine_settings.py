@@ -1,11 +1,11 @@
 """Machine settings and their translation into our model."""
 
-from dataclasses import FrozenInstanceError, replace
+from dataclasses import replace
 
 import numpy as np
 import pytest
 from plumb.model.predict import chain_lengths
-from plumb.settings.machine import MachineSettings, PublishedSettings, radius_in_published
+from plumb.settings.machine import MachineSettings, PublishedSettings
 from plumb.text.errors import InputError
 
 STOCK = MachineSettings(
@@ -33,17 +33,6 @@ def test_derived_numbers():
         "chain_weight",
     ]
     assert STOCK.effect("chain_sag", "weight_ratio_squared") == 0.0
-
-
-def test_settings_are_frozen():
-    with pytest.raises(FrozenInstanceError):
-        STOCK.motor_gap = 1.0
-
-
-def test_no_corrections_means_no_effects():
-    model = STOCK.as_plumb_model()
-    assert model == replace(STOCK, controller="plumb")
-    assert model.as_plumb_model() is model
 
 
 def test_stock_corrections_become_effects():
@@ -95,14 +84,6 @@ def test_holey_settings_become_effects():
     assert stock.effects == {"chain_sag": {"weight_ratio_squared": pytest.approx(33e-12)}}
 
 
-def test_holey_switched_off_is_stock():
-    off = replace(
-        STOCK, controller="holey", published=PublishedSettings(33.0, holey_sled_weight=0.0)
-    )
-    assert "chain_stretch" not in off.as_plumb_model().effects
-    assert off.as_plumb_model().effect("chain_sag", "weight_ratio_squared") > 0
-
-
 @pytest.mark.parametrize(
     ("published", "key"),
     [
@@ -116,17 +97,3 @@ def test_holey_does_not_guess(published, key):
         holey.as_plumb_model()
     with pytest.raises(InputError, match=key):
         chain_lengths(holey, [[0.0, 0.0]])
-
-
-def test_effects_that_are_named_stay():
-    stock = replace(
-        STOCK,
-        effects={"chain_sag": {"weight_ratio_squared": 1e-12}},
-        published=PublishedSettings(27.4),
-    )
-    assert stock.as_plumb_model().effects == {"chain_sag": {"weight_ratio_squared": 1e-12}}
-
-
-def test_radius_in_published():
-    assert radius_in_published(0.0, 0.0) == 1.0
-    assert radius_in_published(0.25, 0.25) == pytest.approx(0.8)

@@ -42,8 +42,3 @@ def test_impossible_numbers_are_named(name, value):
     faulty, sentence = find_fault(replace(GOOD, **{name: value}))
     assert faulty == name or name == "sheet_height"
     assert sentence
-
-
-def test_published_numbers_are_checked_too():
-    bad = replace(GOOD, published=PublishedSettings(left_tolerance=6.0))
-    assert find_fault(bad)[0] == "left_tolerance"

@@ -143,17 +143,3 @@ def test_a_calibration_with_webcontrol_needs_nothing_else(
     assert kept.motor_gap == pytest.approx(read_settings("machine.toml").motor_gap, abs=1e-4)
     # A second run may replace what the first wrote.
     assert main(["calibrate", "webcontrol.json", marks, *checked, "-o", "machine.toml"]) == 0
-
-
-def test_a_grid_takes_it_too(webcontrol, capsys):
-    assert main(["grid", "--settings", str(webcontrol)]) == 0
-    of_json = capsys.readouterr().out
-    assert main(["grid", "--settings", str(INI)]) == 0
-    assert capsys.readouterr().out == of_json
-
-
-def test_the_file_of_another_client_is_refused(webcontrol, tmp_path, capsys):
-    machine = str(EXAMPLE / "machine.toml")
-    options = ["--to", "gcode", "--client", "webcontrol", "--original", str(INI)]
-    assert main(["settings", machine, *options, "-o", str(tmp_path / "m.nc")]) == 2
-    assert "is no webcontrol.json" in capsys.readouterr().err

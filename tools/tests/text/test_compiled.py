@@ -2,7 +2,6 @@
 
 import json
 
-import plumb._core
 import pytest
 import settings_page
 from plumb.text import compiled
@@ -43,11 +42,6 @@ def test_an_edit_a_new_file_and_a_lost_one_are_stale(clone):
     assert compiled.stale_source(clone, built) == SAG
 
 
-def test_a_wheel_has_nothing_to_compare(tmp_path):
-    (tmp_path / "lib").mkdir()
-    assert compiled.stale_source(tmp_path, {}) is None
-
-
 def test_a_build_that_noted_nothing_is_stale(clone, monkeypatch, tmp_path):
     monkeypatch.setattr(compiled, "NOTE", "absent.json")
     assert compiled.stale_source(clone) == SAG
@@ -72,10 +66,3 @@ def test_the_generators_of_pages_refuse(an_edit, capsys, tmp_path):
     assert capsys.readouterr().err.startswith(f"settings_page: {SAG}: ")
     assert settings_page.main(["--check"]) == 2
     assert not any(tmp_path.iterdir())
-
-
-def test_the_note_of_the_build_lies_beside_the_modules():
-    note = json.loads(
-        (compiled.Path(plumb._core.__file__).with_name(compiled.NOTE)).read_text(encoding="utf-8")
-    )
-    assert note == compiled.digests()

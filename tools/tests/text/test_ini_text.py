@@ -27,13 +27,6 @@ def test_entries_are_those_configparser_finds():
     assert entries == expected
 
 
-def test_keys_are_found_whatever_their_case():
-    ini = parse_ini(TEXT, source="x")
-    assert ini.find("MOTORSPACINGX", section="maslow settings").value == "2978.4"
-    assert ini.find("digits", section="Elsewhere").value == "4"
-    assert ini.find("nothing", section="Maslow Settings") is None
-
-
 @pytest.mark.parametrize(
     ("text", "hint"),
     [
@@ -63,20 +56,6 @@ def test_only_the_value_changes(ending, start):
     changed = with_values(ini, {("Advanced Settings", "digits"): "5"})
     assert changed == text.replace("digits\t=  4  ", "digits\t=  5  ")
     assert with_values(ini, {}) == text
-
-
-def test_an_empty_value_can_be_filled():
-    ini = parse_ini("[a]\nk =\nm = \n", source="x")
-    assert with_values(ini, {("a", "k"): "1", ("a", "m"): "2"}) == "[a]\nk =1\nm = 2\n"
-
-
-def test_new_keys_go_to_the_end_of_their_section():
-    ini = parse_ini("[a]\r\nk = 1\r\n\r\n[b]\r\nm = 2", source="x")
-    changed = with_values(ini, {("A", "New"): "3", ("b", "more"): "4", ("c", "last"): "5"})
-    assert changed == (
-        "[a]\r\nk = 1\r\nnew = 3\r\n\r\n[b]\r\nm = 2\r\nmore = 4\r\n\r\n[c]\r\nlast = 5\r\n"
-    )
-    parse_ini(changed, source="x")
 
 
 def test_a_value_on_several_lines_is_not_replaced():

@@ -32,12 +32,6 @@ def test_inches_may_be_fractions(text, inches):
         assert length_in(text, unit=INCH) == pytest.approx(25.4 * inches)
 
 
-def test_millimetres_stay_as_they_are():
-    assert length_in("12.7") == 12.7 and length_in("1/2") == 0.5
-    with pytest.raises(ValueError, match="not a number"):
-        length_in('12"')
-
-
 def test_a_toml_value_is_a_number_or_a_fraction_in_quotes():
     assert length(2) == 2.0 and length("1 1/4", unit=INCH) == pytest.approx(31.75)
     with pytest.raises(ValueError, match="without quotes"):

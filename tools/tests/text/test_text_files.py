@@ -71,12 +71,6 @@ def test_a_command_that_is_killed_while_it_writes_leaves_no_file(tmp_path):
     assert list(tmp_path.iterdir()) == []
 
 
-def test_byte_order_mark_is_dropped(tmp_path):
-    path = tmp_path / "file.csv"
-    path.write_bytes(b"\xef\xbb\xbfname")
-    assert read_text(path) == "name"
-
-
 def test_a_failed_write_leaves_the_old_file_and_no_other(tmp_path, monkeypatch):
     path = tmp_path / "machine.toml"
     path.write_text("old")
@@ -102,11 +96,6 @@ def test_write_keeps_rights_and_follows_links(tmp_path):
     assert link.is_symlink()
     assert path.read_text() == "new"
     assert path.stat().st_mode & 0o777 == 0o640
-
-
-def test_write_into_a_missing_folder_is_refused(tmp_path):
-    with pytest.raises(InputError, match="cannot be written"):
-        write_whole(tmp_path / "no" / "file", b"x")
 
 
 def test_of_several_files_all_are_written_or_none(tmp_path):

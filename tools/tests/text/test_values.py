@@ -1,7 +1,7 @@
 """Single checks on values that people type."""
 
 import pytest
-from plumb.text.values import bare, number, number_in, one_of, pair, refuse_unknown, signed, within
+from plumb.text.values import bare, number, number_in, pair, signed
 
 
 @pytest.mark.parametrize(
@@ -43,24 +43,6 @@ def test_number_refuses_what_is_none(value):
 def test_pair_needs_two_numbers(value):
     with pytest.raises(ValueError):
         pair(value)
-
-
-def test_pair_takes_whole_numbers():
-    assert pair([1, 2]) == (1.0, 2.0)
-
-
-def test_unknown_names_get_a_suggestion():
-    with pytest.raises(ValueError, match="did you mean measured"):
-        refuse_unknown(["mesured"], ["target", "measured"])
-    with pytest.raises(ValueError, match="known are: target, measured"):
-        refuse_unknown(["zzz"], ["target", "measured"])
-
-
-def test_one_of_and_within_name_what_is_possible():
-    with pytest.raises(ValueError, match="top, bottom"):
-        one_of("side", ("top", "bottom"))
-    with pytest.raises(ValueError, match="1 to 2"):
-        within(3, 1, 2)
 
 
 def test_a_number_that_is_shown_as_zero_has_no_sign_by_chance():
