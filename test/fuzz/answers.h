@@ -47,7 +47,8 @@ class Answers {
   int rounds_ = 0, settings_ = 0;
   bool is_of_grbl_ = false;
   bool is_in_line_ = false, is_cut_ = false;  ///< part of a line came; its rest is dropped
-  bool after_quick_ = false, after_return_ = false, is_locked_ = false, is_halted_ = false, is_simulated_ = false;
+  bool after_quick_ = false, after_return_ = false, is_locked_ = false, is_halted_ = false,
+       is_simulated_ = false;
   // Lines wait without an answer in a hold, and behind it while z goes back: until a status no
   // longer says so, whatever a second `~` asks for.
   bool is_held_ = false, is_waiting_ = false, is_idle_ = false;
