@@ -73,7 +73,7 @@ function OpenBench({ bench }: { bench: Board }) {
         </p>
       )}
       <Fall live={live} stairs={stairs} units={units} />
-      <div class="effects">
+      <div>
         <h2>Effects</h2>
         {bench.effects.map((effect) => (
           <EffectCard
@@ -90,7 +90,7 @@ function OpenBench({ bench }: { bench: Board }) {
           <p class="intervals">In brackets: 95 %. {now.fit.intervals}</p>
         )}
         {stairs && stairs.warnings.length > 0 && (
-          <ul class="warnings">
+          <ul class="wrong">
             {stairs.warnings.map((line) => (
               <li key={line}>{line}</li>
             ))}

@@ -26,9 +26,9 @@ export function EffectCard({ effect, choice, fit, change, isLaid, lay }: EffectC
     change({ ...choice, held: size === undefined ? others : { ...others, [name]: size } }, keep);
   };
   return (
-    <div class={`effect ${added ? "added" : ""}`}>
+    <div class={`effect box row ${added ? "added" : ""}`}>
       <label class="tick">
-        <input type="checkbox" class="tick-box" checked={added} onChange={toggle} />
+        <input type="checkbox" checked={added} onChange={toggle} />
         <span>
           {effect.noun}
           {effect.in_settings && <small>in your settings</small>}
@@ -38,7 +38,6 @@ export function EffectCard({ effect, choice, fit, change, isLaid, lay }: EffectC
       {lay && (
         <button
           type="button"
-          class="lay"
           aria-pressed={isLaid}
           aria-label={`Lay over the marks: ${effect.noun}`}
           onClick={lay}

@@ -17,8 +17,17 @@ export function SizeSlider({ parameter, held, size, hold }: SizeSliderParts) {
   const slid = (event: Event, keep: boolean) =>
     hold(Number((event.currentTarget as HTMLInputElement).value), keep);
   return (
-    <div class="held">
-      <label for={name}>{label}</label>
+    <div class="held row">
+      <label class="soft" for={name}>
+        {label}
+      </label>
+      {held === undefined ? (
+        <span class="soft">fitted</span>
+      ) : (
+        <button type="button" onClick={() => hold(undefined, true)} aria-label={`Fit: ${label}`}>
+          Held: fit it
+        </button>
+      )}
       <input
         id={name}
         type="range"
@@ -32,15 +41,8 @@ export function SizeSlider({ parameter, held, size, hold }: SizeSliderParts) {
       />
       <p>
         {said}
-        {size && !size.possible && <strong class="impossible"> No real machine has this.</strong>}
+        {size && !size.possible && <strong class="wrong"> No real machine has this.</strong>}
       </p>
-      {held === undefined ? (
-        <span class="state">fitted</span>
-      ) : (
-        <button type="button" onClick={() => hold(undefined, true)} aria-label={`Fit: ${label}`}>
-          Held: fit it
-        </button>
-      )}
     </div>
   );
 }

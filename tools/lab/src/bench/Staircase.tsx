@@ -14,11 +14,11 @@ export function Fall({ live, stairs, units }: FallParts) {
   const before = live.frame?.fit_rms;
   return (
     <section class="fall-now" aria-busy={!fit} aria-label="The error that is left">
-      <p class="large">
+      <p class="large soft">
         <output>{fit ? namedLength(fit.fit_rms, units, 2) : "…"}</output> left
       </p>
       {fit && (
-        <p class="beside">
+        <p class="soft">
           Noise alone leaves {shownLength(fit.noise_rms ?? 0, units, 2)}
           {before !== undefined && <>, the frame alone {shownLength(before, units, 2)}</>}.
         </p>
@@ -56,7 +56,7 @@ function Staircase({ stairs, units }: { stairs: Stairs; units: Unit }) {
           <tr key={`${i} ${stair.noun}`} class={stair.only_fit ? "only-fit" : ""}>
             <th scope="row">
               {stair.noun}
-              {stair.only_fit && <strong class="follows-noise">Only the fit got better.</strong>}
+              {stair.only_fit && <strong class="wrong">Only the fit got better.</strong>}
             </th>
             <td class="bars">
               <svg viewBox="0 0 100 12" preserveAspectRatio="none" aria-hidden="true">

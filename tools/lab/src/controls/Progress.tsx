@@ -1,5 +1,4 @@
 // How far a piece of work is.
-import "./progress.css";
 
 export function Progress({ share, label }: { share: number; label: string }) {
   return (

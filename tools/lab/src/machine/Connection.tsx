@@ -17,8 +17,8 @@ export function Connection() {
 
 function Ways() {
   return (
-    <div class="ways">
-      <section>
+    <div class="ways tiles">
+      <section class="box">
         <h2>A machine on USB</h2>
         <Ports />
       </section>
@@ -44,7 +44,7 @@ function VirtualStart() {
     take(await send<Project>("POST", "machine/settings"));
   };
   return (
-    <section>
+    <section class="box">
       <h2>A virtual machine to try</h2>
       <label>
         It has{" "}
@@ -103,7 +103,7 @@ function Connected({ machine }: { machine: Machine }) {
   const readSettings = async () => take(await send<Project>("POST", "machine/settings"));
   const isLost = machine.phase === "lost";
   return (
-    <section class="connected">
+    <section class="connected box">
       <h2>{connectionWords(machine)}</h2>
       {isLost ? (
         <p>What you cut and typed is kept. Connect it again in the bar below.</p>

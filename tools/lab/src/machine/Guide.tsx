@@ -71,10 +71,16 @@ export function FirstDay({ isNext, ...all }: Guide & { isNext: boolean }) {
       <p>Nothing moves before you press a button that says what moves and how far.</p>
       <Silence silent={silent} />
       {refused && <Refusal line={refused} />}
-      <ol>
+      <ol class="plain">
         {guide.steps.map((step, index) => (
-          <li key={step.name} class={step.done ? "done" : ""} data-here={step.name === guide.here}>
-            <span>{step.title}</span>
+          <li
+            key={step.name}
+            class={step.done ? "row done" : "row"}
+            data-here={step.name === guide.here}
+          >
+            <span>
+              {step.done ? "✓" : index + 1} {step.title}
+            </span>
             {step.name !== guide.here && index <= reached && !(isNext && index === reached) && (
               <button
                 type="button"
@@ -86,7 +92,7 @@ export function FirstDay({ isNext, ...all }: Guide & { isNext: boolean }) {
               </button>
             )}
             {step.name === guide.here && (
-              <div class="here">
+              <div class="box edge here">
                 {last && <Said text={last} />}
                 {guide.question ? (
                   <>
@@ -125,7 +131,7 @@ export function FirstDay({ isNext, ...all }: Guide & { isNext: boolean }) {
 
 function Said({ text }: { text: string }) {
   return (
-    <div class="said" role="status">
+    <div role="status">
       {text.split("\n").map((line) => (
         <p key={line}>{line}</p>
       ))}

@@ -30,7 +30,7 @@ export function GuideQuestion(parts: QuestionParts) {
             ["n", "No"],
           ];
   return (
-    <fieldset class="question">
+    <fieldset class="question row">
       <legend>{question.text}</legend>
       {replies.map(([letter, words]) => (
         <button
@@ -119,7 +119,7 @@ interface TypedParts {
 function Typed({ say, label, text, type, fits, keep, children }: TypedParts) {
   return (
     <form
-      class="question"
+      class="question row"
       onSubmit={(event) => {
         event.preventDefault();
         if (fits) keep();

@@ -36,7 +36,7 @@ export function Practice() {
         </button>
       ) : (
         <>
-          <p class="missing">No virtual machine was started in this folder.</p>
+          <p class="soft">No virtual machine was started in this folder.</p>
           <a class="button primary" href="#/open">
             To the machines: start a virtual machine there
           </a>

@@ -45,7 +45,7 @@ export function Cell(parts: CellParts) {
     else forgetHalf(place);
   };
   return (
-    <fieldset class={doubted ? "cell doubted" : "cell"} id={`mark-${mark.index}`}>
+    <fieldset class={doubted ? "cell box doubted" : "cell box"} id={`mark-${mark.index}`}>
       <legend>{name}</legend>
       {([0, 1] as const).map((axis) => {
         const text = shown[axis] ?? "";
@@ -75,7 +75,7 @@ export function Cell(parts: CellParts) {
               }}
             />
             {reason && (
-              <small id={reasonId} class={text ? "reason" : "reason awaited"}>
+              <small id={reasonId} class={text ? "wrong" : "wrong awaited"}>
                 {reason}
               </small>
             )}

@@ -49,14 +49,14 @@ export function Distances({ form, take, doubts }: DistancesParts) {
       <summary>
         {form.spans.length > 0 ? "More distances" : "Distances between marks"} ({others.size})
       </summary>
-      <ul>
+      <ul class="plain">
         {list
           .filter(([distance]) => others.has(distance))
           .map(([distance, index]) => (
             <li
               key={`${distance.between.join("-")}-${distance.length}`}
               id={`distance-${index}`}
-              class={doubted.has(index) ? "doubted" : ""}
+              class={doubted.has(index) ? "row doubted" : "row"}
             >
               <span>
                 {distance.between.join(" to ")}: {namedLength(distance.length, units)}
@@ -67,7 +67,7 @@ export function Distances({ form, take, doubts }: DistancesParts) {
             </li>
           ))}
       </ul>
-      <form onSubmit={add}>
+      <form class="row" onSubmit={add}>
         {([0, 1] as const).map((side) => (
           <label key={side}>
             {side === 0 ? "from mark" : "to mark"}

@@ -22,11 +22,11 @@ export function Doubts({ form, doubts, readings, units }: DoubtsParts) {
       void saveDistances((all) => withInstead(all, doubted, { ...doubted, length: first }));
   };
   return (
-    <ul class="doubts" aria-live="polite" aria-label="Readings that disagree">
+    <ul class="doubts plain" aria-live="polite" aria-label="Readings that disagree">
       {doubts.map((doubt) => {
         const { corrected } = doubt;
         return (
-          <li key={`${doubt.is_mark}${doubt.index}`}>
+          <li class="row trouble" key={`${doubt.is_mark}${doubt.index}`}>
             <span>
               <b>{nameOf(doubt, form)}</b>: {doubt.sentence}
             </span>

@@ -47,7 +47,7 @@ export function FileOfReadings({ form, choose }: FormPickerParts) {
     input.value = "";
   };
   const picker = (
-    <label class="pick">
+    <label class="box pick">
       Open a file of readings
       <input
         type="file"
@@ -59,7 +59,7 @@ export function FileOfReadings({ form, choose }: FormPickerParts) {
   );
   if (form.files.length === 0) return picker;
   return (
-    <details class="from-file">
+    <details>
       <summary>Readings from a file</summary>
       {picker}
     </details>

@@ -34,8 +34,8 @@ export function Grid({ form, readings, doubted }: GridParts) {
     if (after !== undefined) pick(after);
   };
   return (
-    <div class="cells">
-      <p class="from">
+    <div class="cells tiles">
+      <p class="from soft">
         In each cell: {units} from the <b>{across}</b> edge, then from the <b>{upright}</b> edge.
       </p>
       {spots.map((spot) => (

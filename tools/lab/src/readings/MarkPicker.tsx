@@ -17,12 +17,13 @@ export function MarkPicker({ form, layout, typed, doubted, open, pick }: PickerP
   const inColumns = layout.columns > 0 && form.marks.every(({ name }) => name.length <= SHORT);
   return (
     <fieldset
-      class={inColumns ? "picker in-columns" : "picker"}
+      class={inColumns ? "picker row in-columns" : "picker row"}
       style={inColumns ? { "--columns": layout.columns } : undefined}
     >
       <legend>Marks on the sheet: tap what you read</legend>
       {layout.spots.map((spot) => (
         <div
+          class="row"
           key={`${spot.row}/${spot.column}`}
           style={inColumns ? { "--row": spot.row, "--column": spot.column } : undefined}
         >

@@ -66,7 +66,7 @@ function Span({ name, index, length, doubted, keep }: SpanParts) {
   };
   return (
     <li id={index < 0 ? undefined : `distance-${index}`} class={doubted ? "doubted" : ""}>
-      <label>
+      <label class="row">
         <span>{name}</span>
         <input
           inputMode={units === "mm" ? "decimal" : "text"}
@@ -89,7 +89,7 @@ function Span({ name, index, length, doubted, keep }: SpanParts) {
         />
       </label>
       {reason && (
-        <small id={reasonId} class="reason">
+        <small id={reasonId} class="wrong">
           {reason}
         </small>
       )}

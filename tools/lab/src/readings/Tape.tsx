@@ -35,7 +35,7 @@ export function Tape({ form, take }: TapeParts) {
   const state = (value: string) =>
     save("fineness", () => ({ finest: value ? Number(value) : null }));
   return (
-    <div class="tape">
+    <div class="tape tiles">
       {fromEdges && (
         <label>
           Measured from

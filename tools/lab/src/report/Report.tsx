@@ -30,7 +30,7 @@ export function Report({ answers }: { answers: Readonly<Record<string, unknown>>
   return (
     <ProjectContext.Provider value={{ ...shared, setTrouble: stays }}>
       <main class="report">
-        <p class="about">
+        <p class="about soft">
           <b>{about.title}</b> {about.said}
         </p>
         <Verdict />
@@ -39,7 +39,7 @@ export function Report({ answers }: { answers: Readonly<Record<string, unknown>>
           <section>
             <h2>Round by round</h2>
             <Errors rounds={diary.rounds} units={units} />
-            <div class="courses">
+            <div class="tiles">
               {diary.courses.map((course) => (
                 <Course key={course.noun} course={course} />
               ))}
@@ -75,7 +75,7 @@ function Numbers({ made }: { made: Schemas["CorrectionParts"] }) {
                 <td>
                   <b>{each.after}</b> ± {each.margin} {each.unit}
                 </td>
-                <td class={each.possible ? "" : "impossible"}>
+                <td class={each.possible ? "" : "wrong"}>
                   {each.range_said} {!each.possible && "(impossible: something else looks like it)"}
                 </td>
               </tr>

@@ -48,12 +48,12 @@ export function Plots(parts: PlotsParts) {
       <h2 id="plots-title">
         Where it fails: {state.title} [{units}]
       </h2>
-      <p class="keys">
+      <p class="keys row">
         <span class="key left">left chain</span> <span class="key right">right chain</span>
         {drawn && <span class="key laid">{drawn.noun}, fitted</span>}
       </p>
       {/* biome-ignore lint/a11y/noNoninteractiveTabindex: on a narrow page it is a strip that keys move */}
-      <section class="grid" tabIndex={0} aria-label="Plots">
+      <section class="grid tiles" tabIndex={0} aria-label="Plots">
         {sorted
           .filter((each) => !isSame(each))
           .map((each) => (
@@ -61,7 +61,7 @@ export function Plots(parts: PlotsParts) {
           ))}
         <AgainstNoise {...parts} />
       </section>
-      {same.length > 0 && <p class="same">Not drawn: {same.map(saidSame).join("; ")}.</p>}
+      {same.length > 0 && <p class="soft">Not drawn: {same.map(saidSame).join("; ")}.</p>}
     </section>
   );
 }

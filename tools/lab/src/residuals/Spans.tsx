@@ -73,7 +73,7 @@ export function SpanTable({ spans, state, doubted, sigma, units }: SpanParts) {
       <h2 id="taped-title">
         Distances: {state.title} [{units}]
       </h2>
-      <p class="keys">
+      <p class="keys row">
         <span class="key longer">longer than it should be</span>
         <span class="key shorter">shorter</span>
         <span class="key within">within noise</span>

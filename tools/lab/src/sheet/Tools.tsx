@@ -16,7 +16,7 @@ interface ToolsParts {
 export function Tools({ zoom, factor, setFactor, save, compares }: ToolsParts) {
   const { view, enlarge } = zoom;
   return (
-    <div class="tools">
+    <div class="tools row">
       <button type="button" aria-label="Farther" onClick={() => enlarge(1 / STEP)}>
         −
       </button>
@@ -42,12 +42,12 @@ export function Tools({ zoom, factor, setFactor, save, compares }: ToolsParts) {
         </label>
       )}
       {compares && (
-        <span class="keys">
+        <span class="keys soft">
           On the sheet the keys <kbd>[</kbd> and <kbd>]</kbd> compare
         </span>
       )}
       <details>
-        <summary>Save</summary>
+        <summary class="button">Save</summary>
         <div>
           <button type="button" onClick={() => save("csv")}>
             Data as CSV

@@ -11,14 +11,14 @@ export function Header() {
   const waits = waitingPlaces().length > 0 && trouble.startsWith(SILENT);
   const units = project.choices.units ?? "mm";
   return (
-    <header>
-      <button type="button" class="skip" onClick={toScreen}>
+    <header class="row">
+      <button type="button" class="skip primary" onClick={toScreen}>
         To the screen
       </button>
-      <a class="mark" href="#/open">
+      <a class="go mark" href="#/open">
         Plumb
       </a>
-      <span class="folder" title={project.folder}>
+      <span class="folder soft" title={project.folder}>
         {project.folder}
       </span>
       <span class="waits" role="status">

@@ -7,7 +7,6 @@ import { useDo } from "./doing";
 import { isReady, type Machine, subject, useMachine } from "./machine";
 import { useProject } from "./project";
 import { type HeldAnswer, useHeld } from "./useHeld";
-import "./held.css";
 
 const SHOWN = 6;
 
@@ -17,7 +16,7 @@ export function Held() {
   if (!held || held.numbers.length === 0) return null;
   if (held.is_fit)
     return (
-      <p class="which-holds" role="status">
+      <p class="box trouble" role="status">
         {subject(machine)} does not hold the numbers of {held.file} yet.{" "}
         <a href="#/correct">Send them to it</a> before you cut.
       </p>
@@ -36,7 +35,7 @@ function Question({ held, machine }: { held: HeldAnswer; machine: Machine }) {
   };
   const blocked = busy || !isReady(machine);
   return (
-    <section class="which-holds" role="alert" aria-label="Which numbers hold?">
+    <section class="box trouble" role="alert" aria-label="Which numbers hold?">
       <h2>
         {subject(machine)} holds other numbers than {file}. Which hold?
       </h2>
@@ -59,7 +58,7 @@ function Question({ held, machine }: { held: HeldAnswer; machine: Machine }) {
         </tbody>
       </table>
       {numbers.length > SHOWN && <p>and {numbers.length - SHOWN} more.</p>}
-      <p class="buttons">
+      <p class="row">
         <button type="button" disabled={blocked} onClick={() => void run(takeIn)}>
           The machine's: take them into the folder
         </button>

@@ -46,7 +46,7 @@ export function Lab() {
   const id = useAddress();
   const live = useLiveMachine();
   if (!shared) {
-    return <main class="alone">{trouble ? <p role="alert">{trouble}</p> : <p>Loading …</p>}</main>;
+    return <main>{trouble ? <p role="alert">{trouble}</p> : <p>Loading …</p>}</main>;
   }
   const first = STEPS[0] as Step;
   const step = id === "" ? first : ([...STEPS, ...ROOMS].find((each) => each.id === id) ?? NOWHERE);
@@ -90,7 +90,7 @@ function Main({ step, shared, loaded }: { step: Step; shared: Shared; loaded: Lo
         {missing ? (
           <section class="screen">
             <h1>{step.title}</h1>
-            <p class="missing">This screen opens later: {missing}.</p>
+            <p class="soft">This screen opens later: {missing}.</p>
           </section>
         ) : (
           <Screen key={step.id} />

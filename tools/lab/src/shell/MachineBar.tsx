@@ -35,16 +35,16 @@ export function MachineBar({ live }: { live: LiveMachine }) {
   const program = machine.program;
   const share = program?.outcome === "running" ? program.done / Math.max(1, program.total) : null;
   return (
-    <section ref={place} class={`machine-bar ${tone(machine)}`} aria-label="The machine">
+    <section ref={place} class={`machine-bar row ${tone(machine)}`} aria-label="The machine">
       <p class={unseen ? "state old" : "state"}>
         <strong role="status">{stateWords(machine)}</strong>
         <strong>{countWords(machine)}</strong>
         {machine.place && machine.knows_place && (
-          <span class="place">{placeWords(machine.place, project.choices.units ?? "mm")}</span>
+          <span class="place soft">{placeWords(machine.place, project.choices.units ?? "mm")}</span>
         )}
       </p>
       {works && (
-        <p class="presses">
+        <p class="presses row">
           {!unseen && machine.holds && (
             <button type="button" class={machine.waits_for ? "primary" : ""} onClick={goOn}>
               Go on

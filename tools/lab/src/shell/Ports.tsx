@@ -38,7 +38,7 @@ export function Ports({ lost }: { lost?: string }) {
   );
   const boards = ports.filter((port) => port.is_board);
   return (
-    <div class="ports">
+    <div class="ports row">
       {lost && button(lost, " again")}
       {boards.map(({ path }) => button(path))}
       {!lost && boards.length === 0 && (

@@ -27,14 +27,15 @@ export function Way({ project, here }: WayParts) {
     <nav aria-label="Steps" class={open ? "open" : ""}>
       <button type="button" class="fold" aria-expanded={open} onClick={() => setOpen(!open)}>
         {number > 0 ? `${number} of ${STEPS.length}: ${title}` : title}
+        <span aria-hidden="true">{open ? "▴" : "▾"}</span>
       </button>
       <div class="links">
-        <ol>
+        <ol class="plain">
           {STEPS.map((step, index) => (
             <Place key={step.id} {...shared} step={step} number={index + 1} />
           ))}
         </ol>
-        <ul>
+        <ul class="plain">
           {ROOMS.map((step) => (
             <Place key={step.id} {...shared} step={step} />
           ))}
@@ -80,9 +81,13 @@ export function WayOn({ project, here }: WayParts) {
   if (!before && !after) return null;
   return (
     <footer class="way-on">
-      {before && <a href={`#/${before.id}`}>← {before.title}</a>}
+      {before && (
+        <a class="go" href={`#/${before.id}`}>
+          ← {before.title}
+        </a>
+      )}
       {after && (
-        <a class="after" href={`#/${after.id}`}>
+        <a class="button after" href={`#/${after.id}`}>
           {after.title} →
         </a>
       )}

@@ -99,7 +99,7 @@ function OpenCheck({ answer }: { answer: CheckAnswer }) {
       act={acts[next]}
     >
       {answer.sentence && (
-        <p class={answer.holds ? "judged holds" : "judged misses"} role="status">
+        <p class={answer.holds ? "judged box edge" : "judged trouble edge"} role="status">
           {answer.sentence}
         </p>
       )}
@@ -113,7 +113,7 @@ function OpenCheck({ answer }: { answer: CheckAnswer }) {
         <p role="status">{brokenWords(answer.broke_off, answer.perhaps, names)}</p>
       )}
       {next === "go on" && whichIsLast}
-      <p class="buttons">
+      <p class="row">
         {next === "go on" && cut}
         {answer.sentence && (
           <button

@@ -132,7 +132,7 @@ function Question(parts: Parts) {
       </dl>
       <Numbers made={made} busy={!current} />
       {made.cures.length > 0 && <ByHand cures={made.cures} />}
-      <p class="buttons">
+      <p class="row">
         <GoBack writing={writing} />
         {writing.notWritten}
       </p>
@@ -185,7 +185,7 @@ function Written(parts: Parts) {
           <Numbers made={made} busy={false} />
         </details>
       )}
-      <p class="buttons">
+      <p class="row">
         <GoBack writing={writing} />
         {writing.notWritten}
       </p>
@@ -215,7 +215,7 @@ function ErrorFigure({ name, state, units }: ErrorParts) {
 /** What has to be done at the machine: the promise counts on it. */
 export function ByHand({ cures }: { cures: string[] }) {
   return (
-    <section class="by-hand" aria-label="By hand">
+    <section class="box edge warned" aria-label="By hand">
       <h2>By hand</h2>
       <ul>
         {cures.map((said) => (

@@ -111,11 +111,11 @@ function whileRunning({ waits_for, unseen }: Machine): string {
 function Choice({ grid, next }: { grid: Grid; next: Next }) {
   const connected = isConnected(useMachine());
   return (
-    <div class="choice">
+    <div class="row">
       {grid.last_form && !grid.is_proposed && <NewSheet grid={grid} />}
       {connected && next !== "cut" && <MoveAndCut grid={grid} />}
       {grid.is_proposed ? next !== "read" && <PutBack /> : next !== "save" && <Save grid={grid} />}
-      <p class="note">
+      <p class="soft">
         {grid.is_saved
           ? `${grid.program} and ${grid.form} are in your folder.`
           : `${grid.program} is the G-code, ${grid.form} the form for your readings.`}{" "}

@@ -40,7 +40,7 @@ export function Diary() {
       {diary.courses.length > 0 && (
         <section>
           <h2>Numbers</h2>
-          <div class="courses">
+          <div class="tiles">
             {diary.courses.map((course) => (
               <Course key={course.noun} course={course} />
             ))}

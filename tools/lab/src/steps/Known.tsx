@@ -36,7 +36,7 @@ export function Known() {
     void choose({ known: withKnown(newest.current, numbers, { name: number.name, value, usual }) });
   };
   const list = (some: Number[]) => (
-    <ul class="known">
+    <ul class="known tiles plain">
       {some.map((number) => (
         <KnownNumber
           key={number.name}
@@ -72,7 +72,7 @@ export function Known() {
       }
     >
       {list(numbers.filter((number) => number.is_first))}
-      <details class="more-known" open={stated > 0 || !shown.is_first}>
+      <details open={stated > 0 || !shown.is_first}>
         <summary>
           More that can be measured ({stated} of {more.length} known)
         </summary>

@@ -52,7 +52,7 @@ function Opened({ machine }: { machine: NonNullable<Project["machine"]> }) {
   const [width, height] = machine.sheet;
   const effects = Object.keys(machine.effects).length;
   return (
-    <figure class="opened">
+    <figure>
       <MachinePicture machine={machine} />
       <figcaption>
         <strong>{machine.file}</strong>: motors {namedLength(machine.frame.motor_gap ?? 0, unit)}{" "}
@@ -73,7 +73,7 @@ function SettingsFile() {
   };
   return (
     <label
-      class={over ? "pick over" : "pick"}
+      class={over ? "box pick over" : "box pick"}
       onDragOver={(event) => {
         event.preventDefault();
         setOver(true);
@@ -85,9 +85,7 @@ function SettingsFile() {
         void open(event.dataTransfer?.files[0]);
       }}
     >
-      <span>
-        {project.machine ? `${project.machine.file} is open; open another` : "Settings' file"}
-      </span>
+      <b>{project.machine ? `${project.machine.file} is open; open another` : "Settings' file"}</b>
       <small>groundcontrol.ini, webcontrol.json or machine.toml: pick it, or drop it here</small>
       <input
         type="file"

@@ -33,7 +33,7 @@ export function Reach() {
       why={<Why reach={reach} />}
       command={reach.command}
       stage={
-        <div class="reach">
+        <div>
           <Sheet
             size={project.machine.sheet}
             label={`Where the machine is usable: ${reach.conclusion}`}
@@ -43,7 +43,7 @@ export function Reach() {
           >
             <Places reach={reach} sheet={project.machine.sheet} />
           </Sheet>
-          <ul>
+          <ul class="plain">
             {MEANING.map(([tone, words], verdict) => {
               const share = reach.shares[reach.words[verdict] ?? ""];
               return reach.verdicts.includes(verdict) ? (

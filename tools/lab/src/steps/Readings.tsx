@@ -51,7 +51,7 @@ export function Readings() {
         <>
           <ReadAgain form={form} />
           <Tape form={form} take={readings.take} />
-          <p class="count" role="status" aria-busy={looking}>
+          <p class="count soft" role="status" aria-busy={looking}>
             {isTaped && `${asked} of ${form.spans.length} distances are read. `}
             {(!isTaped || read > 0) && `${read} of ${form.marks.length} marks are read.`}
             {off > 0 && ` They are off by ${namedLength(off, units, 2)} (RMS)`}
@@ -72,7 +72,7 @@ export function Readings() {
           <Doubts form={form} doubts={doubts} readings={readings} units={units} />
           {isTaped && <Spans form={form} take={readings.take} doubts={doubts} />}
           {isTaped ? (
-            <details class="places" open={read > 0}>
+            <details open={read > 0}>
               <summary>Where the marks are, if you measure that too</summary>
               {grid}
             </details>

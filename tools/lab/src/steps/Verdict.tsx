@@ -88,7 +88,7 @@ export function Verdict() {
       }
     >
       {verdict.slips.length > 0 && (
-        <ul class="slips">
+        <ul class="slips trouble">
           {verdict.slips.map((slip) => (
             <li key={slip}>{slip}</li>
           ))}
@@ -108,7 +108,7 @@ export function Verdict() {
         <section aria-label="Suspects">
           <h2>Suspects</h2>
           {verdict.apart && <p>{verdict.apart}</p>}
-          <div class="cards">
+          <div class="tiles">
             {verdict.cards.map((card) => (
               <SuspectCard
                 key={card.title}

@@ -21,7 +21,7 @@ export function Numbers({ made, busy }: { made: Parts; busy: boolean }) {
       {now.map((number) => (
         <label
           key={number.name}
-          class={accepted.includes(number.name) ? "number accepted" : "number"}
+          class={accepted.includes(number.name) ? "number box accepted" : "number box"}
         >
           <input
             type="checkbox"
@@ -37,7 +37,7 @@ export function Numbers({ made, busy }: { made: Parts; busy: boolean }) {
           <span class="noun">{number.noun}</span>
           <Change number={number} />
           {!number.possible && (
-            <span class="impossible">
+            <span class="wrong">
               impossible: real machines have {number.range_said}; something else looks like it
             </span>
           )}

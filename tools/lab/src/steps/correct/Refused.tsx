@@ -31,7 +31,7 @@ export function Refused({ title, refused, writing, children }: RefusedParts) {
       }`}
       why={<p>{refused}</p>}
     >
-      <p class="buttons">
+      <p class="row">
         {before ? (
           <GoBack writing={writing} then=" and fit again" />
         ) : (

@@ -31,7 +31,7 @@ export function ToMachine({ writing, isNext, isHeld }: ToMachineParts) {
     <section class="to-machine" aria-label="To the machine">
       <h2>To the machine</h2>
       {steps.length > 0 && <p>By hand: {steps.join("; ")}.</p>}
-      <p class="buttons">
+      <p class="row">
         {!isNext && <ToSend writing={writing} isNext={false} isHeld={isHeld} />}
         {canGiveBack && (
           <button

@@ -35,7 +35,7 @@ export function useGoOn(parts: GoOnParts): [question: ComponentChild, act: Compo
     await reload();
   };
   const question = perhaps > 0 && (
-    <fieldset class="last-seen">
+    <fieldset class="last-seen row">
       <legend>Look at the sheet: which of these marks is the last on it?</legend>
       {Array.from({ length: perhaps + 1 }, (_, more) => surely + more).map((count) => (
         <label key={count}>

@@ -23,7 +23,7 @@ export function Outcome({ grid, isRead }: OutcomeParts) {
   const isCut = outcome === "done" || grid.broke_off === grid.marks.length;
   if (!ended && !broke) return null;
   return (
-    <section class={`outcome ${outcome ?? "lost"}`} role="status">
+    <section class={`outcome box edge ${outcome ?? "lost"}`} role="status">
       <p>
         {ended} {broke}
       </p>

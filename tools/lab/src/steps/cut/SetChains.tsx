@@ -30,7 +30,7 @@ export function useSetChains(): [form: ComponentChild, act: ComponentChild] {
   const form = (
     <form
       id={FORM}
-      class="set-chains"
+      class="set-chains box row"
       onSubmit={(event) => {
         event.preventDefault();
         if (known) void tell();

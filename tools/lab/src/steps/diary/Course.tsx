@@ -9,7 +9,7 @@ export function Course({ course }: { course: Schemas["NumberCourse"] }) {
   const across = (index: number) => (100 * (index + 0.5)) / points.length;
   const last = points.at(-1);
   return (
-    <figure class={course.has_moved ? "course moved" : "course"}>
+    <figure class={course.has_moved ? "course box moved" : "course box"}>
       <figcaption>
         {course.noun}: <b>{last?.said}</b> {course.unit}
         {course.has_moved && " – has moved"}

@@ -56,15 +56,15 @@ export function KnownNumber({ number, known, here, wanted, look, keep }: NumberP
     }
   };
   return (
-    <li ref={place} class={here ? "here" : ""} onFocusCapture={look}>
+    <li ref={place} class={here ? "box here" : "box"} onFocusCapture={look}>
       <b>{number.title}</b>
       <small>
         {number.believed === null
           ? "the settings leave it out"
           : `the settings say ${show(number.believed)} ${name}`}
       </small>
-      {here && <small class="steps">{number.steps}</small>}
-      <span class="typed">
+      {here && <small>{number.steps}</small>}
+      <span class="row">
         <input
           inputMode="decimal"
           aria-label={`${number.title}, ${name}`}

@@ -7,9 +7,9 @@ export function EffectList({ plan }: { plan: Layout.Plan }) {
   return (
     <details>
       <summary>Each cause by itself</summary>
-      <ul class="effects" aria-label="What these marks could tell">
+      <ul class="tiles plain" aria-label="What these marks could tell">
         {plan.effects.map((effect) => (
-          <li key={effect.name} class={tone(effect)}>
+          <li key={effect.name} class={`box ${tone(effect)}`}>
             <b>
               <span aria-hidden="true">{SIGN[tone(effect)]}</span> {effect.noun}
             </b>

@@ -28,7 +28,7 @@ export function NextStep({ sheet, marks, next: { answer, refused } }: NextParts)
   return (
     <section class="next" aria-label="The next measurement">
       <h2>Next: {next.headline}</h2>
-      <div class="pair">
+      <div class="pair tiles">
         <ol>
           {next.steps.map((step) => (
             <li key={step}>{step}</li>

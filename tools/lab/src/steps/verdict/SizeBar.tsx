@@ -10,7 +10,7 @@ export function SizeBar({ size }: { size: Schemas["SizeAnswer"] }) {
   const at = (value: number) => ROOM + ((100 - 2 * ROOM) * (value - least)) / (most - least || 1);
   const [from, to] = [at(size.plausible_low ?? least), at(size.plausible_high ?? most)];
   return (
-    <figure class={size.possible ? "size" : "size impossible"}>
+    <figure class="size">
       <figcaption>{size.said}</figcaption>
       <svg viewBox="0 0 100 10" preserveAspectRatio="none" aria-hidden="true">
         <rect x={from} y={2} width={to - from} height={6} fill="var(--line)" />
@@ -35,10 +35,10 @@ export function SizeBar({ size }: { size: Schemas["SizeAnswer"] }) {
         />
       </svg>
       {size.range_said && (
-        <span class="range">
+        <small class={size.possible ? "" : "wrong"}>
           {size.possible ? "Real machines have" : "Impossible: real machines have"}{" "}
           {size.range_said}
-        </span>
+        </small>
       )}
     </figure>
   );

@@ -14,9 +14,9 @@ interface CardParts {
 
 export function SuspectCard({ card, units, isLaid, lay }: CardParts) {
   return (
-    <article class="card" aria-label={card.title}>
+    <article class="card box" aria-label={card.title}>
       <h3>{card.title}</h3>
-      {card.odds && <p class="odds">Odds {card.odds}</p>}
+      {card.odds && <p class="soft">Odds {card.odds}</p>}
       {lay && (
         <button type="button" aria-pressed={isLaid} onClick={lay}>
           {isLaid ? "Laid over the marks" : "Lay it over the marks"}
@@ -51,7 +51,7 @@ export function SuspectCard({ card, units, isLaid, lay }: CardParts) {
         )}
       </dl>
       {!card.possible && (
-        <p class="impossible">No real machine has such sizes: look for another cause.</p>
+        <p class="wrong">No real machine has such sizes: look for another cause.</p>
       )}
     </article>
   );
