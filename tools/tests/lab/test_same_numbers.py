@@ -94,12 +94,6 @@ def words_of(page):
     return " ".join(html.unescape(re.sub(r"<[^>]*>", " ", page)).split())
 
 
-@pytest.fixture(scope="module", params=[example, hidden], ids=["example", "hidden"])
-def said(request, tmp_path_factory):
-    folder = tmp_path_factory.mktemp("board")
-    return Said(folder, request.param(folder))
-
-
 def assert_same(*lengths):
     """All lengths, as written or as they are [mm], are the same to two decimals."""
     shown = [each if isinstance(each, str) else f"{each:.2f}" for each in lengths]
@@ -117,7 +111,7 @@ def row(title, words):
     return re.findall(r"\d+\.\d+", match_in(rf"{re.escape(title)}((?: +(?:[\d.]+|-))+)", words))
 
 
-def test_error_as_set_is_the_same(said):
+def error_as_set_is_the_same(said):
     assert_same(
         match_in(rf"The marks lie {LENGTH} RMS", said.compare),
         said.compared["rms_mm"],
@@ -135,7 +129,7 @@ def test_error_as_set_is_the_same(said):
     )
 
 
-def test_worst_error_and_shape_are_the_same(said):
+def worst_error_and_shape_are_the_same(said):
     raw = row("raw: the settings as they are", said.add)
     worst, shape = said.compared["worst_mm"], said.compared["shape_rms_mm"]
     assert_same(match_in(rf"The worst is mark \S+ {LENGTH}", said.compare), worst, raw[1])
@@ -144,7 +138,7 @@ def test_worst_error_and_shape_are_the_same(said):
     )
 
 
-def test_distances_have_a_number_by_themselves(said):
+def distances_have_a_number_by_themselves(said):
     rms = said.compared["distance_rms_mm"]
     if rms is None:
         assert "distances" not in said.parts["verdict"] + said.compare
@@ -156,7 +150,7 @@ def test_distances_have_a_number_by_themselves(said):
     assert "RMS of all marks, step by step" in said.parts["fall"]
 
 
-def test_error_of_the_fitted_frame_is_the_same(said):
+def error_of_the_fitted_frame_is_the_same(said):
     assert_same(
         said.diagnosed["rms_mm"],
         said.added["before"]["fit_rms_mm"],
@@ -168,14 +162,14 @@ def test_error_of_the_fitted_frame_is_the_same(said):
     )
 
 
-def test_as_many_coordinates_are_beyond_noise_in_the_report_as_on_the_page(said):
+def as_many_coordinates_are_beyond_noise_in_the_report_as_on_the_page(said):
     counts = re.findall(r"(\d+) of (\d+) coordinates are beyond noise", said.parts["noise"])
     drawn = [state["ranked"]["beyond"] for state in said.verdict["states"][1:]]
     assert counts == [(str(sum(beyond)), str(len(beyond))) for beyond in drawn]
     assert sum(drawn[0]) > 0
 
 
-def test_what_noise_alone_leaves_is_the_same(said):
+def what_noise_alone_leaves_is_the_same(said):
     together, card = chosen(said)
     assert_same(
         together["noise_rms_mm"],
@@ -198,7 +192,7 @@ def chosen(said):
     return next(each for each in both if {*each[0]["effects"]} == added)
 
 
-def test_error_of_what_is_added_is_the_same(said):
+def error_of_what_is_added_is_the_same(said):
     together, card = chosen(said)
     odds = card["odds"].removeprefix("Odds ")
     accounts = said.parts["suspects" if len(said.verdict["cards"]) > 1 else "verdict"]
@@ -218,7 +212,7 @@ def test_error_of_what_is_added_is_the_same(said):
     assert_same(named, said.bench["fit_rms"], said.stairs[-1]["fit_rms"])
 
 
-def test_error_on_marks_not_used_is_the_same(said):
+def error_on_marks_not_used_is_the_same(said):
     assert_same(
         match_in(rf"marks not used are {LENGTH} off", said.add),
         said.added["after"]["left_out_rms_mm"],
@@ -232,7 +226,7 @@ def test_error_on_marks_not_used_is_the_same(said):
     assert_same(before, said.added["before"]["left_out_rms_mm"], said.stairs[1]["left_out_rms"])
 
 
-def test_odds_of_explanations_are_the_same(said):
+def odds_of_explanations_are_the_same(said):
     explanations = said.diagnosed["explanations"]
     cards = said.verdict["cards"]
     assert [card["odds"] for card in cards] == [odds_words(each["share"]) for each in explanations]
@@ -246,7 +240,7 @@ def test_odds_of_explanations_are_the_same(said):
         assert first in sentence
 
 
-def test_sizes_and_their_noise_are_those_of_the_diagnosis(said):
+def sizes_and_their_noise_are_those_of_the_diagnosis(said):
     noise = said.verdict["noise"]
     assert noise in said.diagnose and noise in said.parts["suspects"]
     assert_same(
@@ -263,7 +257,7 @@ def sizes_on(card):
     return [size["said"] for effect in card["effects"] for size in effect["sizes"]]
 
 
-def test_sizes_and_their_noise_are_those_of_the_fit(said):
+def sizes_and_their_noise_are_those_of_the_fit(said):
     noise = said.correction["intervals"]
     assert noise in said.add and noise in said.parts["settings"]
     assert_same(match_in(LENGTH, noise), said.added["sigma_mm"])
@@ -277,21 +271,21 @@ def test_sizes_and_their_noise_are_those_of_the_fit(said):
             assert numbers[each["name"]]["after"].lstrip("-") in size
 
 
-def test_sizes_on_the_bench_are_those_of_the_effects_that_are_named(said):
+def sizes_on_the_bench_are_those_of_the_effects_that_are_named(said):
     for each in said.added["parameters"]:
         if each["name"] in said.bench["sizes"]:
             size = plain_size(each["name"], each["value"], each["low"], each["high"])
             assert said.bench["sizes"][each["name"]]["said"] == size
 
 
-def test_a_diagnosis_and_a_fit_have_the_same_noise_and_say_where_it_is_from(said):
+def a_diagnosis_and_a_fit_have_the_same_noise_and_say_where_it_is_from(said):
     assert_same(said.diagnosed["sigma_mm"], said.added["sigma_mm"])
     assert said.diagnosed["sigma_from"] == "marks"
     for words in (said.verdict["noise"], said.correction["intervals"]):
         assert "(from the scatter of the marks)" in words
 
 
-def test_error_to_expect_and_what_could_hide_are_the_same(said):
+def error_to_expect_and_what_could_hide_are_the_same(said):
     expected = said.reported["expected"]
     assert_same(match_in(rf"expect {LENGTH} RMS", said.parts["reach"]), expected["rms_mm"])
     assert_same(match_in(rf"and {LENGTH} at the worst", said.parts["reach"]), expected["worst_mm"])
@@ -302,3 +296,28 @@ def test_error_to_expect_and_what_could_hide_are_the_same(said):
     for each in unseen["causes"]:
         stated = f"{each['noun']} {each['mm']:.1f} mm {each['taken_up']}"
         assert stated in said.diagnose and stated in said.report
+
+
+LAWS = (
+    error_as_set_is_the_same,
+    worst_error_and_shape_are_the_same,
+    distances_have_a_number_by_themselves,
+    error_of_the_fitted_frame_is_the_same,
+    as_many_coordinates_are_beyond_noise_in_the_report_as_on_the_page,
+    what_noise_alone_leaves_is_the_same,
+    error_of_what_is_added_is_the_same,
+    error_on_marks_not_used_is_the_same,
+    odds_of_explanations_are_the_same,
+    sizes_and_their_noise_are_those_of_the_diagnosis,
+    sizes_and_their_noise_are_those_of_the_fit,
+    sizes_on_the_bench_are_those_of_the_effects_that_are_named,
+    a_diagnosis_and_a_fit_have_the_same_noise_and_say_where_it_is_from,
+    error_to_expect_and_what_could_hide_are_the_same,
+)
+
+
+@pytest.mark.parametrize("board", [example, hidden])
+def test_terminal_report_and_page_state_the_same_numbers(tmp_path, board):
+    said = Said(tmp_path, board(tmp_path))
+    for law in LAWS:
+        law(said)

@@ -11,7 +11,6 @@ BENCH = Path(__file__).resolve().parents[2] / "bench"
 sys.path.insert(0, str(BENCH))
 import absent  # noqa: E402
 import compare  # noqa: E402
-import effects  # noqa: E402
 import registry  # noqa: E402
 import table  # noqa: E402
 from costs import Bytes, Costs, Cycles  # noqa: E402
@@ -48,32 +47,6 @@ def test_what_is_written_is_read_back():
     assert table.recorded(written(COSTS)) == COSTS
 
 
-def test_a_second_writing_replaces_the_first_and_nothing_else():
-    smaller = with_cycles("inverse, sag", 1, 2, 3)
-    again = table.replaced(written(COSTS), table.exact_part(smaller, PUBLISHED))
-    assert table.recorded(again) == smaller
-    assert again.startswith("# What changed\n") and again.endswith("\n\n- A line after.\n")
-
-
-def test_the_published_firmware_stands_beside_with_the_ratio_of_medians():
-    row = next(line for line in written(COSTS).splitlines() if line.startswith("| inverse, sag"))
-    assert row.endswith("| 0.84 ms | 28,545 / 30,597 / 31,434 | 2.3 |")
-
-
-def test_a_host_time_is_told_in_multiply_adds_too():
-    assert "| fit | 4.2 ms | 2,800,000 |" in written(COSTS)
-
-
-@pytest.mark.parametrize(("ns", "words"), [(3.14159, "3.14 ns"), (5e4, "50 us"), (2.5e6, "2.5 ms")])
-def test_a_time_is_told_in_a_handy_unit(ns, words):
-    assert table.duration(ns) == words
-
-
-def test_a_changelog_without_figures_has_no_record():
-    assert table.recorded(EMPTY) is None
-    assert compare.risen(COSTS, None) == ["CHANGELOG.md has no table of costs"]
-
-
 @pytest.mark.parametrize(
     "text",
     ["", table.BEGIN, f"{table.END}\n{table.BEGIN}", EMPTY + EMPTY],
@@ -88,12 +61,6 @@ def test_lost_marks_are_refused(text):
 def test_a_spoilt_number_is_named(cell):
     spoilt = written(COSTS).replace("13,195 / 13,425 / 13,622", cell)
     with pytest.raises(table.TableError, match=r"is no number, in: \| inverse, sag"):
-        table.recorded(spoilt)
-
-
-def test_a_lost_number_is_named():
-    spoilt = written(COSTS).replace("13,195 / 13,425 / 13,622", "13,195")
-    with pytest.raises(table.TableError, match=r"3 numbers, in: \| inverse, sag"):
         table.recorded(spoilt)
 
 
@@ -149,17 +116,6 @@ def test_a_rise_is_told_in_one_line(now, line):
     assert compare.risen(now, COSTS) == [line]
 
 
-def test_a_case_that_vanished_is_told():
-    fewer = replace(COSTS, cycles={"forward, no guess": COSTS.cycles["forward, no guess"]})
-    lines = compare.risen(fewer, COSTS)
-    assert len(lines) == 3 and all("inverse, sag" in line for line in lines)
-
-
-def test_figures_of_another_compiler_are_not_compared():
-    other = replace(with_cycles("inverse, sag", 9**9, 9**9, 9**9), compiler="avr-gcc 7.3.0")
-    assert compare.risen(other, COSTS) == []
-
-
 @pytest.mark.parametrize(
     ("budgets", "lines"),
     [
@@ -180,20 +136,3 @@ def test_budgets_and_published_figures_are_of_cases_that_exist():
     names = [*tables["budgets"], *tables["published"]["cycles"]]
     names.remove(absent.ROW)  # worked out from two builds, not a separate case
     assert names and all(f'{{"{name}", ' in cases for name in names)
-
-
-def test_the_short_registry_keeps_only_the_measured_effects():
-    text = (
-        "using Effects = Registry<\n    At<1, A>,\n    At<2, ChainSag>,\n    At<3, ChainStretch>,\n"
-    )
-    text += "    At<4, ChainPitch>>;\n"
-    short, left_out = absent.shortened(text)
-    assert left_out == 1
-    assert "At<1, A>" not in short and short.count("At<") == 3 and short.endswith(">;\n")
-
-
-def test_an_effect_is_taken_out_of_the_registry_wherever_it_stands():
-    text = "using Effects = Registry<\n    At<1, ChainSag>,\n    At<2, ChainZero>>;\n"
-    assert "ChainSag" not in effects.without(text, "chain_sag")
-    last = effects.without(text, "chain_zero")
-    assert "ChainZero" not in last and "At<1, ChainSag>>;" in last

@@ -46,10 +46,6 @@ def test_a_small_program_is_built_without_a_word(build, capsys):
     assert capsys.readouterr().out == ""
 
 
-def test_a_program_may_take_all_of_its_budget(build):
-    assert build(text=970, data=30, bss=70) == 0
-
-
 def test_a_build_over_90_percent_says_so_and_goes_on(build, capsys):
     assert build(text=880, data=30, bss=70) == 0
     assert "The flash takes 910 bytes, 91% of its budget of 1,000." in capsys.readouterr().out
@@ -70,18 +66,6 @@ def test_a_build_over_its_budget_fails(build, capsys, sizes, what):
 def test_the_bench_reads_the_budgets_of_the_build():
     assert firmware.BUDGETS["flash"] == board.budget("maximum_size") == 184_320
     assert firmware.BUDGETS["static RAM"] == board.budget("maximum_ram_size") == 5_632
-
-
-def test_static_ram_and_the_deepest_stack_with_a_quarter_fit_into_the_mega():
-    row = "static RAM, deepest stack and a quarter of it"
-    figures = {**dict.fromkeys(firmware.BUDGETS, 0), **dict.fromkeys(firmware.AT_LEAST, 1000)}
-    assert firmware.over_budget({**figures, row: 8192}) == []
-    assert firmware.over_budget({**figures, row: 8193}) == [f"{row}: 8,193, the budget is 8,192"]
-
-
-def test_what_a_question_costs_is_the_time_that_lines_lose():
-    figures = {"lines_per_second": 200, "lines_per_second_asked": 190, "questions_per_second": 10}
-    assert firmware.cycles_of_a_question(figures) == pytest.approx(80_000)
 
 
 def test_the_search_changes_a_candidate_by_one_step():
