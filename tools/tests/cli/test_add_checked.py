@@ -18,10 +18,6 @@ PITCH = (*BOARD, "--effect", "chain_pitch")
 COMMAND = re.compile(r"^  plumb (?:.*\\\n)*.*", re.MULTILINE)
 
 
-def value_of(answer, name):
-    return next(each for each in answer["parameters"] if each["name"] == name)["value"]
-
-
 def next_command(said):
     return shlex.split(COMMAND.findall(said)[-1].replace("\\\n", " "))[1:]
 
@@ -116,10 +112,3 @@ def test_diagnose_hands_its_checks_to_the_command_that_adds(run):
     assert words[0] == "add" and words[words.index("--effect") + 1] == "auto"
     given = [words[i + 1] for i, word in enumerate(words) if word == "--checked"]
     assert given == checked()[1::2]
-
-
-def test_the_most_likely_is_added_with_what_was_checked(run):
-    said = run("calibrate", *BOARD, "--checked", "motor_gap=2978.4+-1", "--details")[1]
-    words = next_command(said)
-    assert words[words.index("--effect") + 1] == "auto"
-    assert words[words.index("--checked") + 1] == "motor_gap=2978.4+-1"

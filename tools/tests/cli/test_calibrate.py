@@ -9,14 +9,11 @@ import shutil
 from dataclasses import replace
 from importlib import resources
 from pathlib import Path
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
 from example_machine import TRUE_NUMBERS, checked
-from plumb.cli.calibrate import Round
 from plumb.cli.main import build_parser
-from plumb.diagnosis.expected_error import LeftOpen
 from plumb.settings.files import read_settings
 from plumb.settings.toml import write_machine_toml
 from synthetic import BELIEVED, EFFECTS, TRUE, csv_of, grid, marks_on
@@ -106,29 +103,6 @@ def test_the_printed_commands_lead_to_the_files_and_to_a_second_round(run):
     assert Path("machine-2.toml").exists() and Path("machine-2-groundcontrol.ini").exists()
     # What was read is never written.
     assert read_settings("machine.toml") == settings
-
-
-@pytest.mark.parametrize(
-    ("chosen", "added", "said"),
-    [
-        (("chain_sag",), ("chain_sag",), "with chain sag added"),
-        (("chain_sag",), (), "with chain sag fitted again"),
-        ((), (), "with the frame fitted"),
-    ],
-)
-def test_added_is_what_the_settings_did_not_have(chosen, added, said):
-    after = SimpleNamespace(fit_rms=0.5, left_out_rms=0.6)
-    addition = SimpleNamespace(effects_added=added, raw=SimpleNamespace(rms=2.0), after=after)
-    result = SimpleNamespace(
-        diagnosis=SimpleNamespace(is_finding=False),
-        addition=addition,
-        is_good=False,
-        done=True,
-        rivals=(),
-        chosen=chosen,
-    )
-    whole = Round(comparison=None, result=result)
-    assert whole.sentence.startswith(f"Done: {said}, the error falls from 2.00 to")
 
 
 def test_a_hidden_effect_is_added_and_the_second_round_starts_from_the_new_machine(run, ask):
@@ -240,20 +214,6 @@ def test_marks_in_a_row_are_too_little_and_more_marks_are_asked_for(run, file):
     assert "mm open;" not in " ".join(said.split())
 
 
-@pytest.mark.parametrize(("now", "first"), [(0.9, "marks"), (0.1, "check")])
-def test_marks_come_first_where_there_are_too_few(now, first):
-    check, marks = (
-        SimpleNamespace(option=SimpleNamespace(is_cut=is_cut, title=title, minutes=9))
-        for is_cut, title in ((False, "check"), (True, "marks"))
-    )
-    diagnosis = SimpleNamespace(left_open=LeftOpen(2.0, now), outliers=())
-    result = SimpleNamespace(
-        diagnosis=diagnosis, addition=None, is_good=False, done=False, rivals=()
-    )
-    this = Round(None, result, SimpleNamespace(proposals=(check, marks)))
-    assert f"first measure {first}, about 9 minutes" in this.sentence
-
-
 def test_too_few_marks_for_an_effect_are_no_refusal_where_nobody_named_it(run, monkeypatch):
     monkeypatch.setattr("plumb.cure.live_board.different_numbers", lambda *_: 5)
     code, said, complaint = run("calibrate", INI, "marks.toml")
@@ -297,9 +257,3 @@ def test_a_command_ends_with_a_next_one_that_can_be_given(command, run):
                 Path(word).touch()
         parsed = build_parser().parse_args([word.replace("VALUE", "0") for word in words])
         assert parsed.command == words[0] != "next" or command[0] in ("diagnose", "next")
-
-
-def test_what_was_given_is_given_again(run):
-    said = run("diagnose", INI, "marks.toml", "--sigma", "0.5", "--prior", "motor_gap=2")[1]
-    (words,) = printed(said)
-    assert words == ["next", INI, "marks.toml", "--sigma", "0.5", "--prior", "motor_gap=2"]

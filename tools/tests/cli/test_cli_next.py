@@ -20,12 +20,6 @@ EXAMPLE = [
 FILL = "# measured = [ , ]"
 
 
-def test_diagnose_carries_the_same_proposals(ask):
-    _, answer = ask("diagnose", SETTINGS, MARKS)
-    _, command = ask("next", SETTINGS, MARKS)
-    assert answer["next"] == command["next"]
-
-
 def test_people_are_told_what_to_do_first(run):
     code, said, complaint = run("next", *EXAMPLE)
     assert code == 0 and complaint == ""
@@ -165,16 +159,6 @@ def test_a_form_names_the_settings_that_its_marks_are_cut_with(run, tmp_path):
     assert f'cut_with_digest = "{digest_of(SETTINGS)}"' in head
 
 
-def test_a_form_names_what_was_in_force_not_what_was_fitted_since(run, maker, file, tmp_path):
-    marks = file("marks.csv", csv_of(marks_on(TRUE, BELIEVED, grid(3, 3))))
-    fitted, form = tmp_path / "fitted.toml", tmp_path / "more.toml"
-    settings = dataclasses.replace(BELIEVED, motor_gap=BELIEVED.motor_gap + 5)
-    write_machine_toml(fitted, settings)
-    asked = run("next", fitted, marks, "--cut-with", maker, "--marks", form)
-    assert asked[0] == 0, asked
-    assert 'cut_with = "machine.toml"' in form.read_text()
-
-
 def test_a_form_names_the_settings_that_the_machine_has_now_if_somebody_says_so(
     run, maker, file, tmp_path
 ):
@@ -201,15 +185,3 @@ def test_sentences_and_tables_name_effects_as_makers_do(run):
         # A name in brackets is what --effect takes.
         bare_names = [name for name in effect_names() if re.search(rf"(?<!\(){name}\b", said)]
         assert bare_names == [], words[0]
-
-
-@pytest.mark.parametrize(
-    ("distances", "words"),
-    [
-        ("squares.toml", "Add each reading to squares.toml as a [[distance]] of the same ends."),
-        ("spacings.toml", "Correct its line in spacings.toml."),
-    ],
-)
-def test_it_says_where_a_distance_that_is_measured_again_is_written(run, distances, words):
-    folder = EXAMPLE[0].parents[2] / "tools/plumb/examples/gero-2017-04-26"
-    assert words in run("next", folder / "as-triangular.ini", folder / distances)[1]

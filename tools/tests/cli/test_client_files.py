@@ -11,11 +11,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 from plumb import _core
-from plumb.firmware.client_files import refuse_what_disturbs
-from plumb.firmware.settings import every_setting, firmware_numbers, machine_of
+from plumb.firmware.settings import every_setting, machine_of
 from plumb.model.predict import chain_lengths, lengths
 from plumb.settings.files import read_settings
-from plumb.text.errors import InputError
 from project.page_commands import commands_on, run_in
 from synthetic import grid
 
@@ -156,19 +154,6 @@ def test_a_file_of_another_machine_is_refused(old, new, said, run, file, tmp_pat
     code, _, complaint = run("settings", machine, *options, "-o", tmp_path / "machine.nc")
     assert code == 2 and said in complaint and complaint.count("\n") == 1
     assert not (tmp_path / "machine.nc").exists()
-
-
-def test_a_correction_on_top_of_ours_is_refused_however_small(run, tmp_path):
-    machine = tmp_path / "machine.toml"
-    assert run(*ADD, "-o", machine, "--client", "groundcontrol")[0] == 0
-    settings = read_settings(machine)
-    numbers = firmware_numbers(settings)
-    content = (tmp_path / "machine-groundcontrol.ini").read_bytes()
-    refuse_what_disturbs(settings, numbers, content, source="mine.ini")
-    more = content.replace(b"rightchaintolerance = 0", b"rightchaintolerance = 1e-7")
-    assert more != content
-    with pytest.raises(InputError, match=r"mine.ini: .* would send \$41 = 1e-07"):
-        refuse_what_disturbs(settings, numbers, more, source="mine.ini")
 
 
 def test_the_published_firmware_gets_a_client_that_carries_all(run, tmp_path):

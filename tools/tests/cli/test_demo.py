@@ -20,18 +20,6 @@ def test_the_error_falls_step_by_step_below_the_goal(demonstration):
     assert demonstration.chosen.raw.rms > 7 and kept[-1] < GOAL and demonstration.reached
 
 
-def test_an_effect_that_does_not_pay_is_tried_and_not_kept(demonstration):
-    last = demonstration.steps[-1]
-    assert last.name == "+ chain_stretch" and not last.kept
-    assert last.quality.left_out_rms > demonstration.chosen.after.left_out_rms
-    assert demonstration.chosen.effects_added == ("chain_pitch", "chain_sag")
-
-
-def test_the_other_sign_of_y_is_worse_and_told(demonstration):
-    assert demonstration.flipped.after.fit_rms == pytest.approx(1.20, abs=0.05)
-    assert f"{demonstration.flipped.after.fit_rms:.2f} mm RMS" in as_text(demonstration)
-
-
 def test_what_is_doubtful_is_said(demonstration):
     said = " ".join(as_text(demonstration).split())
     for words in ("settings are assumed", "sign of y is doubtful", "NEGATIVE", "NOT kept"):

@@ -3,7 +3,6 @@
 import contextlib
 import re
 import shutil
-from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -69,23 +68,6 @@ def test_compare_finds_the_error_that_add_promised(fitted, ask, run):
     assert old["promised_rms_mm"] is None and old["rms_mm"] > 5
 
 
-def test_the_same_marks_with_other_settings_are_no_board_of_the_fit(fitted, ask):
-    options = ("machine.toml", "marks.toml", "--cut-with", "machine.toml")
-    _, answer = ask("compare", *options)
-    assert answer["promised_rms_mm"] is None and abs(answer["rotation"]) > 0.004
-
-
-def test_settings_that_cut_their_marks_are_taken_for_those_of_other_marks(fitted, run):
-    machine = read_settings("machine.toml")
-    board = replace(machine.fitted.boards[0], cut_with=replace(machine, fitted=None))
-    record = replace(machine.fitted, boards=(board,))
-    Path("again.toml").write_text(machine_toml(replace(machine, fitted=record)))
-    text = Path("marks.toml").read_text()
-    Path("second.toml").write_text(with_readings(text, lambda x, y: (x + 0.1, y)))
-    assert run("compare", "machine.toml", "second.toml")[0] == 2
-    assert run("compare", "again.toml", "second.toml")[0] == 0
-
-
 def test_marks_that_took_no_part_are_named(fitted, run):
     options = ("--effect", "chain_pitch", "--without", "13", "--without", "7")
     assert run("add", "groundcontrol.ini", "marks.toml", *options, "-o", "less.toml")[0] == 0
@@ -98,13 +80,6 @@ def test_diagnose_finds_no_more_to_add(fitted, ask):
     ask("add", "groundcontrol.ini", "marks.toml", *both)
     _, answer = ask("diagnose", "both.toml", "marks.toml")
     assert answer["verdict"] == "nothing_provable" and not answer["explanations"]
-
-
-def test_marks_that_say_what_they_were_cut_with_use_the_formula_of_that(fitted, ask):
-    text = Path("marks.toml").read_text()
-    Path("marks.toml").write_text(f'cut_with = "groundcontrol.ini"\n{text}')
-    _, answer = ask("compare", "machine.toml", "marks.toml")
-    assert round(answer["rms_mm"], 2) == fitted
 
 
 def test_marks_of_unknown_settings_are_asked_about(fitted, ask, run):
@@ -169,32 +144,6 @@ def test_two_sheets_keep_their_poses_and_zeros(run, ask, fitted):
         _, alone = ask("compare", "two.toml", name)
         assert alone["rms_mm"] < 2 and alone["promised_rms_mm"] is None
         assert max(map(abs, alone["shift"])) < 0.5
-
-
-def test_a_lab_effect_is_seen_again_too(run, ask, fitted):
-    distances = [("2", "4", 1122.0), ("2", "12", 1021.0), ("4", "14", 1022.0)]
-    with open("marks.toml", "a") as file:
-        for a, b, mm in distances:
-            file.write(f'\n[[distance]]\nbetween = ["{a}", "{b}"]\nmm = {mm}\n')
-    options = ("--effect", "chain_pitch", "tape_scale", "-o", "taped.toml")
-    assert run("add", "groundcontrol.ini", "marks.toml", *options)[0] <= 1
-    _, answer = ask("compare", "taped.toml", "marks.toml")
-    assert answer["rms_mm"] == pytest.approx(answer["promised_rms_mm"], abs=1e-9)
-
-
-def test_the_form_of_a_grid_names_the_settings_in_force(run, ask, fitted, tmp_path):
-    (tmp_path / "cuts").mkdir()
-    form = Path("cuts/form.toml")
-    for settings in ("machine.toml", "groundcontrol.ini"):
-        grid = ("grid", "--settings", settings, "--marks", form, "--output", "grid.nc")
-        assert run(*grid)[0] == 0
-        assert f'cut_with = "../{settings}"' in form.read_text()
-        form.write_text(filled_in(form.read_text()))
-        assert run("compare", "machine.toml", form)[0] == 0
-        form.unlink()
-    benchmark = ("grid", "--preset", "benchmark", "--settings", "machine.toml", "--marks", form)
-    assert run(*benchmark, "--output", "grid.nc")[0] == 0
-    assert 'cut_with = "../machine.toml"' in form.read_text()
 
 
 def test_settings_that_changed_since_the_cut_are_noticed(run, ask, fitted):

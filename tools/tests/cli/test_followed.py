@@ -53,13 +53,6 @@ def test_where_nobody_looks_a_line_comes_each_minute(clock, monkeypatch):
     assert lines[0] == "line 32 of 8003, 4 h 15 min left, 0 % done"
 
 
-def test_in_a_pause_nothing_is_said(clock, monkeypatch):
-    screen = Screen(watched=False)
-    monkeypatch.setattr(followed.sys, "stderr", screen)
-    follow(clock, seconds=185, pauses=True)
-    assert screen.said == ""
-
-
 def test_a_terminal_has_a_line_that_fits(clock, monkeypatch):
     shown = []
     monkeypatch.setattr(followed.sys, "stderr", Screen(watched=True))
@@ -70,13 +63,3 @@ def test_a_terminal_has_a_line_that_fits(clock, monkeypatch):
     assert np.diff(shares).min() > -1e-4 and shares[-1] == pytest.approx(4000 / WHOLE, rel=0.01)
     # Behind the words stand a bar of 20 and a percent of 4, a space before each.
     assert max(len(what) for _, what in shown) + 26 <= 80
-
-
-def test_a_single_line_is_not_followed(clock, monkeypatch):
-    screen = Screen(watched=False)
-    monkeypatch.setattr(followed.sys, "stderr", screen)
-    job = followed.Followed(["G0 X1"], None)
-    job.answered(1)
-    clock[0] += 100
-    job.look(pauses=False)
-    assert screen.said == ""

@@ -58,14 +58,6 @@ def test_marks_of_this_machine_are_sent_and_others_with_force(run, board):
         assert code == 0 and "the machine took each" in said, refused
 
 
-def test_a_program_whose_settings_have_changed_is_not_sent(run, board):
-    grid_cut_with(run, "machine.toml")
-    write_machine_toml("machine.toml", OTHER)
-    code, _, said = run("send", "--port", "USB", "grid.nc")
-    assert code == 2 and "was made for machine.toml, which has changed since" in said
-    assert board.written == []
-
-
 def fitted(name, settings):
     """A machine.toml that was fitted to marks which were cut with these settings."""
     write_machine_toml("before.toml", settings)
@@ -121,10 +113,3 @@ def test_a_program_says_which_form_is_its_own(form):
     text = with_form("(Plumb calibration grid)\nG21\n", f"jobs/{form}", "jobs/grid.nc")
     assert text.splitlines()[1] == f"(form: {form})"
     assert Path(form_of(text, "jobs/grid.nc")) == Path("jobs", form)
-
-
-@pytest.mark.parametrize("form", ["marks (2).toml", "märks.toml", "m" * 61, "a\nb.toml"])
-def test_a_name_that_no_comment_can_hold_is_left_out(form):
-    program = "(Plumb calibration grid)\nG21\n"
-    assert with_form(program, form, "grid.nc") == program
-    assert form_of(program, "grid.nc") is None

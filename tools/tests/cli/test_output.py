@@ -1,6 +1,5 @@
 """Where results go: nothing is replaced that plumb did not write, devices and pipes stay."""
 
-import json
 import os
 import stat
 import subprocess
@@ -50,29 +49,6 @@ def test_a_second_run_replaces_its_result_and_no_other_file(command, name, run):
     assert Path(name).read_bytes() == first
     Path(name).write_text("")
     assert run(*command, name)[0] == 0
-
-
-def test_the_owners_files_are_no_results_of_ours(run):
-    for name in ("groundcontrol.ini", "marks.toml"):
-        Path(name).write_bytes((EXAMPLE / name).read_bytes())
-        kept = Path(name).read_bytes()
-        assert run(*ADD, "-o", name)[0] == 2 and Path(name).read_bytes() == kept
-    Path("mixed.nc").write_text("$37=0\nG0 X0\n")
-    assert run(*LINES, "-o", "mixed.nc")[0] == 2
-
-
-def test_of_two_results_none_is_written_if_the_other_is_foreign(run):
-    Path("fall.png").write_bytes(b"\x89PNG of a camera")
-    assert run(*ADD, "-o", "machine.toml", "--picture", "fall.png")[0] == 2
-    assert not Path("machine.toml").exists()
-
-
-def test_the_clients_file_is_replaced_by_its_name(run):
-    options = ("-o", "machine.toml", "--client", "groundcontrol")
-    assert run(*ADD, *options)[0] == 0
-    assert run(*ADD, *options)[0] == 0
-    Path("machine-groundcontrol.ini").write_text("[something else]\n")
-    assert run(*ADD, *options)[0] == 2
 
 
 def test_a_form_with_readings_is_not_replaced(run):
@@ -138,15 +114,6 @@ def test_a_full_disk_is_a_line_and_leaves_nothing(run):
     assert os.listdir() == []
 
 
-@pytest.mark.parametrize("force", [[], ["--force"]], ids=["", "force"])
-def test_a_folder_is_no_place_for_a_result(force, run):
-    os.mkdir("here.toml")
-    for command in ((*ADD, "-o"), (*LINES, "-o"), (*GRID, "--output")):
-        code, _, complaint = run(*command, "here.toml", *force)
-        assert code == 2 and "here.toml" in complaint
-    assert os.listdir("here.toml") == []
-
-
 def test_a_dash_is_the_standard_output_and_the_report_goes_beside(run):
     code, said, report = run(*ADD, "-o", "-")
     assert code == 0 and "frame" in tomllib.loads(said) and "The error goes from" in report
@@ -158,19 +125,6 @@ def test_a_dash_is_the_standard_output_and_the_report_goes_beside(run):
     code, said, _ = run(*GRID, "--output", "grid.nc", "--marks", "-")
     assert code == 0 and "mark" in tomllib.loads(said)
     assert not Path("-").exists()
-
-
-def test_the_standard_output_takes_a_single_result(run):
-    for command in ((*ADD, "-o", "-", "--json"), (*GRID, "--output", "-", "--marks", "-")):
-        code, said, complaint = run(*command)
-        assert code == 2 and "standard output" in complaint
-        refused = json.dumps({"error": complaint.removeprefix("plumb: ").rstrip()}) + "\n"
-        assert said == (refused if "--json" in command else "")
-
-
-def test_json_names_what_was_written(ask):
-    _, answer = ask(*LINES, "-o", "machine.nc")
-    assert answer["written"] == ["machine.nc"] and json.dumps(answer)
 
 
 def test_what_comes_through_a_pipe_is_read_once(run):

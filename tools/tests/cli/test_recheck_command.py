@@ -1,16 +1,10 @@
 """`plumb calibrate` of marks that fitted settings cut: as it was fitted, or what changed."""
 
-import re
 import shutil
-from datetime import UTC, datetime
 from pathlib import Path
-from types import SimpleNamespace
 
-import numpy as np
 import pytest
-from plumb.cli.as_fitted import sentence
 from plumb.diary.file import read_diary
-from plumb.diary.recheck import Change
 
 EXAMPLE = Path(__file__).resolve().parents[3] / "docs/example"
 NEAR = {(-900, 250): (-900.4, 250.3), (900, -250): (900.6, -249.8)}
@@ -82,42 +76,3 @@ def test_two_marks_that_no_fit_can_judge_are_too_few(checked, unlike):
     cut_with = "groundcontrol.ini" if unlike == "other settings" else "machine.toml"
     code, said, refused = checked(marks, cut_with=cut_with)
     assert code == 2 and said == "" and "too few for a diagnosis" in refused
-
-
-@pytest.mark.parametrize(
-    ("name", "size", "sigma", "before", "said"),
-    [
-        ("motor_gap", -8.8, 0.7, 2978.0, "gap between the motors by -8.80 +- 0.70 mm"),
-        (
-            "chain_stretch.compliance",
-            5e-6,
-            1e-6,
-            5e-6,
-            "chains by +0.50 +- 0.10 mm longer for each metre at 100 N",
-        ),
-        # Squares of 10 and of 20 mm.
-        (
-            "chain_plane.gap_squared",
-            300.0,
-            20.0,
-            100.0,
-            "sprockets and ring differ by +10.0 +- 0.5 mm in their distance from the sheet",
-        ),
-    ],
-)
-def test_a_change_has_the_words_and_the_unit_of_its_number(name, size, sigma, before, said):
-    change = Change(name, size, sigma, before, 0.0, explains=True)
-    at = datetime(2026, 5, 1, 12, tzinfo=UTC)
-    checked = SimpleNamespace(
-        holds=False, errors=np.ones((2, 2)), fit=SimpleNamespace(at=at), changes=(change,)
-    )
-    assert sentence(checked).endswith(f"The likeliest: {said}.")
-
-
-def test_errors_that_no_single_change_explains_are_said_so(checked):
-    code, said, _ = checked({(-900, 250): (-880, 250), (900, -250): (900, -270)})
-    said = " ".join(said.split())
-    assert code == 1 and re.search(
-        r"Errors up to 20.00 mm are more than the fit of \S+ allows", said
-    )
-    assert "no single change explains them" in said

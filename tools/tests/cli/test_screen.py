@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 from plumb.cli import screen
-from plumb.cli.screen import BAD, GOOD, OPEN, Bar, headline, sentences, table
+from plumb.cli.screen import BAD, GOOD, OPEN, Bar, headline, table
 
 EXAMPLE = Path(__file__).resolve().parents[3] / "docs/example"
 INI, MARKS = EXAMPLE / "groundcontrol.ini", EXAMPLE / "marks.toml"
@@ -50,19 +50,6 @@ def test_columns_of_words_wrap_and_numbers_stay_whole():
     assert max(map(len, lines)) <= 80 and len(lines) == 5
     assert "first   1234.5678  a sentence" in lines[1] and "second       -1.0  short" in lines[-1]
     assert " ".join(" ".join(lines).split()).count("on and on") == 4
-
-
-def test_a_table_too_wide_for_the_screen_loses_nothing(monkeypatch):
-    monkeypatch.setenv("COLUMNS", "20")
-    numbers = [f"{number}.123456" for number in range(9)]
-    said = table([f"n{number}" for number in range(9)], [numbers], left=0)
-    assert all(number in said for number in numbers)
-
-
-def test_a_narrow_screen_is_kept_and_a_wide_one_is_not_filled(monkeypatch):
-    for columns, widest in (("50", 50), ("200", 80)):
-        monkeypatch.setenv("COLUMNS", columns)
-        assert widest - 10 < max(map(len, sentences([LONG]).splitlines())) <= widest
 
 
 @pytest.mark.parametrize(

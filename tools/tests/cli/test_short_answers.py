@@ -102,12 +102,6 @@ def test_details_say_more_and_end_alike(board, command, run):
     assert not re.search(rf"\((?:{names})\)", "\n".join(long))
 
 
-@pytest.mark.parametrize("command", COMMANDS[:4], ids=lambda command: command[0])
-def test_programs_are_answered_alike_with_and_without_details(command, ask):
-    put("simple")
-    assert ask(*command) == ask(*command, "--details")
-
-
 @pytest.mark.parametrize(
     ("command", "colour"),
     [

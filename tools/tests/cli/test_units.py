@@ -4,13 +4,9 @@ import json
 import math
 import re
 from pathlib import Path
-from types import SimpleNamespace
 
 import pytest
-from plumb.cli.screen import second_round
-from plumb.marks.model import Typed
-from plumb.marks.read import join_measurements, read_marks
-from plumb.text.values import shown_in
+from plumb.marks.read import read_marks
 
 EXAMPLE = Path(__file__).resolve().parents[3] / "docs/example"
 INI, MARKS = EXAMPLE / "groundcontrol.ini", EXAMPLE / "marks.toml"
@@ -30,15 +26,6 @@ def test_places_from_the_corner_are_shown_from_the_corner(run):
     assert "from the sheet's top left corner, x right, y down" in " ".join(said.split())
 
 
-def test_places_from_the_middle_are_shown_from_the_middle(run, tmp_path):
-    marks = tmp_path / "marks.csv"
-    head = "target_x_mm,target_y_mm,measured_x_mm,measured_y_mm"
-    marks.write_text(f"{head}\n-1119.2,509.6,-1121.2,503.6\n0,0,1,-9\n900,-400,903,-408\n")
-    said = run("compare", INI, marks)[1]
-    assert row_of(said)[1:7] == ["-1119.2", "509.6", "-1121.2", "503.6", "-1.98", "-5.99"]
-    assert "from the middle of the sheet, x right, y up" in " ".join(said.split())
-
-
 @pytest.mark.parametrize("command", ["compare", "calibrate"])
 def test_inches_on_request(command, run):
     said = " ".join(run(command, INI, MARKS, "--units", "inch", "--details")[1].split())
@@ -46,16 +33,6 @@ def test_inches_on_request(command, run):
     assert "by x +0.079, y +0.315 inch" in said
     if command == "compare":
         assert "1 3.94 3.94 3.86 4.17 -0.078 +0.236" in said and "All in inch" in said
-
-
-def test_the_next_form_has_the_unit_of_the_tape(tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-    asked = SimpleNamespace(settings=str(INI))
-    assert "--units" not in second_round(asked, ["machine.toml"])
-    with shown_in("inch"):
-        cut, again = second_round(asked, ["machine.toml"]).replace("\\\n", "").split("\nand ")
-    assert "grid --settings machine.toml --units inch --marks" in " ".join(cut.split())
-    assert "--units" not in again  # the form says it
 
 
 def test_what_was_typed_in_inches_is_shown_in_inches_unless_mm_are_asked_for(run, tmp_path):
@@ -68,18 +45,6 @@ def test_what_was_typed_in_inches_is_shown_in_inches_unless_mm_are_asked_for(run
     assert row_of(run("compare", INI, marks)[1])[1:5] == ["5.00", "5.00", "5.10", "5.00"]
     said = run("compare", INI, marks, "--units", "mm")[1]
     assert row_of(said)[1:5] == ["127.0", "127.0", "129.5", "127.0"]
-
-
-def test_files_that_were_typed_alike_stay_so_together_and_others_are_shown_from_the_middle(
-    tmp_path,
-):
-    corner = read_marks(MARKS, sheet=SHEET)
-    assert corner.typed == Typed(SHEET, "mm")
-    path = tmp_path / "b.csv"
-    path.write_text("target_x_mm,target_y_mm,measured_x_mm,measured_y_mm\n7,8,7.5,8.5\n")
-    middle = read_marks(path, sheet=SHEET)
-    assert join_measurements([corner, middle]).typed == Typed()
-    assert join_measurements([corner]).typed == corner.typed
 
 
 MILLIMETRES = re.compile(r"[\d.]+ mm\b")
@@ -133,11 +98,6 @@ def test_feeds_and_places_of_a_job_are_in_inches_on_request(run, tmp_path):
     assert "from X50.80 Y25.40, where" in " ".join(run(*resume, "--force")[1].split())
 
 
-def test_the_unit_of_a_command_does_not_stay_for_the_next(run):
-    run("compare", INI, MARKS, "--units", "inch")
-    assert "inch" not in run("compare", INI, MARKS)[1]
-
-
 def test_a_number_that_moved_too_far_is_said_in_the_unit_on_the_screen(run, tmp_path):
     marks = tmp_path / "marks.csv"
     places = [(x, y) for x in (-1000, 0, 1000) for y in (450, -450)]
@@ -169,12 +129,3 @@ def test_a_form_in_inches_is_filled_in_inches_and_read(preset, run, ask, tmp_pat
     assert first.target == pytest.approx((100 - 1219.2, 609.6 - 100), abs=0.002)
     assert first.measured == pytest.approx((3.875 * 25.4 - 1219.2, 609.6 - 4.1875 * 25.4))
     assert len(read.distances) == (0 if preset == "nine" else 12) and read.typed.unit == "inch"
-
-
-def test_what_is_measured_next_has_a_form_in_inches(run, tmp_path):
-    form = tmp_path / "more.toml"
-    assert run("next", INI, MARKS, *INCHES, "--marks", form)[0] == 0
-    text = form.read_text()
-    assert 'units = "inch"' in text and ", in inch:" in text
-    targets = re.findall(r"target = \[([\d.]+), ([\d.]+)\]", text)
-    assert targets and all(float(x) < 96 and float(y) < 48 for x, y in targets)

@@ -36,10 +36,6 @@ def test_a_command_that_went_says_what_does_it_now(run, name):
     assert name not in COMMANDS and {*commands} <= {*COMMANDS}
 
 
-def test_what_stands_behind_two_dashes_is_no_option(run):
-    assert "--job.nc: there is no such file" in run("check", "--", "--job.nc", SETTINGS)[2]
-
-
 @pytest.mark.parametrize(
     ("begin", "says"),
     [

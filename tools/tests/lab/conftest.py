@@ -2,11 +2,14 @@
 
 import shutil
 import threading
+from contextlib import contextmanager, suppress
+from urllib.parse import urljoin
 
 import pytest
+from asked_again import asked_again  # noqa: F401
 from folder import with_settings
 from journeys import Garage
-from playwright.sync_api import expect, sync_playwright
+from playwright.sync_api import Error, expect, sync_playwright
 from plumb.vm.garage import hide, random_garage
 from plumb.vm.owner import VirtualOwner
 from plumb.vm.pseudo_terminal import Pace, PseudoTerminal
@@ -16,7 +19,7 @@ BUSY_MS = 120_000  # of a busy computer
 expect.set_options(timeout=BUSY_MS)
 # Without these Chromium asks the network for things that nobody wants here.
 QUIET = ["--no-sandbox", "--disable-gpu", "--disable-background-networking", "--disable-sync"]
-QUIET += ["--no-first-run", "--disable-component-update", "--disable-quic"]
+QUIET += ["--no-first-run", "--disable-component-update", "--disable-quic", "--in-process-gpu"]
 
 
 @pytest.fixture(scope="session")
@@ -51,20 +54,58 @@ def browser():
         running.close()
 
 
-@pytest.fixture
-def page(browser):
+@contextmanager
+def looked_at(page):
     """A page of desktop size. What its scripts complain of fails the test."""
-    context = browser.new_context(viewport={"width": 1280, "height": 900})
-    context.set_default_timeout(BUSY_MS)
-    shown = context.new_page()
+    page.set_viewport_size({"width": 1280, "height": 900})
+    page.context.set_default_timeout(BUSY_MS)
+    page.set_default_timeout(BUSY_MS)
     complaints = []
-    shown.on("pageerror", lambda error: complaints.append(str(error)))
-    yield shown
-    # A question that a test holds back may still be on its way.
-    for each in context.pages:
+
+    def note(error):
+        complaints.append(str(error))
+
+    page.on("pageerror", note)
+    yield page
+    for each in page.context.pages:
+        # A question that a test holds back may still be on its way.
         each.unroute_all(behavior="ignoreErrors")
-    context.close()
+    page.remove_listener("pageerror", note)
     assert complaints == []
+
+
+@pytest.fixture(scope="session")
+def used_page(browser):
+    """A page for many tests: to make one costs more than to load a screen."""
+    context = browser.new_context(reduced_motion="reduce")
+    yield context.new_page()
+    context.close()
+
+
+@pytest.fixture
+def page(used_page):
+    """The page that tests before have used; nothing of them is left in it."""
+    used_page.mouse.move(0, 0)
+    try:
+        with looked_at(used_page):
+            yield used_page
+    finally:
+        for other in used_page.context.pages:
+            if other is not used_page:
+                other.close()
+        with suppress(Error):  # a lab that has ended comes back at another address
+            used_page.goto(urljoin(used_page.url, "/index.css"))  # where no script runs
+            used_page.evaluate("() => { localStorage.clear(); sessionStorage.clear(); }")
+        used_page.goto("about:blank")
+
+
+@pytest.fixture
+def fresh_page(browser):
+    """A page for a test that changes its clock or its live line, or ends its lab."""
+    context = browser.new_context(reduced_motion="reduce")
+    with looked_at(context.new_page()) as page:
+        yield page
+    context.close()
 
 
 @pytest.fixture

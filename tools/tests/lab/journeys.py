@@ -20,7 +20,7 @@ from screens import at_rest
 
 NUMBER = 9  # of the machine: one effect of 3 mm, and a sheet that lies turned
 SPEED = 200  # times as fast as a real machine
-LONG_MS = 400_000  # in which a machine cuts the next mark, if it has its lines
+RESTS_MS = 30_000  # in which a machine goes on, if it has its lines
 GAP = 2  # the machine's number for the gap between the motors
 SHEET = (2438.4, 1219.2)
 
@@ -45,8 +45,8 @@ class Garage:
         self._clock.start()
 
     def run_at(self, speed):
-        """Let it run this many times as fast as a real machine."""
-        self._pace = Pace(speed)
+        """Let it run this many times as fast as a real machine while it moves."""
+        self._speed, self._pace = speed, Pace(speed)
 
     @property
     def path(self):
@@ -55,8 +55,16 @@ class Garage:
     def _run(self):
         while not self._is_pulled.is_set():
             with self._mine:
+                before = self._place
                 self._terminal.pass_time(self._pace.due())
+            # To hurry at rest would cost a whole processor for nothing.
+            self._pace.speed = self._speed if self._place != before else 1
         self._terminal.close()
+
+    @property
+    def _place(self):
+        machine = self.owner.machine
+        return *(round(length, 3) for length in machine.chains), round(machine.height, 3)
 
     def read(self, form):
         """What the tape says of each mark of a form, from the sheet's left and top edges [mm]."""
@@ -82,12 +90,12 @@ class Garage:
 
     def marks_at_rest(self):
         """How many there are when the machine has done all that it was sent."""
-        before = -1
-        while self.marks != before:
-            before = self.marks
+        before = None
+        while self._place != before:
+            before = self._place
             with self._mine:
-                self._terminal.pass_time(LONG_MS)
-        return before
+                self._terminal.pass_time(RESTS_MS)
+        return self.marks
 
     def lay_next_sheet(self, raised):
         with self._mine:

@@ -1,10 +1,19 @@
-"""The bench for effects in a real browser."""
+"""The bench for effects in a real browser, also of distances; how soon it is answered."""
 
+import json
 import re
+import socket
+import time
 import tomllib
 
+import plumb.lab.rounds
 import pytest
+from folder import EXAMPLE, asked, finished, got, with_marks
 from playwright.sync_api import expect
+from plumb.cure.auto import add_auto
+from plumb.lab.project import Project
+from plumb.lab.rounds import inputs_of
+from plumb.marks.read import read_marks
 from screens import at_rest, measured_machine
 
 STAIRS = ".stairs tbody td:nth-of-type(2)"
@@ -63,24 +72,103 @@ def test_a_dot_lights_in_every_plot_and_on_the_sheet(bench):
     expect(bench.locator(".card-of-mark")).to_contain_text("Mark 1")
 
 
-def test_every_state_has_the_same_scale_and_an_effect_lies_over_what_the_frame_leaves(bench):
-    plot = bench.locator("svg.plot").nth(2)
-    axes = plot.locator(".axes")
-    states = bench.get_by_role("group", name="What is drawn")
-    bench.get_by_role("checkbox", name="chains too long").check()
-    at_rest(bench)
-    ticks = axes.text_content()
-    factor = bench.get_by_label("Arrows longer than life")
-    fitted = factor.input_value()
-    assert bench.locator("svg.plot .curve.left").count() == 0
-    bench.get_by_role("button", name="Lay over the marks: chains too long").click()
-    at_rest(bench)
-    expect(states.get_by_role("radio", name="frame fitted")).to_be_checked()
-    assert bench.locator("svg.plot .curve.left").count() > 0
-    expect(bench.locator(".sheet .print path")).to_have_count(23)
-    assert (factor.input_value(), axes.text_content()) == (fitted, ticks)
-    states.get_by_role("radio", name="as set").check()
-    assert int(factor.input_value()) < int(fitted)
-    expect(bench.locator(".sheet .print path")).to_have_count(0)  # it is drawn into the frame's fit
-    bench.get_by_role("button", name="Lay over the marks: chains too long").click()
-    expect(bench.locator("svg.plot .curve.left")).to_have_count(0)
+MOST_S = 0.03  # after its header; a body that waits for a receipt comes after 0.04
+
+
+def body_after_header(lab):
+    """How long the body of an answer comes after its header [s]."""
+    with socket.create_connection(("127.0.0.1", lab.port)) as line:
+        head = f"GET /api/project HTTP/1.1\r\nHost: 127.0.0.1:{lab.port}\r\n"
+        line.sendall(f"{head}X-Plumb-Token: {lab.token}\r\nX-Plumb-Tab: t\r\n\r\n".encode())
+        text = b""
+        while b"\r\n\r\n" not in text:
+            text += line.recv(65536)
+        start = time.monotonic()
+        head, _, body = text.partition(b"\r\n\r\n")
+        length = int(head.lower().split(b"content-length: ")[1].split(b"\r\n")[0])
+        while len(body) < length:
+            body += line.recv(65536)
+        json.loads(body)
+        return time.monotonic() - start
+
+
+def test_no_body_waits_for_the_receipt_of_its_header(lab):
+    measured_machine(lab.folder)
+    assert min(body_after_header(lab) for _ in range(20)) < MOST_S
+
+
+def test_a_refit_reads_no_marks_again(tmp_path, monkeypatch):
+    client = with_marks(tmp_path)
+    body = {"effects": ["chain_pitch"], "held": {"chain_pitch.left": 0.001}}
+    first = got(client.post("/api/bench/fit", json=body))
+    assert "groundcontrol.ini marks.toml" in first["command"]
+    monkeypatch.setattr(plumb.lab.rounds, "read_form", None)
+    monkeypatch.setattr(plumb.lab.rounds, "settings_in", None)
+    body["held"]["chain_pitch.left"] = 0.002
+    assert got(client.post("/api/bench/fit", json=body))["fit_rms"] != first["fit_rms"]
+
+
+LINES = ".sheet .span-errors line"
+SMALL = (0.9, -0.7, 0.3, -1.4, 0.1, 0.8, -0.2, 1.1, -0.6, 0.5, -0.9, 0.4)  # [mm] off, in turn
+
+
+def taped(folder, *, slip=0.0, marks=False):
+    """A folder whose form has twelve distances, the third read off by a slip [mm]."""
+    folder.mkdir(exist_ok=True)
+    (folder / "groundcontrol.ini").write_bytes((EXAMPLE / "groundcontrol.ini").read_bytes())
+    read = read_marks(EXAMPLE / "marks.toml", sheet=(2440.0, 1220.0)).measured_marks[:9]
+    places = {mark.name: mark for mark in read}
+    names = [*places]
+    spans = [(names[i], names[(i + step) % 9]) for step in (1, 4) for i in range(9)][:12]
+    lines = ['frame = "machine"', "tape_sigma_mm = 0.5", ""]
+    for name, mark in places.items():
+        lines += ["[[mark]]", f'name = "{name}"', f"target = {[*mark.target]}"]
+        lines += [f"measured = {[*mark.measured]}"] * marks + [""]
+    for i, (first, second) in enumerate(spans):
+        (x, y), (u, v) = places[first].measured, places[second].measured
+        length = ((x - u) ** 2 + (y - v) ** 2) ** 0.5 + SMALL[i] + slip * (i == 2)
+        lines += ["[[distance]]", f'between = ["{first}", "{second}"]', f"mm = {length:.1f}"]
+    (folder / "marks.toml").write_text("\n".join([*lines, ""]))
+    choices = {"settings": "groundcontrol.ini", "marks": ["marks.toml"]}
+    (folder / "lab.json").write_text(json.dumps(choices))
+
+
+def test_each_distance_is_a_line_by_its_error(lab, page):
+    taped(lab.folder)
+    page.goto(f"{lab.url}#/verdict")
+    at_rest(page)
+    lines = page.locator(LINES)
+    expect(lines).to_have_count(12)
+    page.get_by_role("group", name="What is drawn").get_by_role("radio", name="as set").check()
+    widths = [float(each.get_attribute("stroke-width")) for each in lines.all()]
+    errors = [
+        abs(float(text.replace("\u2212", "-")))
+        for text in page.locator(".taped-errors td:last-child").all_inner_texts()
+    ]
+    assert errors == sorted(errors, reverse=True) and len(errors) == 12
+    assert max(widths) == 12 and len(set(widths)) > 6
+    assert page.locator("svg.plot").count() == 0  # nothing is known of single chains
+    assert page.get_by_role("button", name=re.compile("Lay")).count() == 0
+
+
+def test_a_distance_in_doubt_is_ringed_and_makes_no_other_line_thinner(lab, page):
+    taped(lab.folder, slip=100.0, marks=True)
+    page.goto(f"{lab.url}#/bench")
+    at_rest(page)
+    page.get_by_role("radio", name="as set").check()
+    expect(page.locator(".sheet .span-errors .doubted circle.doubt")).to_have_count(1)
+    expect(page.locator(".taped-errors tr.doubted")).to_contain_text("3 and 4")
+    widths = [float(each.get_attribute("stroke-width")) for each in page.locator(LINES).all()]
+    assert sorted(widths)[-1] == 12 and sorted(widths)[6] > 4
+
+
+def test_verdict_and_bench_ask_the_same_fit(tmp_path):
+    """Of distances alone; of marks, test_same_numbers.py knows."""
+    taped(tmp_path)
+    with asked(tmp_path) as client:
+        _, *fitted = finished(client, "verdict")["verdict"]["states"]
+        chosen = [[], list(add_auto(inputs_of(Project(tmp_path))).chosen)]
+        for state, effects in zip(fitted, chosen, strict=False):
+            fit = got(client.post("/api/bench/fit", json={"effects": effects}))
+            for figure in ("fit_rms", "noise_rms"):
+                assert fit[figure] == pytest.approx(state[figure], abs=1e-4), effects

@@ -1,18 +1,17 @@
-"""A cut that broke off: the folder knows how far it came, and it goes on or begins again."""
+"""A cut that is held, stopped or breaks off: the folder knows how far it came, and it goes on."""
 
 import re
 from dataclasses import dataclass, field
 
 import pytest
-from folder import asked, got, until
+from folder import got, until
 from journeys import SPEED, Person
 from lab_machine import PATIENCE, bar, start_virtual
 from playwright.sync_api import expect
-from plumb.lab.broken_cut import begin, end_virtual, go_on, how_far, rest_of
+from plumb.lab.broken_cut import begin, go_on, how_far, rest_of
 from plumb.lab.project import Project
 from plumb.line.worker import LineState
 from plumb.marks.read import read_marks
-from plumb.text.errors import InputError
 from screens import fitted_machine
 from served_lab import serve
 
@@ -90,25 +89,6 @@ def test_a_mark_is_cut_for_sure_or_perhaps_and_never_less_than_before(tmp_path):
     assert (far(), far("check.nc")) == ((1, 0), (2, 0))  # all are cut
 
 
-def test_a_cut_goes_on_with_the_kind_of_machine_that_began_it(tmp_path):
-    project, text, line = Project(tmp_path), "\n".join(LINES), Line()
-    begin(project, line, "grid.nc", text)
-    line.sent["came"](5, 5)
-    line.virtual = object()
-    assert not how_far(project, line, "grid.nc", text).goes_on
-    with pytest.raises(InputError, match="begin with the first mark"):
-        go_on(project, line, "grid.nc", text, 1)
-    end_virtual(project)  # that of a real machine stays
-    line.virtual = None
-    assert how_far(project, line, "grid.nc", text).goes_on
-    line.virtual = object()
-    begin(project, line, "grid.nc", text)
-    line.sent["came"](5, 5)
-    assert how_far(project, line, "grid.nc", text).goes_on
-    end_virtual(project)
-    assert how_far(project, line, "grid.nc", text).broke_off is None
-
-
 def test_check_marks_that_broke_off_are_asked_for_too(lab, page):
     fitted_machine(lab.folder)
     with lab.client() as client:
@@ -133,19 +113,6 @@ def test_check_marks_that_broke_off_are_asked_for_too(lab, page):
     expect(page.get_by_text("The machine may have cut marks 1 and 2 too.")).to_be_visible()
 
 
-@pytest.mark.parametrize("content", ["", "[1]", "{}", '{"program": 1}', "\xff"])
-def test_a_note_of_somebody_else_is_none(tmp_path, content):
-    (tmp_path / ".cut.json").write_text(content)
-    assert how_far(Project(tmp_path), Line(), "grid.nc", "").broke_off is None
-
-
-def test_without_a_broken_cut_nothing_goes_on(client):
-    grid = got(client.get("/api/grid"))
-    assert grid["broke_off"] is None and not grid["goes_on"]
-    refused = got(client.post("/api/grid/go-on", json={"cut": 0}), 422)
-    assert "begin with the first mark" in refused["error"]
-
-
 def test_a_stopped_cut_goes_on_from_the_next_mark(lab, page):
     start_virtual(page, lab, speed=10)
     page.goto(f"{lab.site}#/cut")
@@ -167,30 +134,8 @@ def test_a_stopped_cut_goes_on_from_the_next_mark(lab, page):
     assert len(read_marks(lab.folder / "marks.toml", sheet=SHEET).measured_marks) == 9
 
 
-def test_a_lab_that_starts_again_knows_the_cut_that_broke_off(tmp_path, page, cable):
-    path, _ = cable
-    lab = serve(tmp_path)
-    with lab.client() as client:
-        got(client.post("/api/machine/board", json={"port": path}))
-        until(client, lambda machine: machine["phase"] == "ready")
-        got(client.post("/api/machine/settings"))
-        got(client.post("/api/grid/cut"))
-        until(client, lambda machine: machine["program"]["done"] > 8)
-    lab.process.kill()
-    lab.process.wait()
-    lab = serve(tmp_path)
-    try:
-        page.goto(f"{lab.url}#/cut")
-        said = page.get_by_text(re.compile(r"Cut \d of 9 marks, then it broke off\. .*Connect"))
-        expect(said).to_contain_text("or go on", timeout=PATIENCE)
-        assert asked(tmp_path).get("/api/grid").json()["goes_on"]
-    finally:
-        lab.end()
-
-
-def test_no_mark_is_cut_twice_after_the_lab_died_in_a_cut(tmp_path, page, garage):
+def test_no_mark_is_cut_twice_after_the_lab_died_in_a_cut(lab, page, garage):
     """A machine goes on with the lines that it has; nobody but its owner sees how far it came."""
-    lab = serve(tmp_path)
     with lab.client() as client:
         connect(client, garage)
         got(client.post("/api/machine/settings"))
@@ -199,21 +144,18 @@ def test_no_mark_is_cut_twice_after_the_lab_died_in_a_cut(tmp_path, page, garage
     lab.process.kill()
     lab.process.wait()
     there = garage.marks_at_rest()
-    lab = serve(tmp_path)
-    try:
-        with lab.client() as client:
-            grid = got(client.get("/api/grid"))
-            surely, perhaps = grid["broke_off"], grid["perhaps"]
-            assert surely < there <= surely + perhaps
-            connect(client, garage)
-            for wrong in (surely - 1, surely + perhaps + 1):
-                refused = got(client.post("/api/grid/go-on", json={"cut": wrong}), 422)
-                assert "how many marks are on the sheet" in refused["error"]
-            page.goto(f"{lab.url}#/cut")
-            go_on_from(page, grid["marks"], there)
-            until(client, lambda machine: machine["phase"] == "ready" and garage.marks == 9)
-    finally:
-        lab.end()
+    lab.process = serve(lab.folder, port=lab.port).process
+    with lab.client() as client:
+        grid = got(client.get("/api/grid"))
+        surely, perhaps = grid["broke_off"], grid["perhaps"]
+        assert surely < there <= surely + perhaps
+        connect(client, garage)
+        for wrong in (surely - 1, surely + perhaps + 1):
+            refused = got(client.post("/api/grid/go-on", json={"cut": wrong}), 422)
+            assert "how many marks are on the sheet" in refused["error"]
+        page.goto(f"{lab.url}#/cut")
+        go_on_from(page, grid["marks"], there)
+        until(client, lambda machine: machine["phase"] == "ready" and garage.marks == 9)
     assert garage.marks_at_rest() == 9
 
 
@@ -275,3 +217,33 @@ def go_on_from(page, marks, there):
     expect(go_on).to_have_text(f"Go on: move the sled and cut from mark {marks[there]['name']}")
     go_on.click()
     expect(page.get_by_text("All marks are cut.")).to_be_visible(timeout=PATIENCE)
+
+
+def set_speed(lab, speed):
+    """Let the lab's virtual machine run this many times as fast as a real machine."""
+    got(lab.client().post("/api/machine/speed", json={"speed": speed}))
+
+
+def test_hold_waits_and_stop_gives_up_and_cutting_again_is_read_rightly(lab, page):
+    start_virtual(page, lab, speed=10)
+    page.goto(f"{lab.site}#/cut")
+    cut = page.get_by_role("button", name="Move the sled and cut 9 marks")
+    cut.click()
+    bar(page).get_by_text(re.compile(r"runs grid.nc: \d+ of")).wait_for(timeout=PATIENCE)
+    set_speed(lab, 1)  # so that it still cuts when a busy page presses Hold
+    page.keyboard.press("Escape")
+    go_on = bar(page).get_by_role("button", name="Go on")
+    go_on.wait_for(timeout=PATIENCE)
+    set_speed(lab, 10)
+    with lab.client() as client:  # the last move comes to its end
+        until(client, lambda machine: machine["holds"] and not machine["moves"])
+    expect(bar(page)).to_contain_text("holds")
+    go_on.click()
+    bar(page).get_by_role("button", name="Stop").click()
+    page.get_by_text("then it broke off").wait_for(timeout=PATIENCE)
+    set_speed(lab, 1000)
+    cut.click()  # which waits until it is enabled
+    page.get_by_text("All marks are cut.").wait_for(timeout=PATIENCE)
+    page.get_by_role("button", name="Let a tape read the 9 marks").click()
+    page.get_by_role("link", name="7 Verdict").wait_for()
+    assert (lab.folder / "marks.toml").read_text().count("\nmeasured = [") == 9

@@ -1,12 +1,13 @@
-"""Numbers that are measured by hand: each that the command line takes is asked as it is read."""
+"""Numbers that are measured by hand: asked as they are read; what nobody measures is refused."""
 
 import math
 
 import pytest
-from folder import choose, got
+from folder import choose, got, with_marks
 from plumb.bench.causes import MAKER
 from plumb.fit.by_hand import readings
 from plumb.plan.separation import FRAME_CHECKS, effect_checks
+from plumb.settings.machine import GRAVITY
 from plumb.vm.owner import true_value
 
 WEIGHT = 98.1  # [N]
@@ -69,14 +70,6 @@ def test_a_careful_reading_is_as_sure_as_its_check(name):
 MORE = [("chain_pitch.right", 635.0, 0), ("chain_zero.left", 0.0, 0), ("sheet_skew.angle", 4.0, 0)]
 
 
-def test_what_the_settings_leave_out_is_not_said_to_be_zero(client):
-    numbers = shown(client)
-    assert numbers["frame_lean.tangent_squared"]["believed"] is None
-    assert numbers["chain_pitch.left"]["believed"] == pytest.approx(635)
-    firsts = [name for name, number in numbers.items() if number["is_first"]]
-    assert firsts == [*numbers][: len(firsts)] and "sled_weight" in firsts
-
-
 def test_a_chain_is_weighed_against_the_sled_that_the_owner_weighed(client):
     name = "chain_sag.weight_ratio_squared"
     before = shown(client)[name]
@@ -86,12 +79,6 @@ def test_a_chain_is_weighed_against_the_sled_that_the_owner_weighed(client):
     per_gram = math.sqrt(24 * after["scale"])
     assert per_gram == pytest.approx(1 / 3e6 / 20.0)
     assert before["scale"] != after["scale"]
-
-
-def test_what_is_measured_goes_into_the_command(client):
-    choose(client, known={"frame_lean.tangent_squared": {"value": 0.07, "sigma": 0.005}})
-    said = client.get("/api/known").json()["command"]
-    assert "--checked frame_lean.tangent_squared=0.07+-0.005" in said
 
 
 def test_a_virtual_machine_is_measured_by_hand_as_well_as_a_careful_owner_can(client):
@@ -111,3 +98,59 @@ def test_a_virtual_machine_is_measured_by_hand_as_well_as_a_careful_owner_can(cl
     unknown = client.post("/api/known/measured", json={"name": "sled_colour"})
     assert unknown.status_code == 422
     client.post("/api/machine/disconnect")
+
+
+MARKS = "marks.toml"
+ABSURD = [
+    ("motor_gap", 298.0, 1.0, "298.0 mm is far from the 2978.4 mm of the settings"),
+    # Read from the sheet's top edge up to the motors.
+    ("motor_height", 463.0, 1.0, "-146.6 mm is far from the 463.0 mm of the settings"),
+    ("sled_weight", GRAVITY, 2.0, "1.0 kg is far from the 10.0 kg of the settings"),
+    (
+        "tape_scale.strain",
+        0.5,
+        0.001,
+        "500.00 mm cannot be: real machines have -3.00 mm to 3.00 mm",
+    ),
+    ("frame_lean.tangent_squared", 1.0, 0.001, "45.0 degrees cannot be: real machines have"),
+]
+
+
+@pytest.fixture
+def client(tmp_path):
+    with with_marks(tmp_path) as client:
+        yield client
+
+
+def state(client, **known):
+    """State numbers, each with how far it may be off; what is typed for each is refused by."""
+    stated = {name: {"value": value, "sigma": sigma} for name, (value, sigma) in known.items()}
+    choose(client, marks=[MARKS], known=stated)
+    numbers = client.get("/api/known").json()["numbers"]
+    return {number["name"]: number["refused"] for number in numbers if number["refused"]}
+
+
+@pytest.mark.parametrize(("name", "value", "sigma", "line"), ABSURD)
+def test_an_absurd_number_is_refused_in_its_own_words(client, name, value, sigma, line):
+    refused = state(client, **{name: (value, sigma)})
+    assert [*refused] == [name] and line in refused[name], refused
+    assert refused[name].endswith("Check the number and its unit.")
+
+
+def test_nothing_goes_by_an_absurd_number(client):
+    def preview():
+        plan = {"layout": "nine", "places": []}
+        return client.post("/api/preview", json=plan).json(), client.get("/api/reach").json()
+
+    before = preview()
+    state(client, motor_gap=(298.0, 0.1))
+    for path in ("bench", "verdict", "next", "correction", f"doubts?file={MARKS}"):
+        answer = client.get(f"/api/{path}")
+        assert answer.status_code == 422, path
+        line = answer.json()["error"]
+        assert line.startswith("The gap between the motors: 298.0 mm is far from the 2978.4 mm")
+        assert line.endswith('You typed it under "What you know".') and len(line.split()) <= 40
+    assert preview() == before, "a plan is made without it"
+    state(client, **{"motor_center_x": (900.0, 1.0)})
+    line = client.get("/api/verdict").json()["error"]
+    assert "known motor_center_x=900: that is far from" in line, "no field asks for it"

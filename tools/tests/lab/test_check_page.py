@@ -1,13 +1,18 @@
-"""Check marks that somebody types, and the diary, in a real browser."""
+"""Check marks, the diary, and marks on another sheet, by the routes and on the page."""
 
 import json
+import math
 import re
 import shutil
+import tomllib
 from datetime import UTC, datetime, timedelta
 
-from folder import EXAMPLE, note_fit
+import pytest
+from folder import EXAMPLE, asked, got, note_fit, type_in
 from playwright.sync_api import expect
 from plumb.diary.file import read_diary
+from plumb.marks.form import read_form
+from plumb.model.predict import known_effects
 
 PATIENCE = 300_000  # [ms] of a busy computer
 JUDGED = ".judged"
@@ -104,3 +109,132 @@ def test_the_diary_shows_a_fit_that_comes_in_and_a_number_that_moved(lab, page):
     page.get_by_role("radio", name="inch").check()
     expect(page.locator(".course")).to_contain_text("117.48 inch", timeout=PATIENCE)
     expect(rows.last).to_contain_text("0.020 inch")
+
+
+FORM = "check.toml"
+
+
+@pytest.fixture
+def client(tmp_path):
+    for name in ("machine.toml", "marks.toml", "groundcontrol.ini"):
+        shutil.copy(EXAMPLE / name, tmp_path)
+    (tmp_path / "lab.json").write_text('{"settings": "machine.toml", "marks": ["marks.toml"]}')
+    return asked(tmp_path)
+
+
+def test_planned_cut_read_and_judged(client, tmp_path):
+    plan = got(client.get("/api/check"))
+    assert (plan["is_saved"], len(plan["places"]), plan["sentence"]) == (False, 2, "")
+    assert not (tmp_path / "check.toml").exists()
+    got(client.post("/api/check"))
+    assert 'cut_with = "machine.toml"' in (tmp_path / "check.toml").read_text()
+    assert "G1" in (tmp_path / "check.nc").read_text()
+    assert got(client.get("/api/check"))["places"] == plan["places"]
+    type_in(client, FORM, (0.3, 0.1), (-0.2, 0.4))
+    good = got(client.get("/api/check"))
+    assert good["holds"] and good["sentence"].startswith("Promised: within 1.")
+    assert "off from what was promised by 0." in good["sentence"]
+    type_in(client, FORM, (0.3, 0.1), (-4, 0.4))
+    bad = got(client.get("/api/check"))
+    assert not bad["holds"] and "at mark 2" in bad["sentence"]
+
+
+def test_check_marks_take_no_part_unless_somebody_says_so(client, tmp_path):
+    client.post("/api/check")
+    type_in(client, FORM, (0.3, 0.1), (-0.2, 0.4))
+    assert client.get("/api/project").json()["choices"]["marks"] == ["marks.toml"]
+    names = [file["name"] for file in client.get("/api/readings").json()["files"]]
+    assert names == ["marks.toml"]
+    before = len(got(client.get("/api/bench"))["marks"])
+    got(client.post("/api/check/use"))
+    assert len(got(client.get("/api/bench"))["marks"]) == before + 2
+    assert got(client.get("/api/check"))["is_used"]
+
+
+def places_in(form):
+    """Where the marks of a form were sent [mm]."""
+    return [mark["target"] for mark in tomllib.loads(form.read_text())["mark"]]
+
+
+def test_a_second_round_gets_other_places_and_keeps_the_first(client, tmp_path):
+    client.post("/api/check")
+    kept = (tmp_path / "check.toml").read_bytes()
+    got(client.post("/api/check"))
+    assert (tmp_path / "check.toml").read_bytes() == kept
+    type_in(client, FORM, (0.3, 0.1), (-0.2, 0.4))
+    got(client.post("/api/check"))
+    assert got(client.get("/api/check"))["form"] == "check-2.toml"
+    assert (tmp_path / "check.toml").read_bytes() != kept
+    first, second = (places_in(tmp_path / name) for name in ("check.toml", "check-2.toml"))
+    assert min(math.dist(here, there) for here in first for there in second) > 100
+
+
+TURN = 9.996939502150416e-06  # [rad] of the example's sheet, as its machine.toml says
+WIDTH = 2438.4  # [mm]
+
+
+@pytest.fixture
+def sheets(tmp_path):
+    for name in ("machine.toml", "marks.toml", "groundcontrol.ini"):
+        shutil.copy(EXAMPLE / name, tmp_path)
+    return chosen(tmp_path)
+
+
+def chosen(folder, **more):
+    choices = {"settings": "machine.toml", "marks": ["marks.toml"], **more}
+    (folder / "lab.json").write_text(json.dumps(choices))
+    return asked(folder)
+
+
+def another_sheet(folder, *, shift=0.0, turn=0.0):
+    """The example's marks once more, on another sheet that lies `shift` [mm] farther right, its
+    right end `turn` [rad] lower: there the marks are farther from its top edge."""
+    text = (EXAMPLE / "marks.toml").read_text()
+
+    def read(match):
+        x, y = float(match[1]), float(match[2])
+        return f"measured = [{x + turn * y + shift + 0.01:.2f}, {y - turn * x:.2f}]"
+
+    moved = re.sub(r"measured = \[([\d.]+), ([\d.]+)\]", read, text)
+    head = 'frame = "sheet-top-left"\n'
+    assert head in moved
+    (folder / "marks-2.toml").write_text(moved.replace(head, f"{head}new_sheet = true\n"))
+
+
+def test_the_form_of_another_sheet_says_so(sheets, tmp_path):
+    got(sheets.post("/api/grid"))
+    assert "new_sheet" not in (tmp_path / "marks-2.toml").read_text()
+    chosen(tmp_path, new_sheet=True)
+    assert not got(sheets.get("/api/grid"))["is_saved"]
+    got(sheets.post("/api/grid"))
+    form = read_form(tmp_path / "marks-2.toml", sheet=(WIDTH, 1219.2), known=known_effects())
+    assert form.measurements.rounds[0].new_sheet
+    assert (
+        got(sheets.get("/api/grid"))["is_saved"]
+        and got(sheets.get("/api/grid"))["last_form"] == "marks.toml"
+    )
+
+
+def test_the_next_sheet_is_turned_back_once(sheets, tmp_path):
+    assert got(sheets.get("/api/grid"))["sheet_rise"] == pytest.approx(math.tan(TURN) * WIDTH)
+    another_sheet(tmp_path)
+    chosen(tmp_path, marks=["marks.toml", "marks-2.toml"])
+    assert got(sheets.get("/api/grid"))["sheet_rise"] == 0
+    chosen(tmp_path, settings="groundcontrol.ini")
+    assert got(sheets.get("/api/grid"))["sheet_rise"] == 0
+
+
+def test_check_marks_go_by_the_sheet_that_they_are_on(sheets, tmp_path):
+    sheets.post("/api/check")
+    type_in(sheets, "check.toml", (0.3, 0))
+    before = sheets.get("/api/check").json()
+    assert before["holds"]
+    assert [each["form"] for each in before["rounds"]] == ["marks.toml", "check.toml"]
+    first, check = (each["off_target"] for each in before["rounds"])
+    assert first > 8 and check == pytest.approx(0.3, abs=1e-6)
+    assert [each["is_check"] for each in before["rounds"]] == [False, True]
+    another_sheet(tmp_path, shift=12)
+    chosen(tmp_path, marks=["marks.toml", "marks-2.toml"])
+    after = sheets.get("/api/check").json()
+    assert after["marks"] == before["marks"] and after["holds"]
+    assert len(after["rounds"]) == 3 and after["rounds"][1]["off_target"] > 12

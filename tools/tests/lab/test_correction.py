@@ -1,14 +1,16 @@
-"""The correction of the lab: number by number, written, opened, and taken back."""
+"""The correction: number by number, written, opened, taken back, by the routes and on the page."""
 
-from dataclasses import replace
-from itertools import pairwise
+import re
 
 import pytest
-from folder import EXAMPLE, awaited, choose, compared, type_in, with_marks
+from folder import EXAMPLE, awaited, choose, compared, finished, type_in, with_marks
+from lab_machine import PATIENCE
+from playwright.sync_api import expect
 from plumb import api
-from plumb.cure.machine_file import correct, has_setting
+from plumb.cure.machine_file import correct
 from plumb.diary.file import read_diary
 from plumb.settings.files import read_settings
+from screens import measured_machine
 
 
 @pytest.fixture
@@ -36,47 +38,9 @@ def test_what_is_not_accepted_stays_as_it_is(inputs):
     made = correct(inputs, ("chain_pitch",), accepted).accepted
     before = inputs.model_and_observations()[0]
     assert made.settings.motor_gap == before.motor_gap
-    assert made.settings.motor_center_x == before.motor_center_x
     assert made.settings.motor_height != before.motor_height
     assert made.settings.effect("chain_pitch", "right") == before.effect("chain_pitch", "right")
     assert made.settings.effect("chain_pitch", "left") != before.effect("chain_pitch", "left")
-
-
-def test_with_all_accepted_it_is_the_fit_itself_and_with_none_nothing(inputs):
-    made = correct(inputs, ("chain_pitch",), [])
-    assert made.accepted is None
-    everything = [number.name for number in made.numbers]
-    assert "motor_gap" in everything and "chain_pitch.right" in everything
-    both = correct(inputs, ("chain_pitch",), everything)
-    assert (
-        both.accepted.settings == both.whole.settings == api.add(inputs, ["chain_pitch"]).settings
-    )
-
-
-def test_the_more_is_accepted_the_smaller_the_error(inputs):
-    order = ["motor_height", "motor_gap", "motor_center_x", "chain_pitch.left", "chain_pitch.right"]
-    errors = [
-        correct(inputs, ("chain_pitch",), order[: i + 1]).accepted.after.fit_rms
-        for i in range(len(order))
-    ]
-    # Priors are given up for a better fit of the marks only as far as they weigh less.
-    assert all(later <= earlier + 0.02 for earlier, later in pairwise(errors))
-    assert errors[-1] < 0.5 * errors[0]
-
-
-@pytest.mark.parametrize(
-    ("name", "expected"),
-    [
-        ("motor_gap", True),
-        ("sheet_rotation", False),
-        ("chain_pitch.left", True),
-        ("tape_scale.error", False),
-        ("zero2.left", False),
-        ("sheet2.x", False),
-    ],
-)
-def test_what_a_setting_holds(name, expected):
-    assert has_setting(name) is expected
 
 
 def test_written_opened_and_taken_back(client, tmp_path):
@@ -138,7 +102,76 @@ def test_a_slip_is_not_fitted(client, tmp_path):
     assert client.post("/api/correction", json=known(client)).status_code == 422
 
 
-def test_numbers_held_by_the_owner_stay_held(inputs):
-    held = replace(inputs, priors={**inputs.priors, "motor_gap": 0.0})
-    made = correct(held, (), ["motor_height"])
-    assert "motor_gap" not in [number.name for number in made.numbers]
+TITLE = "main h1"
+WANTED = "main .primary"
+ALL = ("motor_gap", "motor_height", "motor_center_x", "chain_stretch.compliance")
+
+
+def write(page, lab, *names):
+    """Numbers of the example's correction, into a file."""
+    measured_machine(lab.folder)
+    with lab.client() as client:
+        choose(client, accepted=list(names))
+        finished(client, "correction")
+    page.goto(f"{lab.url}#/correct")
+    expect(page.locator(TITLE)).to_have_text("What would change?")
+    page.get_by_role("button", name=re.compile(r"Write \d numbers? into machine")).click()
+    expect(page.locator(TITLE)).to_have_text("The numbers are written")
+    expect(page.locator("dl.errors[aria-busy=false]")).to_be_visible(timeout=PATIENCE)
+    expect(page.locator(TITLE)).to_have_text("The numbers are written")
+
+
+def test_what_is_written_is_not_asked_again_and_goes_to_the_machine_next(lab, page):
+    write(page, lab, *ALL)
+    assert page.get_by_role("checkbox").count() == 0
+    assert page.get_by_role("button", name="Accept all").count() == 0
+    expect(page.locator(WANTED)).to_have_text("Connect the machine, then send machine.toml")
+    page.reload()
+    expect(page.locator(WANTED)).to_have_text("Connect the machine, then send machine.toml")
+    page.get_by_role("button", name="Go back to groundcontrol.ini").click()
+    expect(page.locator(TITLE)).to_have_text("What would change?")
+
+
+def test_what_was_not_accepted_is_folded_away_and_can_be_accepted_later(lab, page):
+    write(page, lab, "motor_height")
+    assert page.get_by_role("checkbox").count() == 0
+    page.get_by_text("What would still change").click()
+    gap = page.get_by_role("checkbox", name="gap between the motors")
+    gap.check()
+    wanted = page.locator(WANTED)
+    expect(wanted).to_have_text("Write 1 number into machine-2.toml", timeout=PATIENCE)
+
+
+def test_a_reading_that_changes_after_the_writing_says_what_is_stale_and_leads_back(lab, page):
+    write(page, lab, *ALL)
+    form = lab.folder / "marks.toml"
+    form.write_text(form.read_text().replace("[659.5, 110.5]", "[659.5, 111.5]"))
+    for step in ("verdict", "check", "correct"):
+        page.goto(f"{lab.site}#/{step}")
+        expect(page.locator(TITLE)).to_have_text("Your readings have changed", timeout=PATIENCE)
+    expect(page.locator(".say")).to_contain_text("The numbers in machine.toml are stale")
+    page.get_by_role("button", name="Go back to groundcontrol.ini and fit again").click()
+    expect(page.locator(TITLE)).to_have_text("What would change?", timeout=PATIENCE)
+    expect(page.locator(WANTED)).to_have_count(1, timeout=PATIENCE)
+
+
+def test_what_noise_alone_would_leave_stands_at_each_error_of_a_fit(lab, page):
+    measured_machine(lab.folder)
+    page.goto(f"{lab.url}#/correct")
+    page.get_by_role("button", name="Accept all").click(timeout=PATIENCE)
+    errors = page.locator("dl.errors > div")
+    for place in (1, 2):
+        expect(errors.nth(place)).to_contain_text(
+            re.compile(r"0\.\d\d mm\s*noise alone leaves 0\.\d\d"), timeout=PATIENCE
+        )
+    expect(errors.nth(0)).not_to_contain_text("noise")
+    # The sheet compares the same three, each mark with its circle of noise.
+    states = page.get_by_role("group", name="What is drawn").locator("label")
+    expect(states).to_have_count(3)
+    for place, state in enumerate(states.all()):
+        state.click()
+        expect(state.get_by_role("radio")).to_be_checked()
+        assert state.locator("b").inner_text() in errors.nth(place).inner_text()
+        expect(page.locator(".sheet svg > g > g circle.noise")).to_have_count(23)
+    by_hand = page.get_by_role("region", name="By hand").inner_text()
+    assert "too long: no firmware" in by_hand and "_" not in by_hand

@@ -1,28 +1,34 @@
-"""What the guard lets through: nothing that changes a folder by GET, no live line of strangers."""
+"""What the guard lets through: no change by GET, no live line of strangers, no names that run, and
+no link of the folder.
+"""
 
 import json
+import os
 import stat
-from pathlib import Path
 
 import pytest
 from attacks import Try, answered, status
+from folder import EXAMPLE, asked, with_settings
+from plumb.diary.file import NUMBERS, append, keep, read_diary
+from plumb.grid.cut_with import digest_of, settings_as_they_were
+from plumb.lab import server
 from plumb.lab.app import schema
 from plumb.lab.server import TOKEN_FILE
-from screens import measured_machine
+from plumb.text.errors import InputError
+from plumb.text.files import links_refused, read_bytes, read_text, write_all, write_whole
+from screens import measured_machine, walk
 from served_lab import serve
 from websockets.exceptions import InvalidStatus
 from websockets.sync.client import connect
 
-EXAMPLE = Path(__file__).resolve().parents[3] / "docs/example"
 ROUTES = json.loads(schema())["paths"]
 
 
-@pytest.fixture(scope="module")
-def lab(tmp_path_factory):
-    """A lab on a machine that was measured."""
-    served = serve(measured_machine(tmp_path_factory.mktemp("machine")))
-    yield served
-    served.end()
+@pytest.fixture
+def measured(lab):
+    """The lab on a machine that was measured."""
+    measured_machine(lab.folder)
+    return lab
 
 
 def snapshot(folder):
@@ -34,15 +40,15 @@ def snapshot(folder):
     }
 
 
-def test_no_route_changes_the_folder_by_get(lab):
-    before = snapshot(lab.folder)
+def test_no_route_changes_the_folder_by_get(measured):
+    before = snapshot(measured.folder)
     for route, methods in ROUTES.items():
         assert "get" not in methods or len(methods["get"].get("requestBody", {})) == 0, route
         target = route.replace("{", "").replace("}", "")
         for method in ("GET", "HEAD"):
-            answer = answered(lab, Try(method, target, body=b"").bytes(lab))
+            answer = answered(measured, Try(method, target, body=b"").bytes(measured))
             assert 200 <= status(answer) < 500, (route, answer[:300])
-    assert snapshot(lab.folder) == before
+    assert snapshot(measured.folder) == before
 
 
 def line(lab, *, origin=None, protocols=None, host=None, path="/api/live"):
@@ -86,7 +92,7 @@ def test_the_key_is_for_its_owner_alone(lab):
 
 
 @pytest.mark.parametrize("brought", ["readable", "short", "link"])
-def test_a_key_that_others_may_know_is_replaced(tmp_path, brought):
+def test_a_key_that_others_may_know_is_replaced(tmp_path, monkeypatch, brought):
     folder = tmp_path / "machine"
     folder.mkdir()
     known = "k" * (20 if brought == "short" else 43)
@@ -98,8 +104,128 @@ def test_a_key_that_others_may_know_is_replaced(tmp_path, brought):
     else:
         kept.write_text(known)
         kept.chmod(0o644 if brought == "readable" else 0o600)
-    served = serve(folder)
-    served.end()
-    assert served.token != known
-    assert kept.read_text().strip() == served.token
+    said = []
+    monkeypatch.setattr("uvicorn.Server.run", lambda server, sockets: None)
+    server.serve(folder, port=0, browser=False, say=said.append)
+    token = " ".join(said).partition("token=")[2].split()[0]
+    assert token != known and kept.read_text().strip() == token
     assert brought != "link" or (tmp_path / "elsewhere").read_text() == known
+
+
+EVIL = "<img src=x onerror=window.ran=1>"
+
+
+def test_nothing_in_a_name_runs_and_the_name_is_shown(tmp_path, browser):
+    folder = measured_machine(tmp_path / f"garage {EVIL}")
+    marks = folder / "marks.toml"
+    text = marks.read_text()
+    assert 'name = "1"' in text
+    marks.write_text(text.replace('name = "1"', f"name = '{EVIL}'"))
+    served = serve(folder)
+    context = browser.new_context()
+    page = context.new_page()
+    dialogs, shown = [], []
+    page.on("dialog", lambda dialog: (dialogs.append(dialog.message), dialog.dismiss()))
+    try:
+        page.goto(served.url)
+        page.get_by_text(f"garage {EVIL}").wait_for()
+        for name in walk(page):
+            assert page.evaluate("() => window.ran") is None, name
+            assert page.locator("img[onerror]").count() == 0, name
+            if page.locator("main").get_by_text(EVIL).count():
+                shown.append(name)
+    finally:
+        context.close()
+        served.end()
+    assert dialogs == []
+    assert "readings" in shown
+
+
+SECRET = "a secret\n"
+
+
+@pytest.fixture
+def outside(tmp_path):
+    """A file that is not in the folder."""
+    path = tmp_path / "outside.txt"
+    path.write_text(SECRET)
+    return path
+
+
+@pytest.fixture
+def folder(tmp_path):
+    folder = tmp_path / "folder"
+    folder.mkdir()
+    return folder
+
+
+@pytest.mark.parametrize("is_there", [True, False])
+def test_a_diary_that_is_a_link_is_neither_written_nor_read(folder, outside, is_there):
+    if not is_there:
+        outside.unlink()
+    (folder / "diary.jsonl").symlink_to(outside)
+    with pytest.raises(InputError, match=r"diary\.jsonl: is a link"):
+        append(folder, NUMBERS, {})
+    with pytest.raises(InputError, match=r"diary\.jsonl: is a link"):
+        read_diary(folder)
+    assert "is a link" in keep(str(folder), NUMBERS, {})
+    assert (outside.read_text() == SECRET) if is_there else not outside.exists()
+
+
+LINKED = ["lab.json", "groundcontrol.ini", "marks.toml", "guide.json", "practice.json"]
+READING = ["project", "readings", "grid", "verdict", "guide", "correction"]
+
+
+@pytest.mark.parametrize("name", LINKED)
+def test_no_route_reads_a_link(folder, outside, name):
+    with_settings(folder)
+    form = (EXAMPLE / "marks.toml").read_text()
+    (folder / "marks.toml").write_text(form)
+    sought = {
+        "lab.json": '{"edges": "top-right"}',
+        "guide.json": '{"done": ["read"], "sigmas": {}}',
+    }
+    outside.write_text(sought.get(name, form))
+    (folder / name).unlink(missing_ok=True)
+    (folder / name).symlink_to(outside)
+    before = os.stat(outside)
+    with asked(folder) as client:
+        said = [client.get(f"/api/{route}") for route in READING]
+        assert all(each.status_code in (200, 422) for each in said), [each.text for each in said]
+        refused = [each.text for each in said if each.status_code == 422]
+        assert not any("top-right" in each.text for each in said)
+        if name in ("lab.json", "guide.json"):
+            assert any(
+                f"{name}: is a link" in text or f"{name} is a link" in text for text in refused
+            )
+    assert os.stat(outside).st_mtime_ns == before.st_mtime_ns
+
+
+def test_settings_by_their_digest_are_not_sought_through_a_link(folder, outside):
+    outside.write_bytes((EXAMPLE / "groundcontrol.ini").read_bytes())
+    (folder / "old.ini").symlink_to(outside)
+    named = folder / "groundcontrol.ini"
+    named.write_bytes(outside.read_bytes().replace(b"2978.4", b"2990.0"))
+    assert settings_as_they_were(named, digest_of(outside)) is None
+    (folder / "old.ini").unlink()
+    (folder / "old.ini").write_bytes(outside.read_bytes())
+    assert settings_as_they_were(named, digest_of(outside)) == str(folder / "old.ini")
+
+
+def test_a_result_takes_the_place_of_a_link_and_never_goes_through_it(folder, outside):
+    (folder / "machine.nc").symlink_to(outside)
+    with links_refused():
+        write_all({str(folder / "machine.nc"): b"new"})
+    assert outside.read_text() == SECRET
+    assert not (folder / "machine.nc").is_symlink()
+    assert (folder / "machine.nc").read_bytes() == b"new"
+
+
+def test_a_link_that_the_owner_names_in_a_terminal_is_followed(folder, outside):
+    link = folder / "machine.toml"
+    link.symlink_to(outside)
+    assert read_text(link) == SECRET
+    write_whole(link, b"new")
+    assert outside.read_bytes() == b"new" and link.is_symlink()
+    with links_refused(), pytest.raises(InputError, match="is a link"):
+        read_bytes(link)

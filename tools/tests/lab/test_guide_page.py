@@ -1,11 +1,19 @@
-"""The first day in a browser: a reversed motor on a serial port is found, and its wire named."""
+"""The first day, by the routes and on the page: a reversed motor is found, and its wire named."""
+
+import json
+from threading import Event
 
 import pytest
+from first_day import OWNER
+from folder import PATIENCE, asked, awaited, got, until
 from playwright.sync_api import expect
+from plumb.diary.file import read_diary
+from plumb.guide.steps import STEPS
 from plumb.guide.talk import progress_in
+from plumb.line.memory import kept_before
 from screens import at_rest, await_question
 
-WIDE, PHONE = {"width": 1280, "height": 900}, {"width": 375, "height": 812}
+PHONE = {"width": 375, "height": 812}
 
 
 @pytest.fixture
@@ -83,21 +91,8 @@ def test_an_answer_from_before_a_press_is_not_taken_for_the_state_after_it(first
     page.get_by_role("button", name="Begin: Does each motor").wait_for()
 
 
-def test_a_second_tab_sees_the_question_that_the_first_asked_for(first_day, lab):
-    second = first_day.context.new_page()
-    second.goto(lab.site)
-    second.get_by_role("button", name="Begin: Read the machine's numbers").wait_for()
-    first_day.get_by_role("button", name="Begin: Read the machine's numbers").click()
-    first_day.get_by_role("button", name="Begin: Does each motor").click()
-    second.get_by_role("button", name="Wind 20 mm of the left chain in").wait_for()
-    second.get_by_role("button", name="Take over").click()
-    second.get_by_role("button", name="Not now").click()
-    first_day.get_by_role("button", name="Begin: Does each motor").wait_for()
-
-
-@pytest.mark.parametrize("size", [WIDE, PHONE], ids=["wide", "phone"])
-def test_the_guide_fits_the_page(first_day, size):
-    first_day.set_viewport_size(size)
+def test_the_guide_fits_a_phone(first_day):
+    first_day.set_viewport_size(PHONE)
     first_day.get_by_role("button", name="Begin: Read the machine's numbers").click()
     first_day.get_by_text("The machine answers").wait_for()
     first_day.get_by_role("button", name="Begin: Does each motor").click()
@@ -105,4 +100,131 @@ def test_the_guide_fits_the_page(first_day, size):
     press.wait_for()
     assert press.bounding_box()["height"] >= 44
     width = first_day.evaluate("document.documentElement.scrollWidth")
-    assert width <= size["width"]
+    assert width <= PHONE["width"]
+
+
+@pytest.fixture
+def day(tmp_path):
+    with asked(tmp_path) as client:
+        got(client.post("/api/machine/virtual", json={"hides": "nothing", "speed": 1000}))
+        until(client, lambda machine: machine["phase"] == "ready")
+        yield client
+        client.post("/api/machine/disconnect")
+
+
+def machine_of(client):
+    return client.app.app.state.line.virtual.machine
+
+
+def next_question(client):
+    """What the guide asks next; None if the step has ended."""
+    return awaited(client, "guide", lambda guide: guide["question"] or not guide["here"])[
+        "question"
+    ]
+
+
+def ended(client):
+    awaited(client, "guide", lambda guide: not guide["here"])
+
+
+def reply(client, question, text, status=200):
+    body = {"number": question["number"], "reply": text}
+    return got(client.post("/api/guide/answer", json=body), status)
+
+
+def take(client, step, answers=OWNER, *, last=""):
+    """Take a step by these answers, up to a question that has `last` in it; what was asked."""
+    got(client.post("/api/guide/begin", json={"step": step}))
+    questions = []
+    while question := next_question(client):
+        questions.append(question)
+        if last and last in question["text"]:
+            break
+        known = f"{question['text']} {question['kind']}"
+        reply(client, question, next(text for piece, text in answers.items() if piece in known))
+    return questions
+
+
+def test_the_whole_day(day, tmp_path):
+    for step in STEPS:
+        questions = take(day, step.name)
+        guide = got(day.get("/api/guide"))
+        assert guide["trouble"] == "", guide
+        moving = [question for question in questions if question["kind"] == "go"]
+        assert all(question["act"] for question in moving)
+    assert progress_in(tmp_path).done == [step.name for step in STEPS] and guide["open"] == ""
+    choices = got(day.get("/api/project"))["choices"]
+    assert choices["settings"] == "machine.toml"
+    assert choices["known"]["motor_gap"] == {"value": 2980.0, "sigma": 4.0}
+    assert set(choices["known"]) == {"motor_gap", "motor_height", "rotation_radius", "sled_weight"}
+    assert day.app.app.state.line.virtual.settings.motor_gap == 2980
+    machine = machine_of(day)
+    assert max(map(abs, machine.sled)) < 30 and machine.cuts()
+    assert "the mark is" in guide["said"][-1].lower()
+    (entry,) = read_diary(tmp_path).entries
+    assert entry.content["changed"]["$2"] == [2978.4, 2980]
+    assert "$2=2978.4" in kept_before(tmp_path / "machine.toml")
+
+
+def test_nothing_moves_before_a_yes_and_a_no_leaves_the_step_open(day, tmp_path):
+    take(day, "read")
+    before = machine_of(day).chains
+    (question,) = take(day, "wires", {"LEFT motor winds": "n"})
+    assert question["act"] == "Wind 20 mm of the left chain in"
+    assert machine_of(day).chains == pytest.approx(before, abs=0.02)
+    assert progress_in(tmp_path).done == ["read"]
+
+
+def test_a_step_is_left_and_taken_up_again(day, tmp_path):
+    take(day, "read")
+    take(day, "wires", last="RIGHT motor winds")
+    assert got(day.post("/api/guide/leave"))["question"] is None
+    ended(day)
+    guide = got(day.get("/api/guide"))
+    assert "You left this step" in guide["trouble"] and guide["open"] == "wires"
+    assert json.loads((tmp_path / "guide.json").read_text())["done"] == ["read"]
+    take(day, "wires")
+    assert got(day.get("/api/guide"))["open"] == "numbers"
+
+
+def test_steps_come_in_order_one_at_a_time(day):
+    refused = got(day.post("/api/guide/begin", json={"step": "chains"}), 422)
+    assert "first Read the machine's numbers" in refused["error"]
+    got(day.post("/api/guide/begin", json={"step": "wrong"}), 422)
+    take(day, "read")
+    question = take(day, "wires", last="LEFT motor winds")[-1]
+    assert (
+        "finish or leave it"
+        in got(day.post("/api/guide/begin", json={"step": "read"}), 422)["error"]
+    )
+    assert "busy" in got(day.post("/api/machine/line", json={"text": "B05"}), 422)["error"]
+    reply(day, question, "perhaps", 422)
+    reply(day, {"number": question["number"] + 1}, "y", 422)
+    reply(day, question, "n")
+    reply(day, question, "n", 422)
+
+
+def test_stop_ends_a_step_that_waits_and_the_line_is_free(day):
+    take(day, "read")
+    take(day, "wires", last="LEFT motor winds")
+    got(day.post("/api/machine/stop"))
+    ended(day)
+    assert "Stop was pressed" in got(day.get("/api/guide"))["trouble"]
+    until(day, lambda machine: machine["phase"] == "ready")
+
+
+def test_a_step_lasts_until_the_line_is_free(day, monkeypatch):
+    work_has_ended, line_is_free = Event(), Event()
+
+    def working(works):
+        if not works:
+            work_has_ended.set()
+            line_is_free.wait(PATIENCE)
+
+    monkeypatch.setattr(day.app.app.state.line._worker, "_working", working)
+    got(day.post("/api/guide/begin", json={"step": "read"}))
+    assert work_has_ended.wait(PATIENCE)
+    assert got(day.get("/api/guide"))["here"] == "read"
+    line_is_free.set()
+    ended(day)
+    got(day.post("/api/guide/begin", json={"step": "wires"}))

@@ -1,10 +1,14 @@
-"""The numbers of a machine against those of the open file: marks are cut with neither of two."""
+"""The numbers of a machine against those of the open file: marks are cut with neither of two, and
+the page asks which hold.
+"""
 
-import tomllib
+import re
 
 import pytest
 from folder import EXAMPLE, asked, choose, example_form, got, until
-from plumb.firmware.settings import differences, digest_of_numbers, numbers_in_force
+from lab_machine import PATIENCE, start_virtual
+from playwright.sync_api import expect
+from plumb.firmware.settings import differences, numbers_in_force
 from plumb.settings.files import read_settings
 
 SHORT = {"noise": 0.1, "hides": "nothing", "speed": 1000}
@@ -49,33 +53,6 @@ def test_a_file_with_another_gap_is_said_with_both_values_and_nothing_is_cut(cli
     assert "Which holds?" in refused
     assert not (folder / "marks.toml").exists()
     assert got(client.get("/api/machine"))["program"] is None
-
-
-def test_what_the_marks_say_they_were_cut_with_is_what_the_machine_has(client, folder):
-    file = open_other(client, folder)
-    got(client.post("/api/grid/cut"), 422)
-    replaces = got(client.get("/api/machine"))["numbers_digest"]
-    written = got(client.post("/api/machine/numbers", json={"file": file, "replaces": replaces}))
-    assert [each["number"] for each in written["changed"]] == [2]
-    assert got(client.get("/api/machine"))["numbers_digest"] != replaces
-    assert got(client.get("/api/machine/held"))["numbers"] == []
-    try:
-        got(client.post("/api/grid/cut"))
-        named = tomllib.loads((folder / "marks.toml").read_text())["cut_with"]
-        held = client.app.app.state.line.state.numbers
-        assert named == file and differences(read_settings(folder / named), held) == ()
-    finally:
-        got(client.post("/api/machine/stop"))
-        until(client, lambda state: state["phase"] == "ready" and not state["moves"])
-        got(client.post("/api/machine/undo", json={"file": file}))
-
-
-def test_the_machines_numbers_are_taken_into_the_folder_as_the_other_answer(client, folder):
-    file = open_other(client, folder)
-    project = got(client.post("/api/machine/settings"))
-    assert project["machine"]["frame"]["motor_gap"] == 2978.4
-    assert project["choices"]["settings"] != file and (folder / file).exists()
-    assert got(client.get("/api/machine/held"))["numbers"] == []
 
 
 def test_marks_that_somebody_took_are_cut_only_with_what_their_form_names(client, folder):
@@ -145,15 +122,41 @@ def test_a_client_that_sent_its_file_made_the_machine_of_that_file(machine):
     assert [each.number for each in differences(machine, listed(machine, n40=0.2))] == [40]
 
 
-def test_a_correction_that_a_client_does_not_know_is_a_difference(machine):
-    assert [each.number for each in differences(machine, listed(machine, n180=0.001))] == [180]
-    assert [each.number for each in differences(machine, listed(machine, n64=2.0))] == [64]
+GAP = re.compile(r"motor_gap\s*\$2 = 3008\.4 mm\s*\$2 = 2978\.4 mm")
 
 
-def test_a_sled_on_brackets_is_another_machine(machine):
-    assert [each.number for each in differences(machine, listed(machine, n7=1))] == [7]
+def question(page):
+    return page.get_by_role("alert", name="Which numbers hold?")
 
 
-def test_digests_go_by_the_numbers_alone():
-    assert digest_of_numbers({1: 2.0, 3: 4.0}) == digest_of_numbers({3: 4.0, 1: 2.0})
-    assert digest_of_numbers({1: 2.0}) != digest_of_numbers({1: 2.5})
+def with_another_file(lab, page):
+    """A virtual machine is connected, and a file with another gap between the motors opened."""
+    start_virtual(page, lab)
+    other = lab.folder / "machine.toml"
+    content = other.read_text().replace("2978.4", "3008.4").encode()
+    picked = {"name": "other.toml", "mimeType": "text/plain", "buffer": content}
+    page.locator("input[type=file]").first.set_input_files(picked)
+    expect(question(page)).to_contain_text(GAP, timeout=PATIENCE)
+
+
+def test_nothing_is_cut_before_it_is_said_which_numbers_hold(lab, page):
+    with_another_file(lab, page)
+    page.goto(f"{lab.site}#/cut")
+    expect(question(page)).to_contain_text(GAP, timeout=PATIENCE)
+    page.get_by_role("button", name="Move the sled and cut 9 marks").click()
+    said = page.get_by_text(re.compile(r"is 3008\.4 in .* and 2978\.4 in the machine"))
+    expect(said).to_be_visible(timeout=PATIENCE)
+    assert not (lab.folder / "marks.toml").exists()
+    question(page).get_by_role("button", name="The machine's: take them").click()
+    expect(question(page)).to_have_count(0, timeout=PATIENCE)
+    expect(page.get_by_text(re.compile("Which holds"))).to_have_count(0)
+    page.get_by_role("button", name="Move the sled and cut 9 marks").click()
+    page.get_by_text("All marks are cut.").wait_for(timeout=PATIENCE)
+
+
+def test_the_files_numbers_go_into_the_machine_as_the_other_answer(lab, page):
+    with_another_file(lab, page)
+    question(page).get_by_role("button", name="send them to the machine").click()
+    expect(question(page)).to_have_count(0, timeout=PATIENCE)
+    (before,) = lab.folder.glob("*-before-*.nc")
+    assert "$2=2978.4\n" in before.read_text()

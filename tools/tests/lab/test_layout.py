@@ -5,7 +5,7 @@ from functools import partial
 
 import pytest
 from folder import asked, finished, got
-from lab_machine import PATIENCE, bar, start_virtual
+from lab_machine import PATIENCE
 from playwright.sync_api import expect
 from plumb.lab.broken_cut import NOTES, BrokenCut, digest_of_sent
 from plumb.lab.project import CUT
@@ -24,8 +24,6 @@ FIRST = {
     "correct": ".numbers input",
 }
 ON_PHONE = ("known", "cut", "readings", "verdict", "correct")
-# The button of a screen whose fields come before it.
-ACTS = {"verdict": "Find the best next", "correct": "Accept a number", "bench": "Write these"}
 
 
 @pytest.fixture
@@ -44,33 +42,16 @@ def measured(lab, page):
     return opened
 
 
-@pytest.mark.parametrize(
-    ("step", "size"),
-    [*((step, WIDE) for step in FIRST), *((step, NARROW) for step in ON_PHONE)],
-    ids=[*FIRST, *(f"{step}-on-phone" for step in ON_PHONE)],
-)
-def test_the_first_thing_to_do_is_on_the_first_screen(measured, step, size):
-    page = measured(step)
-    page.set_viewport_size(size)
-    at_rest(page)
-    first = page.locator(FIRST[step]).first
-    first.wait_for()
-    foot = page.locator(".way-on").bounding_box()["y"]
-    box = first.bounding_box()
-    assert box["y"] + box["height"] <= foot
-    expect(page.get_by_role("heading", level=1)).to_be_in_viewport(ratio=1)
-    expect(page.locator(".way-on .after")).to_be_in_viewport(ratio=1)
-
-
-@pytest.mark.parametrize("step", ["known", "readings", "verdict"])
-def test_the_picture_stays_while_the_work_scrolls(measured, step):
-    page = measured(step)
-    picture = page.locator(".stage svg").first
-    picture.wait_for()
-    page.locator(".work details").last.scroll_into_view_if_needed()
-    at_rest(page)
-    assert page.evaluate("() => scrollY") > 0
-    expect(picture).to_be_in_viewport(ratio=0.9)
+@pytest.mark.parametrize(("size", "steps"), [(WIDE, FIRST), (NARROW, ON_PHONE)])
+def test_the_first_thing_to_do_is_on_the_first_screen(measured, size, steps):
+    for step in steps:
+        page = measured(step)
+        page.set_viewport_size(size)
+        at_rest(page)
+        box = page.locator(FIRST[step]).first.bounding_box()
+        assert box["y"] + box["height"] <= page.locator(".way-on").bounding_box()["y"], step
+        expect(page.get_by_role("heading", level=1)).to_be_in_viewport(ratio=1)
+        expect(page.locator(".way-on .after")).to_be_in_viewport(ratio=1)
 
 
 def test_the_error_stays_in_view_down_to_the_last_effect(measured):
@@ -91,35 +72,6 @@ def test_the_error_stays_in_view_down_to_the_last_effect(measured):
     expect(fallen).to_have_text(number.inner_text().removesuffix(" mm"))
 
 
-def test_a_phone_has_one_column_and_small_bars(measured):
-    page = measured("known")
-    page.set_viewport_size(NARROW)
-    at_rest(page)
-    asks, stage, work = (
-        page.locator(f".screen .{part}").bounding_box() for part in ("asks", "stage", "work")
-    )
-    assert asks["y"] < stage["y"] < work["y"]
-    assert {box["x"] for box in (asks, stage, work)} == {asks["x"]}
-    foot = page.locator(".way-on")
-    expect(foot).to_be_in_viewport(ratio=1)
-    page.locator(".known input").last.scroll_into_view_if_needed()
-    seen = "each => Math.max(0, each.getBoundingClientRect().bottom)"
-    bars = page.locator("header").evaluate(seen) + foot.bounding_box()["height"]
-    assert bars <= 0.15 * NARROW["height"]
-
-
-def test_a_phone_shows_the_first_field_of_the_readings_without_scrolling(measured):
-    page = measured("readings")
-    page.set_viewport_size(NARROW)
-    at_rest(page)
-    fields = page.locator(".cells input")
-    fields.first.wait_for()
-    for field in (fields.nth(0), fields.nth(1)):
-        box = field.bounding_box()
-        assert box["y"] + box["height"] <= page.locator(".way-on").bounding_box()["y"]
-    expect(page.get_by_label("Measured from")).to_be_in_viewport(ratio=1)
-
-
 def test_the_steps_fold_on_a_phone_when_the_open_step_is_chosen_again(measured):
     page = measured("known")
     page.set_viewport_size(NARROW)
@@ -129,35 +81,6 @@ def test_the_steps_fold_on_a_phone_when_the_open_step_is_chosen_again(measured):
         steps.get_by_role("link", name=step).click()
         expect(steps.get_by_role("button")).to_have_attribute("aria-expanded", "false")
         expect(steps.get_by_role("link", name=step)).to_be_hidden()
-
-
-@pytest.mark.parametrize("size", [WIDE, NARROW], ids=["wide", "narrow"])
-@pytest.mark.parametrize("step", ACTS)
-def test_the_button_of_a_screen_is_in_view_and_covers_no_foot(measured, step, size):
-    page = measured(step)
-    page.set_viewport_size(size)
-    at_rest(page)
-    act = page.get_by_role("button", name=ACTS[step])
-    expect(act).to_be_in_viewport(ratio=1)
-    page.mouse.wheel(0, 300)
-    at_rest(page)
-    assert page.evaluate("() => scrollY") > 0
-    expect(act).to_be_in_viewport(ratio=1)
-    foot = page.locator(".way-on")
-    box = act.bounding_box()
-    if foot.count():
-        assert box["y"] + box["height"] <= foot.bounding_box()["y"]
-        assert size == WIDE or page.viewport_size["height"] - box["y"] <= 0.15 * size["height"]
-
-
-def test_a_connected_machine_covers_neither_button_nor_foot(lab, page):
-    start_virtual(page, lab)
-    page.set_viewport_size(WIDE)
-    page.goto(f"{lab.site}#/known")
-    on = page.locator(".way-on .after")
-    expect(on).to_be_in_viewport(ratio=1)
-    box = on.bounding_box()
-    assert box["y"] + box["height"] <= bar(page).bounding_box()["y"]
 
 
 # What each screen of a machine that was measured wants: its button, or the way to the next screen.
@@ -247,11 +170,12 @@ def with_machine(page, **state):
 
 
 @pytest.fixture
-def opened(lab, page):
+def opened(lab, fresh_page):
     """Opens the page of a folder, with a machine that does something."""
 
     def open_page(folder=measured_machine, **state):
         folder(lab.folder)
+        page = fresh_page
         if state:
             with_machine(page, **state)
         page.goto(f"{lab.url}#/open")
@@ -269,10 +193,8 @@ def test_so_does_every_screen_with_a_machine_that_stands(opened):
     none_out_of_view(opened(**AT_REST), WITH_MACHINE)
 
 
-@pytest.mark.parametrize("kind", ["board", "virtual"])
-def test_while_the_machine_cuts_every_screen_shows_stop(opened, kind):
-    cuts = {"moves": True, "phase": "busy", "program": RUNS, "place": [-812.4, -402.1, 13.5]}
-    page = opened(**{**cuts, "kind": kind, "name": kind})
+def test_while_the_machine_cuts_every_screen_shows_stop(opened):
+    page = opened(moves=True, phase="busy", program=RUNS, place=[-812.4, -402.1, 13.5])
     none_out_of_view(page, dict.fromkeys(WITH_MACHINE, "Stop"))
 
 
@@ -355,14 +277,13 @@ CUT_STATES = {
         "Go on",
     ),
     "proposed": (proposed, AT_REST, "Move the sled and cut"),
-    "proposed-alone": (proposed, None, "Type what your tape says"),
 }
 
 
 @pytest.mark.parametrize("state", CUT_STATES)
 def test_cut_shows_what_it_wants_in_each_of_its_states(opened, state):
     folder, machine, wanted = CUT_STATES[state]
-    page = opened(folder, **({"place": [0, 0, 5], **machine} if machine is not None else {}))
+    page = opened(folder, **{"place": [0, 0, 5], **machine})
     none_out_of_view(page, {"cut": wanted})
 
 
@@ -381,11 +302,10 @@ def test_which_mark_is_the_last_is_asked_anew_after_each_break(opened, lab):
     expect(asks.get_by_role("radio", checked=True)).to_have_count(0)
 
 
-@pytest.mark.parametrize("size", [WIDE, NARROW], ids=["wide", "narrow"])
-def test_the_next_measurement_comes_into_view_with_its_button(opened, size):
+def test_the_next_measurement_comes_into_view_with_its_button(opened):
     page = opened()
     page.goto(page.url.replace("open", "verdict"))
-    page.set_viewport_size(size)
+    page.set_viewport_size(NARROW)
     page.get_by_role("button", name="Find the best next").click(timeout=PATIENCE)
     expect(page.get_by_role("heading", name="Next: ")).to_be_in_viewport(timeout=PATIENCE)
     none_out_of_view(page, {"verdict": "Type what you measured"})

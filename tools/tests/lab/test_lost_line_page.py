@@ -1,10 +1,15 @@
-"""A line that is lost, and a port that is refused: one state, and help at the control."""
+"""A line that is lost, a lab that says nothing: what the page says, and what stops the machine."""
+
+import re
+import signal
 
 import pytest
 from folder import got
-from lab_machine import PATIENCE, bar
+from lab_machine import PATIENCE, bar, start_virtual
 from playwright.sync_api import expect
+from served_lab import serve
 
+UNREACHABLE = "Cannot reach the machine: use its power switch"
 NEAR = 160  # CSS pixels between a button and what is said of it
 
 
@@ -19,13 +24,8 @@ def lost(lab, page, cable):
     expect(bar(page)).to_contain_text("stands", timeout=PATIENCE)
     pulled.set()
     expect(bar(page)).to_contain_text("the line is lost", timeout=PATIENCE)
+    expect(bar(page)).to_contain_text(f"{UNREACHABLE}.", timeout=PATIENCE)
     return path
-
-
-def test_a_line_that_is_lost_is_not_called_connected(page, lost):
-    expect(page.get_by_role("heading", name=f"The line to {lost} is lost")).to_be_visible()
-    assert page.get_by_text("is connected").count() == 0
-    assert page.get_by_role("button", name=f"Connect {lost} again").count() == 1
 
 
 def test_the_bar_connects_again_and_offers_what_is_plugged_in_by_now(page, lost):
@@ -56,15 +56,6 @@ def test_the_bar_connects_at_any_port_whose_name_is_typed(page, lost):
     expect(bar(page)).to_contain_text("/dev/ttyACM7: the line is lost", timeout=PATIENCE)
 
 
-def test_a_port_is_on_usb_or_it_is_another_port(page, lab):
-    modem = {"path": "/dev/ttyS0", "title": "", "is_board": False}
-    page.route("**/api/machine/ports", lambda route: route.fulfill(json=[modem]))
-    page.goto(lab.url)
-    expect(page.get_by_text("No board is there")).to_be_visible()
-    page.get_by_text("Another port").click()
-    expect(page.get_by_role("button", name="Connect /dev/ttyS0")).to_be_visible()
-
-
 def test_what_is_refused_stands_at_its_button(page, lab):
     page.goto(lab.url)
     page.get_by_text("Another port").click()
@@ -75,3 +66,52 @@ def test_what_is_refused_stands_at_its_button(page, lab):
     expect(said).to_be_visible()
     pressed, words = button.bounding_box(), said.bounding_box()
     assert abs(words["y"] - pressed["y"]) < NEAR
+
+
+@pytest.fixture
+def cutting(lab, page):
+    """The page of a slow machine in mid-cut."""
+    start_virtual(page, lab, speed=10)
+    page.goto(f"{lab.site}#/cut")
+    page.get_by_role("button", name="Move the sled and cut 9 marks").click()
+    bar(page).get_by_text(re.compile(r"runs grid.nc: [3-9] of")).wait_for(timeout=PATIENCE)
+    return page
+
+
+def test_a_lab_that_was_killed_in_a_cut_is_not_taken_for_a_machine_that_runs(lab, cutting):
+    lab.process.kill()
+    shown = bar(cutting)
+    shown.get_by_role("button", name="Stop", exact=True).click()
+    expect(shown).to_contain_text("Nobody answers Stop; it is sent again and again.")
+    expect(shown).to_contain_text(re.compile(r"last seen \d+ s ago"))
+    expect(shown.get_by_role("button", name=UNREACHABLE)).to_be_visible()
+    expect(shown.get_by_role("button", name="Stop", exact=True)).to_have_count(0)
+    expect(shown.locator(".old .place")).to_be_visible()
+    expect(cutting.get_by_role("heading", name="Nobody sees the machine")).to_be_visible()
+    assert "runs grid.nc" not in shown.inner_text()
+    lab.process = serve(lab.folder, port=lab.port).process
+    expect(cutting.get_by_role("region", name="The machine", exact=True)).to_have_count(0)
+
+
+def test_a_stop_that_nobody_heard_stops_the_machine_as_soon_as_the_lab_hears(lab, cutting):
+    shown = bar(cutting)
+    lab.process.send_signal(signal.SIGSTOP)
+    try:
+        shown.locator("button.stop").click()
+        expect(shown).to_contain_text("Nobody answers Stop; it is sent again and again.")
+        expect(shown.get_by_role("button", name=UNREACHABLE)).to_be_visible()
+    finally:
+        lab.process.send_signal(signal.SIGCONT)
+    expect(shown).to_contain_text("Stop was passed on to the machine.")
+    expect(cutting.get_by_text("Stopped. The machine knows")).to_be_visible()
+    expect(shown.get_by_role("button", name="Stop", exact=True)).to_be_visible()
+
+
+def test_stop_comes_through_while_the_browser_has_no_connection_left(lab, cutting):
+    """A browser sends six requests at a time: questions that nobody answers take them all."""
+    lines = "() => { for (let i = 0; i < 6; i++) void fetch('api/machine/slow' + i); }"
+    cutting.route("**/api/machine/s*", lambda route: None)  # held back, Stop as a request too
+    cutting.evaluate(lines)
+    bar(cutting).get_by_role("button", name="Stop", exact=True).click()
+    expect(bar(cutting)).to_contain_text("Stop was passed on to the machine.")
+    expect(cutting.get_by_text("Stopped. The machine knows")).to_be_visible()

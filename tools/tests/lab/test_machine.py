@@ -1,29 +1,26 @@
-"""The line to a machine by the lab's routes, and the live line to the page."""
+"""The line to a machine by the lab's routes, and the live line to the page; Stop and Hold pass."""
 
 import json
+import socket
 import time
 import tomllib
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import ExitStack
 from threading import Event
+from types import SimpleNamespace
 
 import pytest
-from folder import got
+from attacks import Try, answered, status
+from folder import asked, got
 from plumb.lab import machine_line
+from plumb.lab.machine_line import MachineLine
 from plumb.line import worker
 from plumb.line.port import LostError
 from plumb.line.sender import STOP
-from served_lab import serve
-from websockets.exceptions import InvalidStatus
+from plumb.line.worker import LineWorker
 from websockets.sync.client import connect
 
 PATIENCE = 120  # [s] of a busy computer
-
-
-@pytest.fixture(scope="module")
-def lab(tmp_path_factory):
-    """A lab for all of these tests; each begins without a machine."""
-    served = serve(tmp_path_factory.mktemp("lab"))
-    yield served
-    served.end()
 
 
 @pytest.fixture
@@ -81,12 +78,6 @@ def test_a_link_leads_to_its_port_and_to_nothing_else(ask, cable, tmp_path):
     state = until(ask, lambda state: state["phase"] == "ready")
     assert state["name"] == str(link)
     assert "is no serial port" in ask("POST", "machine/board", 422, port=str(other))["error"]
-
-
-def test_a_port_that_is_not_there_is_said(ask):
-    ask("POST", "machine/board", port="/dev/ttyNOWHERE")
-    state = until(ask, lambda state: state["phase"] == "lost")
-    assert "/dev/ttyNOWHERE: cannot be opened; check the cable" in state["trouble"]
 
 
 def test_a_virtual_machine_gives_its_settings_takes_others_and_gets_its_own_back(lab, ask):
@@ -153,15 +144,6 @@ def test_the_live_line_says_that_the_sled_moves_holds_and_stops(lab, ask):
         stopped = next_state(lambda state: state["phase"] == "ready")
         assert stopped["program"]["outcome"] == "stopped"
         assert 5 < stopped["place"][0] < 790 and stopped["knows_place"]
-
-
-def test_the_live_line_is_for_our_page_alone(lab):
-    for token, more in (
-        ("wrong", {}),
-        (lab.token, {"additional_headers": {"Origin": "http://evil.example"}}),
-    ):
-        with pytest.raises(InvalidStatus), live(lab, token, **more):
-            pass
 
 
 @pytest.mark.parametrize("port", ["/dev/ttyACM0", "/dev/ttyACM1"])
@@ -265,3 +247,107 @@ def test_a_cable_pulled_in_mid_cut_is_said(ask, cable):
     assert state["program"]["outcome"] == "lost" and not state["knows_place"]
     assert "the line was lost" in state["trouble"] and "of 179 lines of job.nc" in state["trouble"]
     assert "connect it again" in ask("POST", "machine/line", 422, text="B15")["error"]
+
+
+BUSY_S = 120  # of a busy computer
+
+
+class Reporting:
+    """A board that reports until a test silences it, as long as that wants."""
+
+    is_silent = False
+    time = step = 0.0  # [s] of its clock, and what each look adds
+
+    def read(self):
+        time.sleep(0.001)
+        return b"" if self.is_silent else b"ok\r\n<Idle,MPos:0.00,0.00,0.00,WPos:0,0,0>\r\n"
+
+    def write(self, characters):
+        pass
+
+    def seconds(self):
+        self.time += self.step
+        return self.time
+
+    def close(self):
+        pass
+
+
+def once(true):
+    end = time.monotonic() + BUSY_S
+    while not true():
+        assert time.monotonic() < end
+        time.sleep(0.002)
+
+
+def test_a_silent_board_grows_older(monkeypatch):
+    board, ahead = Reporting(), SimpleNamespace(seconds=0.0)
+    line = LineWorker(lambda: board)
+    once(lambda: line.state.phase == "ready")
+    monkeypatch.setattr(worker, "monotonic", lambda: time.monotonic() + ahead.seconds)
+    once(lambda: line.silence < 1.0)
+    board.is_silent, ahead.seconds = True, 4.0
+    assert 4.0 <= line.silence < BUSY_S
+    board.is_silent, board.step = False, 0.1
+    line.close()  # once the machine has kept its place
+    once(lambda: line.silence == 0.0)  # no report is due
+
+
+PRESSES = ("hold", "stop")
+THREADS = 40  # in which the server answers
+
+
+def pressed(lab, way):
+    """The answer to a press: no machine is connected, and the route itself says so."""
+    answer = answered(lab, Try("POST", f"/api/machine/{way}", body=b"").bytes(lab))
+    assert status(answer) == 422 and b"connect it first" in answer, answer
+
+
+@pytest.mark.parametrize("target", ["/", "/lab.js"])
+def test_connections_without_a_token_do_not_keep_stop_out(lab, target):
+    """They were answered and rest, or do not read the answer."""
+    ask = Try("GET", target, (("X-Plumb-Token", None),), b"").bytes(lab)
+    with ExitStack() as lines:
+        for _ in range(150):
+            line = lines.enter_context(socket.create_connection(("127.0.0.1", lab.port), BUSY_S))
+            line.sendall(ask)
+            if target == "/":
+                assert line.recv(65_536).startswith(b"HTTP/1.1 200")
+        for way in PRESSES:
+            pressed(lab, way)
+
+
+@pytest.mark.parametrize("way", PRESSES)
+def test_no_thread_of_the_server_has_to_be_free(tmp_path, monkeypatch, way):
+    released, pressed = Event(), Event()
+    monkeypatch.setattr(MachineLine, "worker", SimpleNamespace(**{way: pressed.set}))
+    monkeypatch.setattr(MachineLine, "disconnect", lambda line: released.wait(BUSY_S))
+    with asked(tmp_path) as client, ThreadPoolExecutor(THREADS + 1) as others:
+        busy = [others.submit(client.post, "/api/machine/disconnect") for _ in range(THREADS)]
+        try:
+            answer = others.submit(client.post, f"/api/machine/{way}").result(BUSY_S)
+            assert answer.status_code == 200 and pressed.is_set()
+            assert not any(each.done() for each in busy)
+        finally:
+            released.set()
+
+
+@pytest.mark.parametrize("way", PRESSES)
+def test_the_live_line_takes_presses_and_answers_each(lab, way):
+    address = f"ws://127.0.0.1:{lab.port}/api/live"
+    with connect(address, subprotocols=["plumb", lab.token]) as line:
+        line.send("x" * 50_000)
+        line.send(f"start 6 {way} 6")
+        line.send(f"{way} 7")
+        said = {}
+        while "press" not in said:
+            said = json.loads(line.recv(timeout=BUSY_S))
+        assert said["press"] == 7 and "connect it first" in said["error"]
+
+
+def test_the_live_line_speaks_though_nothing_changes(lab):
+    address = f"ws://127.0.0.1:{lab.port}/api/live"
+    with connect(address, subprotocols=["plumb", lab.token]) as line:
+        said = [json.loads(line.recv(timeout=BUSY_S)) for _ in range(4)]
+        states = [each for each in said if "kind" in each]
+        assert len(states) >= 3 and states[0] == states[1] == states[2]

@@ -1,17 +1,19 @@
-"""Taking a proposal: the files of its command, byte for byte, and nothing is overwritten."""
+"""Taking a proposal: the files of its command, byte for byte; cut, typed, counted on the page."""
 
 import json
-import math
 import shlex
 from contextlib import contextmanager
 
 import pytest
 from folder import asked, finished, got, type_in, until
+from lab_machine import PATIENCE, bar, start_virtual
+from playwright.sync_api import expect
 from plumb.cli.main import main
 from plumb.lab.broken_cut import digest_of_sent
 from plumb.lab.project import CUT
 from plumb.marks.form import head_of, read_form, toml_text
-from plumb.marks.read import Measurements
+from plumb.marks.read import Measurements, read_marks
+from plumb.settings.files import read_settings
 from plumb.settings.toml import write_machine_toml
 from plumb.vm.owner import VirtualOwner
 from synthetic import BELIEVED, SHEET, TRUE, grid, marks_on
@@ -89,9 +91,8 @@ def virtual_machine(client, *, speed=1000):
     got(client.post("/api/machine/disconnect"))
 
 
-@pytest.mark.parametrize("units", ["inch", pytest.param("mm", marks=pytest.mark.slow)])
-def test_what_is_taken_is_what_the_command_writes(client, folder, units):
-    choose(folder, units=units, known={"motor_gap": {"value": 2979.0, "sigma": 0.5}})
+def test_what_is_taken_is_what_the_command_writes(client, folder):
+    choose(folder, units="inch", known={"motor_gap": {"value": 2979.0, "sigma": 0.5}})
     each = takings(client)
     assert {"chains swapped, 4 marks", "4 marks with 5 kg more", "every mark read again"} <= {*each}
     for title, taking in each.items():
@@ -148,7 +149,8 @@ def test_nothing_in_the_folder_is_overwritten(client, folder):
 
 def test_a_proposal_that_the_page_did_not_show_is_not_taken(client, folder):
     taking = takings(client)["4 more marks"]
-    for changed in ({"digest": "0" * 64}, {"choose": taking["choose"] + 1}):
+    other = takings(client)["4 marks with 5 kg more"]
+    for changed in ({"digest": "0" * 64}, {"choose": other["choose"]}):
         refused = got(client.post("/api/next", json={**wanted(taking), **changed}), 409)
         assert refused["error"].startswith("the proposal has changed")
     for number in (0, 99):
@@ -163,7 +165,7 @@ def test_a_proposal_that_the_page_did_not_show_is_not_taken(client, folder):
     assert names(folder) == BEFORE
 
 
-@pytest.mark.parametrize("name", ["machine.toml", MARKS, "lab.json", "more.toml.bak"])
+@pytest.mark.parametrize("name", [MARKS, "more.toml.bak"])
 def test_only_a_form_of_a_proposal_is_taken_out(client, folder, name):
     (folder / "machine.nc").write_text("mine")
     (folder / "more.toml.bak").write_text("mine")
@@ -191,16 +193,6 @@ def test_after_a_correction_the_form_names_the_settings_that_are_open(client, fo
         assert rounds[0].cut_with.motor_gap == 2981.0
     finally:
         (folder / MARKS).write_text(marks)
-
-
-def test_a_way_that_the_sled_cannot_take_is_said_and_not_cut(client, folder):
-    take(client, "4 more marks")
-    form = (folder / "more.toml").read_text()
-    lines = [line for line in form.splitlines() if line.startswith("target")]
-    (folder / "more.toml").write_text(form.replace(lines[0], "target = [5.0, 1218.0]"))
-    assert "leaves the sheet" in got(client.get("/api/grid"))["trouble"]
-    with virtual_machine(client):
-        assert "leaves the sheet" in got(client.post("/api/grid/cut"), 422)["error"]
 
 
 def test_a_virtual_machine_bears_the_weight_from_pause_to_pause(client, folder, monkeypatch):
@@ -284,49 +276,78 @@ def test_a_proposal_goes_on_where_its_pauses_are_before_all_its_marks(
     assert shown["broke_off"] == 1 and shown["goes_on"] == goes_on
 
 
-def test_chains_of_a_virtual_machine_stay(client, folder):
-    take(client, "chains swapped, 4 marks")
-    shown = got(client.get("/api/grid"))
-    assert [pause["do"].split(",")[0] for pause in shown["pauses"]] == [
-        "hang each chain on the other's sprocket",
-        "hang each chain on its sprocket again",
-    ]
-    with virtual_machine(client):
-        refused = got(client.post("/api/grid/cut"), 422)["error"]
-        assert "the chains of a virtual machine stay" in refused
+MACHINE = 9  # the number of a virtual machine
+WANTED = "4 marks with 5 kg more"
+KILOGRAM = 9.81  # [N]
 
 
-def test_marks_that_are_only_to_be_read_again_are_read_by_the_tape_that_read_them(client, folder):
-    with virtual_machine(client):
-        got(client.post("/api/machine/settings"))
-        got(client.post("/api/grid/cut"))
-        until(client, lambda state: state["program"] and state["program"]["outcome"] == "done")
-        until(client, lambda state: state["phase"] == "ready" and not state["moves"])
-        first = got(client.get("/api/grid"))["form"]
-        (folder / "more.toml").write_bytes((folder / first).read_bytes())
-        asked = got(client.get("/api/readings", params={"file": "more.toml"}))
-        assert asked["again"] == 9
-        for form in (first, "more.toml"):
-            got(client.post("/api/machine/readings", json={"form": form}))
-        before = {mark["name"]: mark["read"] for mark in readings_in(client, first)}
-        off = [
-            math.dist(mark["read"], before[mark["name"]])
-            for mark in readings_in(client, "more.toml")
-        ]
-        assert len(off) == 9 and 0 < max(off) < 3.0
-        choices = got(client.get("/api/project"))["choices"]
-        assert choices["marks"][-2:] == [first, "more.toml"]
-        assert got(client.get("/api/readings", params={"file": "more.toml"}))["again"] == 0
+def go_to(page, step):
+    page.get_by_role("navigation").get_by_role("link", name=step).click()
 
 
-def readings_in(client, file):
-    return got(client.get("/api/readings", params={"file": file}))["marks"]
+def cut_nine(page):
+    go_to(page, "Cut")
+    page.get_by_role("button", name="Move the sled and cut 9 marks").click(timeout=PATIENCE)
+    page.get_by_role("button", name="Let a tape read the 9 marks").click(timeout=PATIENCE)
+    page.get_by_text("9 of 9 marks are read").wait_for(timeout=PATIENCE)
 
 
-def test_a_tape_that_never_read_the_marks_says_so(client):
-    take(client, "every mark read again")
-    with virtual_machine(client):
-        body = {"form": "more.toml"}
-        refused = got(client.post("/api/machine/readings", json=body), 422)["error"]
-        assert "the tape has read no mark 0 on this sheet" in refused
-        assert got(client.get("/api/readings", params={"file": "more.toml"}))["again"] > 0
+def take_on_page(page, title):
+    go_to(page, "Verdict")
+    page.get_by_role("button", name="Find the best next measurement").click(timeout=PATIENCE)
+    page.get_by_role("button", name=f"Take: {title}").click(timeout=PATIENCE)
+    page.get_by_role("heading", name="Cut 4 more marks").wait_for(timeout=PATIENCE)
+    assert page.get_by_text("All marks are cut.").count() == 0  # which was of the nine
+
+
+def go_on(page, *, when):
+    """Press Go on in the pause in which the page asks for something."""
+    expect(page.locator(".say")).to_contain_text(when, timeout=PATIENCE)
+    expect(bar(page)).to_contain_text("The virtual machine waits for you")
+    expect(bar(page).get_by_role("alert")).to_contain_text(when[1:])
+    bar(page).get_by_role("button", name="Go on").click()
+
+
+def what_the_tape_says(lab, form):
+    """The readings of a form that waits, by their marks; the folder stays as it is."""
+    kept = {name: (lab.folder / name).read_bytes() for name in (form, "lab.json")}
+    got(lab.client().post("/api/machine/readings", json={"form": form}))
+    readings = read_marks(lab.folder / form, sheet=SHEET).readings
+    for name, content in kept.items():
+        (lab.folder / name).write_bytes(content)
+    return [(mark.name, x + SHEET[0] / 2, SHEET[1] / 2 - y) for mark, (x, y) in readings]
+
+
+def type_readings(page, readings):
+    for name, x, y in readings:
+        page.get_by_label(f"Mark {name} from the left, mm", exact=True).fill(f"{x:.1f}")
+        page.get_by_label(f"Mark {name} from the top, mm", exact=True).fill(f"{y:.1f}")
+
+
+def test_marks_that_the_verdict_proposes_are_cut_typed_and_counted(lab, page):
+    start_virtual(page, lab, number=MACHINE)
+    cut_nine(page)
+    take_on_page(page, WANTED)
+    planned = read_form(lab.folder / "more.toml", sheet=SHEET).measurements.marks
+    expect(page.locator(".pauses li")).to_have_count(2)
+    page.get_by_role("button", name="Move the sled and cut 4 marks").click()
+    go_on(page, when="Let 5.0 kg more hang on the sled")
+    go_on(page, when="Take off what hangs on the sled")
+    page.get_by_text("All marks are cut.").wait_for(timeout=PATIENCE)
+    readings = what_the_tape_says(lab, "more.toml")
+    page.get_by_role("link", name="Type what your tape says").click()
+    page.get_by_text("0 of 4 marks are read").wait_for(timeout=PATIENCE)
+    type_readings(page, readings)
+    page.get_by_text("4 of 4 marks are read").wait_for(timeout=PATIENCE)
+    read = read_marks(lab.folder / "more.toml", sheet=SHEET)
+    assert [mark.target for mark in read.measured_marks] == [mark.target for mark in planned]
+    usual = read_settings(lab.folder / "machine.toml").sled_weight
+    assert all(
+        mark.sled_weight == pytest.approx(usual + 5 * KILOGRAM, abs=0.1)
+        for mark in read.measured_marks
+    )
+    go_to(page, "Verdict")
+    page.get_by_role("heading", name="One suspect").wait_for(timeout=PATIENCE)
+    arrows = page.locator(".stage .sheet circle.place")
+    expect(arrows).to_have_count(13, timeout=PATIENCE)
+    expect(page.locator(".command code").last).to_contain_text("marks.toml more.toml")

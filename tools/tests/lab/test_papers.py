@@ -8,7 +8,6 @@ import zipfile
 import pytest
 from folder import EXAMPLE, choose, got
 from playwright.sync_api import expect
-from plumb.lab.routes import papers
 from plumb.marks.csv import read_marks_csv
 from plumb.marks.read import read_marks
 from plumb.pictures import grid_paper
@@ -59,12 +58,6 @@ def test_the_folder_is_packed_whole_and_the_same_each_time(measured, tmp_path):
         assert "secret.toml" not in archive.namelist()
 
 
-def test_a_folder_that_is_too_large_is_left_to_its_owner(measured, monkeypatch):
-    monkeypatch.setattr(papers, "MOST", 1000)
-    answer = measured.get("/api/papers/folder.zip")
-    assert answer.status_code == 422 and "copy it by hand" in answer.json()["error"]
-
-
 def test_a_sheet_to_print_has_the_marks_that_are_to_be_cut(client, tmp_path, monkeypatch):
     drawn = []
     draw = grid_paper.measuring_sheet
@@ -99,17 +92,6 @@ def test_the_report_says_what_the_verdict_says(measured):
         share, verdict = answer["share"], answer["verdict"]
     assert verdict["sentence"] in page
     assert "plumb report groundcontrol.ini marks.toml" in page
-
-
-@pytest.mark.parametrize("name", ["report.html", "readings.csv"])
-def test_without_readings_a_line_says_so(client, name):
-    answer = client.get(f"/api/papers/{name}")
-    assert answer.status_code == 422 and "no readings yet" in answer.json()["error"]
-
-
-def test_no_other_file_can_be_had(client):
-    for name in ("lab.json", "..%2Flab.json", "report"):
-        assert client.get(f"/api/papers/{name}").status_code in (404, 422)
 
 
 def test_the_browser_saves_them(lab, page):

@@ -1,10 +1,13 @@
-"""What is known, the reach, and marks that are moved by mouse and keys, in a browser."""
+"""What is known, the reach, and marks that are planned, by the routes and by mouse and keys."""
 
 import json
 import re
+import tomllib
 
 import pytest
-from folder import EXAMPLE
+from folder import EXAMPLE, asked, choose, got
+from plumb.cli.main import main
+from plumb.line.sender import cleaned
 from screens import at_rest, await_question
 
 PATIENCE = 300_000  # [ms] of a busy computer
@@ -138,3 +141,96 @@ def test_who_comes_for_a_number_sees_it_and_types_what_is_read(lab, opened):
     page.reload()
     lean.wait_for(timeout=PATIENCE)
     assert lean.input_value() == "15.0"
+
+
+def test_without_settings_a_line_says_what_is_missing(tmp_path):
+    with asked(tmp_path) as client:
+        for path in ("known", "reach", "layouts", "grid"):
+            assert "open the settings" in got(client.get(f"/api/{path}"), 422)["error"]
+
+
+def test_reach_says_what_the_command_says_and_how_far_off_is_normal(
+    client, tmp_path, capsys, monkeypatch
+):
+    answer = got(client.get("/api/reach"))
+    assert len(answer["verdicts"]) == answer["columns"] * answer["rows"]
+    assert main(["reach", str(tmp_path / "groundcontrol.ini")]) == 0
+    printed = " ".join(capsys.readouterr().out.split())
+    assert answer["conclusion"] in printed and answer["normal"] in printed
+    usable = answer["verdicts"].count(0) / len(answer["verdicts"])
+    assert usable == pytest.approx(float(answer["shares"]["usable"].rstrip(" %")) / 100, abs=0.05)
+    expected = answer["expected"]
+    assert 1 < expected["among_marks_mm"] < expected["whole_mm"] < 50
+    choose(client, known={"motor_gap": {"value": 2990.0, "sigma": 0.5}}, units="inch")
+    better = got(client.get("/api/reach"))
+    assert better["expected"]["among_marks_mm"] < expected["among_marks_mm"]
+    assert "--prior motor_gap=0.5" in better["command"]
+    monkeypatch.chdir(tmp_path)
+    assert main(better["command"].split()[1:]) == 0
+    assert better["normal"] in " ".join(capsys.readouterr().out.split())
+    assert main([*better["command"].split()[1:], "--json"]) == 0
+    assert json.loads(capsys.readouterr().out)["expected"] == pytest.approx(better["expected"])
+
+
+def test_a_plan_says_which_causes_its_marks_would_show(client):
+    answer = got(client.post("/api/preview", json={"layout": "fifteen"}))
+    seen = [effect["name"] for effect in answer["effects"] if effect["is_seen"]]
+    named = [effect for effect in answer["effects"] if effect["is_seen"] and effect["is_distinct"]]
+    assert answer["marks"] == 15 and answer["trouble"] == ""
+    assert 0 < len(named) == answer["named"] <= len(seen) == answer["seen"]
+    assert answer["seen"] < len(answer["effects"])
+    assert "motor_level" not in seen, "the frame takes it up"
+
+
+def test_the_plan_that_names_most_causes_is_recommended(client):
+    choose(client, fineness=0.25)
+    advice = got(client.get("/api/layouts/advice"))
+    plans = {
+        each["id"]: got(client.post("/api/preview", json={"layout": each["id"]}))
+        for each in got(client.get("/api/layouts"))
+    }
+    worth = {name: (plan["named"], plan["seen"], -plan["minutes"]) for name, plan in plans.items()}
+    assert worth[advice["layout"]] == max(worth.values())
+    best, few = plans[advice["layout"]], plans["nine"]
+    said = f"{best['seen']} would show and {best['named']} could be named"
+    assert (said in advice["sentence"]) == (best["seen"] > 0)
+    instead = f"instead of {few['seen']} and {few['named']} with nine marks"
+    assert (instead in advice["sentence"]) == (advice["layout"] != "nine")
+    for plan in plans.values():
+        assert plan["seen"] == sum(each["is_seen"] for each in plan["effects"])
+
+
+def test_program_and_form_are_written_and_no_reading_is_overwritten(client, tmp_path):
+    before = got(client.get("/api/grid"))
+    assert not before["is_saved"] and before["trouble"] == ""
+    assert (before["form"], before["program"]) == ("marks.toml", "grid.nc")
+    lines = list(cleaned(before["text"].splitlines()))
+    for mark in before["marks"]:
+        x, y = mark["place"]
+        assert lines[mark["lines"] - 3] == f"G1 X{x:g} Y{y:g} F700"
+        assert lines[mark["lines"] - 2].startswith("G1 Z-0.5")
+    assert [mark["name"] for mark in before["marks"]] == list("123654789")
+    got(client.post("/api/grid"))
+    after = got(client.get("/api/grid"))
+    assert after["is_saved"] and after["waits"] == 9
+    form_line = "(form: marks.toml)\n"
+    assert (tmp_path / "grid.nc").read_text().replace(form_line, "") == after["text"]
+    form = tomllib.loads((tmp_path / "marks.toml").read_text())
+    assert form["cut_with"] == "groundcontrol.ini" and len(form["mark"]) == 9
+    choose(client, layout="fifteen")
+    assert got(client.get("/api/grid"))["form"] == "marks.toml"  # nothing was read yet
+    text = (tmp_path / "marks.toml").read_text()
+    read = text.replace("# measured = [ , ]", "measured = [101.0, 102.0]", 1)
+    (tmp_path / "marks.toml").write_text(read)
+    got(client.post("/api/grid"))
+    assert (tmp_path / "marks.toml").read_text() == read
+    form = tomllib.loads((tmp_path / "marks-2.toml").read_text())
+    assert len(form["mark"]) == 15 and (tmp_path / "grid-2.nc").exists()
+
+
+def test_a_grid_is_not_cut_without_a_machine(client, tmp_path):
+    assert "connect it first" in got(client.post("/api/grid/cut"), 422)["error"]
+    assert (
+        "of a virtual machine"
+        in got(client.post("/api/machine/readings", json={"form": "marks.toml"}), 422)["error"]
+    )

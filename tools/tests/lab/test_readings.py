@@ -1,11 +1,12 @@
-"""Readings as they are typed: each is saved, none is lost, and what disagrees is said."""
+"""Readings and distances by the routes: each is saved, none is lost, what disagrees is said."""
 
+import json
 import shutil
 
 import pytest
 from folder import EXAMPLE, ROOT, asked, choose, example_form, got
+from plumb.lab.project import Project
 from plumb.lab.routes import readings
-from plumb.marks.form import read_form
 from plumb.marks.read import read_marks
 
 SHEET = (2438.4, 1219.2)
@@ -36,13 +37,6 @@ def test_a_reading_is_in_the_file_at_once_and_the_command_line_reads_it(client, 
     assert form.read_text().startswith("# Calibration marks, mm from the sheet's top left corner")
 
 
-def test_a_reading_can_be_taken_out_again(client, tmp_path):
-    (tmp_path / "marks.toml").write_text(example_form(read=5))
-    answer = put(client, {1: None}, digest=shown(client)["digest"]).json()
-    assert answer["marks"][1]["read"] is None
-    assert len(read_marks(tmp_path / "marks.toml", sheet=SHEET).marks) == 4
-
-
 @pytest.mark.parametrize(
     ("edges", "read"),
     [
@@ -59,16 +53,6 @@ def test_readings_count_from_the_chosen_edges(client, tmp_path, edges, read):
     answer = put(client, {0: read}, digest=form["digest"], edges=form["edges"]).json()
     assert answer["marks"][0]["read"] == pytest.approx(read)
     assert "measured = [98.0, 106.0]" in (tmp_path / "marks.toml").read_text()
-
-
-def test_a_reading_counts_from_the_edges_that_its_page_showed(client, tmp_path):
-    (tmp_path / "marks.toml").write_text(example_form())
-    form = shown(client)
-    choose(client, edges="bottom-right")  # in another tab
-    answer = put(client, {0: [98, 106]}, digest=form["digest"], edges=form["edges"]).json()
-    assert "measured = [98.0, 106.0]" in (tmp_path / "marks.toml").read_text()
-    assert answer["edges"] == "bottom-right"
-    assert answer["marks"][0]["read"] == pytest.approx([2340.4, 1113.2])
 
 
 def test_a_form_that_changes_while_it_is_shown_is_not_taken_for_known(
@@ -109,13 +93,6 @@ def test_an_older_save_is_refused_and_changes_nothing(client, tmp_path):
     assert refused.status_code == 409
     assert "marks.toml has changed" in refused.json()["error"]
     assert (tmp_path / "marks.toml").read_bytes() == kept
-
-
-def test_a_mark_that_is_not_there_is_refused(client, tmp_path):
-    (tmp_path / "marks.toml").write_text(example_form())
-    digest = shown(client)["digest"]
-    assert put(client, {99: [1, 1]}, digest=digest).status_code == 422
-    assert put(client, {-1: [1, 1]}, digest=digest).status_code == 422
 
 
 def test_distances_are_saved_and_taken_out(client, tmp_path):
@@ -175,14 +152,6 @@ def test_a_picked_file_of_another_form_becomes_a_form_with_the_same_readings(
     assert client.get("/api/project").json()["choices"]["marks"] == [answer["file"]]
 
 
-def test_a_picked_marks_toml_stays_byte_for_byte(client, tmp_path):
-    content = (EXAMPLE / "marks.toml").read_bytes()
-    for name in ("marks.toml", "marks-2.toml"):
-        answer = client.post("/api/marks", files={"file": ("mine.toml", content)}).json()
-        assert answer["file"] == name
-        assert (tmp_path / name).read_bytes() == content
-
-
 def test_a_file_without_marks_is_refused_in_a_line(client, tmp_path):
     files = {"file": ("holiday.csv", b"sun,sea\n1,2\n")}
     refused = client.post("/api/marks", files=files)
@@ -203,32 +172,11 @@ def test_a_slip_is_named_with_what_was_meant(client, tmp_path):
     assert doubt["corrected"][0] == pytest.approx(1221.5, abs=1e-6)
 
 
-def test_a_reading_in_the_wrong_place_is_named_before_a_fit_is_possible(client, tmp_path):
-    (tmp_path / "marks.toml").write_text(example_form())
-    put(client, {3: [109.5, 1783]}, digest=shown(client)["digest"])
-    (doubt,) = client.get("/api/doubts", params={"file": "marks.toml"}).json()["doubts"]
-    assert "x and y, from the corner, may be exchanged" in doubt["sentence"]
-
-
 def test_good_readings_raise_no_doubt_however_few_they_are(client, tmp_path):
     for count in (1, 2, 3, 5, 8):
         (tmp_path / "marks.toml").write_text(example_form(read=count))
         answer = client.get("/api/doubts", params={"file": "marks.toml"}).json()
         assert answer["doubts"] == [], count
-
-
-def test_what_a_form_says_besides_readings_stays(client, tmp_path):
-    text = 'frame = "machine"\ndate = 2026-05-01\nnew_sheet = true\nsled_weight_n = 110\n'
-    text += '[[mark]]\nname = "a \\"b\\" \\\\ é"\ntarget = [0, 0]\napproach = [0, 1]\n'
-    text += "chains = [1500.25, 1600]\nsled_weight_n = 90\n"
-    text += "[benchmark]\nacross = [1908.0, 1903.5, 1900.0]\n"
-    (tmp_path / "marks.toml").write_text(text)
-    before = read_form(tmp_path / "marks.toml", sheet=SHEET)
-    answer = put(client, {0: [1220, 610]}, digest=shown(client)["digest"])
-    assert answer.status_code == 200, answer.text
-    after = read_form(tmp_path / "marks.toml", sheet=SHEET)
-    assert after.head["mark"][0].pop("measured") == pytest.approx([0.8, -0.4])
-    assert after.head == before.head
 
 
 REAL = sorted(
@@ -256,3 +204,117 @@ def test_what_the_commands_open_the_page_opens(folder, tmp_path):
             assert any(mark["read"] for mark in shown["marks"]) or shown["distances"]
             assert path.name in forms["choices"]["marks"]
     got(picked.get("/api/bench") if (folder / "marks.toml").exists() else picked.get("/api/grid"))
+
+
+FORM = "marks.toml"
+SIDES = [["1", "3"], ["3", "9"], ["9", "7"], ["7", "1"]]
+
+
+def chosen(client, layout):
+    """The form of a layout, as the page shows it."""
+    choose(client, layout=layout)
+    got(client.post("/api/grid"))
+    return client.get("/api/readings").json()
+
+
+def put_into(client, form, path, **body):
+    body = {"file": form["file"], "digest": form["digest"], **body}
+    return got(client.put(f"/api/{path}", json=body))
+
+
+def test_a_form_of_distances_asks_for_each_in_order_and_keeps_asking(client):
+    form = chosen(client, "distances")
+    assert form["spans"][:4] == SIDES and len(form["spans"]) == 12
+    (layout,) = (each for each in client.get("/api/layouts").json() if each["id"] == "distances")
+    assert [[f"{a + 1}", f"{b + 1}"] for a, b in layout["spans"]] == form["spans"]
+    assert (form["files"][0]["read"], form["files"][0]["asked"]) == (0, 12)
+    lengths = [{"between": SIDES[0][::-1], "length": 2238.0}, {"between": ["2", "9"], "length": 99}]
+    typed = put_into(client, form, "distances", distances=lengths)
+    assert typed["spans"] == form["spans"], "a save keeps what is asked"
+    assert (typed["files"][0]["read"], typed["files"][0]["asked"]) == (2, 13)
+    finer = put_into(client, typed, "fineness", finest=1.0)
+    assert finer["spans"] == form["spans"] and finer["distances"] == typed["distances"]
+    whole = [{"between": span, "length": 900.0} for span in form["spans"]]
+    done = put_into(client, finer, "distances", distances=whole)
+    assert (done["files"][0]["read"], done["files"][0]["asked"]) == (12, 12)
+    place = [{"index": 0, "read": [100, 100]}]
+    placed = put_into(client, done, "readings", edges="top-left", readings=place)
+    assert (placed["files"][0]["read"], placed["files"][0]["asked"]) == (13, 21)
+
+
+@pytest.fixture
+def meanwhile(client, tmp_path, monkeypatch):
+    """Somebody with a form chooses inches just before the next save."""
+    (tmp_path / FORM).write_text(example_form())
+    saves, kept = [], Project.save
+
+    def overtaken(project, files, *, read):
+        if not saves:
+            choices = tmp_path / "lab.json"
+            said = json.loads(choices.read_text())
+            choices.write_text(json.dumps({**said, "units": "inch"}))
+        saves.append(files)
+        return kept(project, files, read=read)
+
+    monkeypatch.setattr(Project, "save", overtaken)
+    return saves
+
+
+def digest(client):
+    return client.get("/api/readings").json()["digest"]
+
+
+def type_a_reading(client):
+    row = {"index": 0, "read": [98, 106]}
+    body = {"file": FORM, "digest": digest(client), "edges": "top-left", "readings": [row]}
+    return client.put("/api/readings", json=body)
+
+
+def add_a_distance(client):
+    distance = {"between": ["2", "4"], "length": 1123.5}
+    body = {"file": FORM, "digest": digest(client), "distances": [distance]}
+    return client.put("/api/distances", json=body)
+
+
+def say_how_fine_the_tape_is(client):
+    body = {"file": FORM, "digest": digest(client), "finest": 1.0}
+    return client.put("/api/fineness", json=body)
+
+
+def bring_marks(client):
+    marks = (EXAMPLE / FORM).read_bytes()
+    return client.post("/api/marks", files={"file": (FORM, marks)})
+
+
+def bring_settings(client):
+    settings = (EXAMPLE / "groundcontrol.ini").read_bytes()
+    return client.post("/api/settings", files={"file": ("groundcontrol.ini", settings)})
+
+
+def use_check_marks(client):
+    return client.post("/api/check/use")
+
+
+WAYS = [
+    (type_a_reading, {"marks": [FORM]}),
+    (add_a_distance, {"marks": [FORM]}),
+    (say_how_fine_the_tape_is, {"fineness": 1.0}),
+    (bring_marks, {"marks": ["marks-2.toml"]}),
+    (bring_settings, {"settings": "groundcontrol.ini"}),
+    (use_check_marks, {"marks": ["check.toml"]}),
+]
+
+
+@pytest.mark.parametrize(("save", "chosen"), WAYS, ids=lambda each: getattr(each, "__name__", ""))
+def test_a_choice_in_mid_save_is_kept_and_the_save_is_done(
+    client, tmp_path, meanwhile, save, chosen
+):
+    (tmp_path / "check.toml").write_text(example_form())
+    got(save(client))
+    choices = json.loads((tmp_path / "lab.json").read_text())
+    assert choices["units"] == "inch" and len(meanwhile) == 2
+    assert {name: choices[name] for name in chosen} == chosen
+
+
+def test_a_program_goes_by_the_choices_so_others_in_mid_save_are_said(client, meanwhile):
+    assert client.post("/api/grid").status_code == 409

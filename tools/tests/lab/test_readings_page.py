@@ -1,15 +1,20 @@
-"""Typing readings in a real browser: they are saved, ringed, corrected, and never lost."""
+"""Typing readings in a real browser: saved in turn, ringed, corrected, never lost; half a reading
+is none; an answer that comes late is not taken for the newest.
+"""
 
+import json
 import re
 import shutil
 
 import pytest
 from folder import EXAMPLE, example_form
+from lab_machine import start_virtual
 from playwright.sync_api import expect
 from plumb.cli.main import main
 from plumb.grid.pattern import spans_line
+from plumb.marks.form import read_form
 from plumb.marks.read import read_marks
-from screens import at_rest
+from screens import at_rest, await_question, fitted_machine
 
 SHEET = (2438.4, 1219.2)
 PATIENCE = 300_000  # [ms] of a busy computer
@@ -150,37 +155,6 @@ def test_a_slip_in_a_distance_is_named_and_its_correction_taken(lab, page):
     assert read.distances[1].between == ("4", "12")
 
 
-def test_exchanged_readings_are_named_and_put_right(lab, page):
-    with_form(lab, example_form(read=23))
-    before = saved(lab)
-    open_readings(lab, page)
-    type_in(page, 8, "1782.5", "618")
-    type_in(page, 9, "1221", "618")
-    disagreeing(page).get_by_text("the readings of 8 and 9 may be exchanged").wait_for(
-        timeout=PATIENCE
-    )
-    at_rest(page)
-    assert saved(lab) != before
-    disagreeing(page).get_by_role("button", name="Take 1221, 618").click()
-    disagreeing(page).get_by_role("button", name="Take 1782.5, 618").click()
-    disagreeing(page).wait_for(state="detached", timeout=PATIENCE)
-    await_saved(lab, page, before)
-
-
-def test_columns_of_a_spreadsheet_can_be_pasted(lab, page):
-    with_form(lab, example_form())
-    open_readings(lab, page)
-    cell = page.get_by_label(LEFT.format(1), exact=True)
-    cell.evaluate(
-        """(input) => {
-          const clipboardData = new DataTransfer();
-          clipboardData.setData("text", "98\\t106\\n659,5\\t110.5");
-          input.dispatchEvent(new ClipboardEvent("paste", { clipboardData, bubbles: true }));
-        }"""
-    )
-    await_saved(lab, page, {"1": (98, 106), "2": (659.5, 110.5)})
-
-
 @pytest.fixture
 def phone(browser):
     """A page as wide as a phone."""
@@ -233,16 +207,221 @@ def test_on_a_phone_a_reading_that_disagrees_opens(lab, phone):
     assert field.evaluate("input => input === document.activeElement")
 
 
-def test_all_cells_lie_beside_the_map_and_enter_goes_on(lab, page):
-    twenty_five(lab)
-    open_readings(lab, page)
-    assert page.locator(".cell").count() == 25 and page.locator(".picker").count() == 0
-    boxes = [page.locator(f"#mark-{index}").bounding_box() for index in (0, 1, 2)]
-    assert boxes[0]["y"] == boxes[1]["y"] < boxes[2]["y"] and boxes[0]["x"] == boxes[2]["x"]
-    picture = page.locator(".stage svg").bounding_box()
-    assert picture["x"] + picture["width"] <= boxes[0]["x"] < boxes[1]["x"]
-    page.get_by_label(LEFT.format(5), exact=True).click()
-    for number in ("2340", "100", "100", "350"):
-        page.keyboard.type(number)
-        page.keyboard.press("Enter")
-    await_saved(lab, page, {"5": (2340, 100), "6": (100, 350)})
+LEFT_OF_2, TOP_OF_2 = "Mark 2 from the left, mm", "Mark 2 from the top, mm"
+
+
+@pytest.fixture
+def readings(lab, page):
+    """The page of readings, all typed."""
+    shutil.copy(EXAMPLE / "groundcontrol.ini", lab.folder)
+    (lab.folder / "marks.toml").write_text(example_form(read=99))
+    (lab.folder / "lab.json").write_text(
+        '{"settings": "groundcontrol.ini", "marks": ["marks.toml"]}'
+    )
+    page.goto(f"{lab.url}#/readings")
+    expect(page.locator(".count")).to_contain_text("23 of 23 marks are read")
+    return page
+
+
+def field(page, name):
+    return page.get_by_label(name, exact=True)
+
+
+def reason(page, name):
+    """What stands next to a field, as a screen reader finds it."""
+    return page.locator(f"#{field(page, name).get_attribute('aria-describedby')}")
+
+
+def read_on_disk(lab):
+    form = read_form(lab.folder / "marks.toml", sheet=SHEET)
+    return len(form.measurements.measured_marks)
+
+
+def test_half_a_reading_does_not_count_not_even_after_a_reload(lab, readings):
+    page, typed, said = readings, "11l.9", "“11l.9” is no length: type it like 11.9"
+    other = field(page, TOP_OF_2).input_value()
+    field(page, LEFT_OF_2).fill(typed)
+    expect(page.locator(".count")).to_contain_text("22 of 23 marks are read")
+    field(page, "Mark 1 from the left, mm").focus()
+    expect(reason(page, LEFT_OF_2)).to_have_text(said)
+    expect(reason(page, LEFT_OF_2)).to_be_visible()
+    expect(field(page, LEFT_OF_2)).to_have_attribute("aria-invalid", "true")
+    assert read_on_disk(lab) == 22
+    page.reload()
+    expect(page.locator(".count")).to_contain_text("22 of 23 marks are read")
+    expect(field(page, LEFT_OF_2)).to_have_value(typed)
+    expect(field(page, TOP_OF_2)).to_have_value(other)
+    expect(reason(page, LEFT_OF_2)).to_have_text(said)
+    page.goto(f"{lab.site}#/verdict")
+    half = page.get_by_text("1 mark is half typed and does not count.")
+    expect(half).to_be_visible(timeout=PATIENCE)
+    page.goto(f"{lab.site}#/readings")
+    field(page, LEFT_OF_2).fill("659.5")
+    expect(page.locator(".count")).to_contain_text("23 of 23 marks are read")
+    expect(field(page, LEFT_OF_2)).not_to_have_attribute("aria-describedby", re.compile("."))
+    page.goto(f"{lab.site}#/verdict")
+    states = page.get_by_role("group", name="What is drawn")
+    expect(states.get_by_text("as set")).to_be_visible(timeout=PATIENCE)
+    expect(half).to_have_count(0)
+
+
+def test_a_file_that_went_back_before_the_page_looked_is_loaded_again(lab, readings):
+    """The page typed, another program undid it, and only then the page saw the folder."""
+    page = readings
+    whole = (lab.folder / "marks.toml").read_text()
+    holds, held = True, []
+    page.route("**/api/project", lambda look: held.append(look) if holds else look.continue_())
+    with page.expect_response("**/api/readings"):
+        field(page, LEFT_OF_2).fill("")
+    assert read_on_disk(lab) == 22
+    await_question(page, held)
+    (lab.folder / "marks.toml").write_text(whole)
+    holds = False
+    for look in held:
+        look.continue_()
+    expect(page.locator(".count")).to_contain_text("23 of 23 marks are read")
+
+
+LEFT, TOP = "Mark {} from the left, mm", "Mark {} from the top, mm"
+FEW = ("2", "4", "1123.5"), ("4", "12", "1515"), ("8", "12", "757")
+
+
+@pytest.fixture
+def form(lab, page):
+    """The form of the example with a few readings, on the page."""
+    (lab.folder / "groundcontrol.ini").write_bytes((EXAMPLE / "groundcontrol.ini").read_bytes())
+    (lab.folder / "marks.toml").write_text(example_form(read=5))
+    choices = {"settings": "groundcontrol.ini", "marks": ["marks.toml"]}
+    (lab.folder / "lab.json").write_text(json.dumps(choices))
+    page.goto(f"{lab.url}#/readings")
+    page.get_by_text("Distances between marks (0)").click()
+    return page
+
+
+@pytest.fixture
+def late(form):
+    """Answers to saves of the form, which come when the test lets them."""
+    waiting = []
+    for part in ("distances", "fineness", "readings"):
+        form.route(
+            f"**/api/{part}",
+            lambda route: waiting.append(route) if route.request.method == "PUT" else None,
+        )
+    return waiting
+
+
+def add(page, first, second, length):
+    page.get_by_label("from mark").select_option(first)
+    page.get_by_label("to mark").select_option(second)
+    page.locator(".distances form input").fill(length)
+    page.get_by_role("button", name="Add the distance").click()
+
+
+def read(lab):
+    return read_form(lab.folder / "marks.toml", sheet=SHEET).measurements
+
+
+def let_go(page, late, count):
+    """Let saves go on as they come; each is asked once that before it is answered."""
+    for _ in range(count):
+        await_question(page, late)
+        assert len(late) == 1
+        late.pop().continue_()
+
+
+def test_a_reading_a_distance_and_the_tape_are_saved_together(lab, form, late):
+    form.get_by_label("Finest lines of the tape").select_option("1")
+    form.get_by_label(LEFT.format(6), exact=True).fill("98")
+    form.get_by_label(TOP.format(6), exact=True).fill("360")
+    add(form, *FEW[0])
+    let_go(form, late, 3)
+    at_rest(form)
+    assert len(read(lab).readings) == 6 and read(lab).distances
+    assert read(lab).tape_sigma == pytest.approx(0.5, abs=0.3)
+    assert form.get_by_role("alert").count() == 0
+
+
+def test_what_another_tab_saved_in_between_is_not_replaced(lab, form, late):
+    add(form, *FEW[0])
+    await_question(form, late)
+    (lab.folder / "marks.toml").write_text(example_form(read=9))
+    late.pop().continue_()
+    form.get_by_role("alert").get_by_text("marks.toml has changed in the meantime").wait_for()
+    assert len(read(lab).readings) == 9 and not read(lab).distances
+    assert form.locator(".distances form input").input_value() == FEW[0][2]
+    form.get_by_text("9 of 23 marks are read").wait_for()
+    at_rest(form)
+    assert form.get_by_role("alert").get_by_text("in the meantime").is_visible(), "it stays"
+    form.get_by_role("button", name="Add the distance").click()
+    let_go(form, late, 1)
+    expect(form.get_by_role("alert")).to_have_count(0)
+    expect(form.locator(".distances li")).to_have_count(1)
+    assert len(read(lab).readings) == 9
+
+
+@pytest.fixture
+def open_machine(lab, page):
+    """Opens a screen of a machine with readings, some of which are to come."""
+    fitted_machine(lab.folder)
+    (lab.folder / "marks.toml").write_text(example_form(read=20))
+
+    def opened(screen):
+        page.goto(f"{lab.url}#/{screen}")
+        return page
+
+    return opened
+
+
+def test_an_answer_to_an_older_question_changes_nothing(open_machine, page):
+    asked, late = [], []
+
+    def first_late(route):
+        asked.append(route)
+        if len(asked) > 1:
+            return route.continue_()
+        late.append(route.fetch())
+
+    page.route("**/api/diary", first_late)
+    open_machine("diary")
+    await_question(page, late)
+    page.get_by_label("inch").check()
+    number = page.locator(".course").first
+    expect(number).to_contain_text(" inch", timeout=PATIENCE)
+    with page.expect_response("**/api/diary"):
+        asked[0].fulfill(response=late[0])
+    at_rest(page)
+    expect(number).to_contain_text(" inch", timeout=PATIENCE)
+
+
+def test_readings_count_from_the_edges_that_are_named_with_them(open_machine, page):
+    saves = []
+    # The choice is on its way for long.
+    page.route("**/api/choices", lambda route: route.continue_() if saves else saves.append(route))
+    open_machine("readings")
+    left = page.get_by_label("Mark 1 from the left, mm", exact=True)
+    x = float(left.input_value(timeout=PATIENCE))
+    page.get_by_label("Measured from").select_option("top-right")
+    await_question(page, saves)
+    # What the page would ask then is answered before this.
+    page.evaluate("() => fetch('/').then((answer) => answer.text())")
+    assert float(left.input_value()) == x
+    saves[0].continue_()
+    right = page.get_by_label("Mark 1 from the right, mm", exact=True)
+    expect(right).to_have_value(re.compile(r"2\d\d\d"), timeout=PATIENCE)
+    assert float(right.input_value()) + x == pytest.approx(2438.4)
+
+
+def test_a_question_that_nobody_answers_is_said_and_asked_again(lab, fresh_page):
+    page, never = fresh_page, []
+    page.clock.install()
+    start_virtual(page, lab)
+    page.get_by_role("heading", name="Its first day").wait_for(timeout=PATIENCE)
+    page.route("**/api/guide", lambda route: never.append(route))
+    await_question(page, never)
+    said = page.get_by_text("The lab does not answer, so this may be old")
+    assert said.count() == 0
+    page.clock.fast_forward(10_000)
+    said.wait_for(timeout=PATIENCE)
+    page.unroute("**/api/guide")
+    page.clock.fast_forward(3_000)
+    expect(said).to_have_count(0, timeout=PATIENCE)

@@ -25,7 +25,6 @@ from screens import (
     with_check_marks,
     with_virtual_machine,
 )
-from served_lab import serve
 
 FEWEST_SCREENS = 12
 WHEN_FITTED = ("correct", "check", "diary")
@@ -33,66 +32,24 @@ AT_FIRST = ("open", "practice")
 IN_MID_CUT = ("open", "measure", "cut", "readings")
 
 
-@pytest.fixture(scope="module")
-def lab(tmp_path_factory):
-    """A lab on a machine that was measured."""
-    served = serve(measured_machine(tmp_path_factory.mktemp("lab") / "garage"))
-    yield served
-    served.end()
+def corrected(lab):
+    fitted_machine(lab.folder)
+    with_check_marks(lab)
 
 
-@pytest.fixture(scope="module")
-def cutting(tmp_path_factory):
-    """A lab whose virtual machine cuts, half way through its marks."""
-    served = serve(tmp_path_factory.mktemp("cutting"))
-    with_virtual_machine(served)
-    yield served
-    served.end()
-
-
-@pytest.fixture(scope="module")
-def fitted(tmp_path_factory):
-    """A lab on a machine that was corrected and checked."""
-    served = serve(fitted_machine(tmp_path_factory.mktemp("fitted") / "garage"))
-    with_check_marks(served)
-    yield served
-    served.end()
-
-
-@pytest.fixture(scope="module")
-def empty(tmp_path_factory):
-    """A lab that is opened for the first time."""
-    served = serve(tmp_path_factory.mktemp("empty"))
-    yield served
-    served.end()
-
-
-@pytest.fixture
-def shown_fitted(browser, fitted, request):
-    """The page of the corrected machine, in a width and a scheme."""
-    yield from seen(browser, fitted, *request.param)
-
-
-@pytest.fixture
-def shown_empty(browser, empty, request):
-    """The page at its first visit, in a width and a scheme."""
-    yield from seen(browser, empty, *request.param)
+STATES = {
+    "measured": lambda lab: measured_machine(lab.folder),
+    "cutting": with_virtual_machine,
+    "corrected": corrected,
+    "empty": lambda lab: None,
+}
 
 
 @pytest.fixture
 def shown(browser, lab, request):
-    """The page of the measured machine, in a width and a scheme."""
-    yield from seen(browser, lab, *request.param)
-
-
-@pytest.fixture
-def shown_cutting(browser, cutting, request):
-    """The page while the machine cuts, in a width and a scheme."""
-    yield from seen(browser, cutting, *request.param)
-
-
-def seen(browser, lab, size, scheme):
-    """A page of a lab in a width and a scheme."""
+    """The page of a lab in a state, in a width and a scheme."""
+    state, size, scheme = request.param
+    STATES[state](lab)
     width, height = SIZES[size]
     context = browser.new_context(
         viewport={"width": width, "height": height},
@@ -111,17 +68,18 @@ def seen(browser, lab, size, scheme):
     context.close()
 
 
-def ways(*first):
-    """Each width in each scheme; those that come first are in the fast run."""
-    return [
+def ways(state, *first):
+    """A state in each width and each scheme; those that come first are in the fast run."""
+    each = [
         pytest.param(
-            (size, scheme),
+            (state, size, scheme),
             id=f"{size}-{scheme}",
             marks=() if f"{size}-{scheme}" in first else pytest.mark.slow,
         )
         for size in SIZES
         for scheme in SCHEMES
     ]
+    return pytest.mark.parametrize("shown", each, indirect=True)
 
 
 def by_keyboard(page):
@@ -153,7 +111,7 @@ def faults(page):
         yield from (f"{what}: {each}" for each in page.evaluate(script, least))
 
 
-@pytest.mark.parametrize("shown", ways("desktop-light", "phone-dark"), indirect=True)
+@ways("measured", "desktop-light", "phone-dark")
 def test_every_screen_is_accessible_and_fits(shown):
     findings, names = [], []
     for name in walk(shown):
@@ -166,9 +124,9 @@ def test_every_screen_is_accessible_and_fits(shown):
     assert findings == [], "\n".join(findings)
 
 
-@pytest.mark.parametrize("shown_cutting", ways("phone-light"), indirect=True)
-def test_the_machine_in_mid_cut_is_in_view_on_every_screen(shown_cutting):
-    page, findings = shown_cutting, []
+@ways("cutting", "phone-light")
+def test_the_machine_in_mid_cut_is_in_view_on_every_screen(shown):
+    page, findings = shown, []
     for place in IN_MID_CUT:
         page.evaluate("(place) => { location.hash = `#/${place}` }", place)
         at_rest(page)
@@ -181,20 +139,6 @@ def test_the_machine_in_mid_cut_is_in_view_on_every_screen(shown_cutting):
     assert findings == [], "\n".join(findings)
 
 
-@pytest.mark.parametrize("shown", ways("phone-dark"), indirect=True)
-def test_text_on_a_map_has_its_size_before_anybody_watches_the_map_grow(shown):
-    shown.add_init_script("""window.ResizeObserver = class {
-      observe() {}
-      disconnect() {}
-    }""")
-    shown.reload()
-    shown.locator("nav").wait_for()  # else the page may yet open its first screen
-    shown.evaluate("() => { location.hash = '#/reach' }")
-    at_rest(shown)
-    shown.locator(".sheet .names text").first.wait_for()
-    assert shown.evaluate(SMALL_TEXT, SMALLEST_TEXT) == []
-
-
 def faults_at(page, places, when):
     """The faults of some screens, each with its picture."""
     for place in places:
@@ -204,20 +148,20 @@ def faults_at(page, places, when):
         yield from (f"{place}: {each}" for each in faults(page))
 
 
-@pytest.mark.parametrize("shown_fitted", ways("desktop-dark"), indirect=True)
-def test_screens_after_a_correction(shown_fitted):
-    findings = list(faults_at(shown_fitted, WHEN_FITTED, "when-fitted"))
-    assert shown_fitted.locator(".course.moved").count() == 1
+@ways("corrected", "desktop-dark")
+def test_screens_after_a_correction(shown):
+    findings = list(faults_at(shown, WHEN_FITTED, "when-fitted"))
+    assert shown.locator(".course.moved").count() == 1
     assert findings == [], "\n".join(findings)
 
 
-@pytest.mark.parametrize("shown_empty", ways("phone-dark"), indirect=True)
-def test_screens_at_the_first_visit(shown_empty):
-    findings = list(faults_at(shown_empty, AT_FIRST, "at-first"))
+@ways("empty", "phone-dark")
+def test_screens_at_the_first_visit(shown):
+    findings = list(faults_at(shown, AT_FIRST, "at-first"))
     assert findings == [], "\n".join(findings)
 
 
-@pytest.mark.parametrize("shown", [("desktop", "light")], indirect=True, ids=["desktop"])
+@pytest.mark.parametrize("shown", [("measured", "desktop", "light")], indirect=True)
 def test_the_way_is_gone_by_keyboard_alone(shown):
     shown.keyboard.press("Tab")
     shown.keyboard.press("Enter")  # past the list of steps

@@ -1,6 +1,5 @@
 """The sheet, which every screen draws alike: what it names, how it is enlarged, what it saves."""
 
-import csv
 import math
 import re
 import xml.etree.ElementTree as ET
@@ -76,38 +75,8 @@ def test_a_mark_is_named_by_mouse_finger_and_keys(verdict):
     assert card.inner_text() == said  # a press keeps it
 
 
-def test_the_card_lies_neither_over_its_mark_nor_over_its_arrow(verdict):
-    verdict.locator(FRAME).focus()
-    for key in ("Home", "End"):
-        verdict.keyboard.press(key)
-        card = verdict.locator(CARD).bounding_box()
-        lit = verdict.locator(".sheet circle.lit").bounding_box()
-        assert card["x"] > lit["x"] + lit["width"] or card["x"] + card["width"] < lit["x"]
-
-
 def test_states_are_compared_by_keys_and_by_buttons(verdict):
-    states = verdict.get_by_role("group", name="What is drawn").get_by_role("radio")
-    expect(states.nth(2)).to_be_checked()
-    arrows = verdict.locator(".sheet path.arrow.beyond, .sheet path.arrow.within").first
-    added = arrows.get_attribute("d")
-    verdict.locator(FRAME).focus()
-    verdict.keyboard.press("[")
-    expect(states.nth(1)).to_be_checked()
-    assert arrows.get_attribute("d") != added
-    verdict.keyboard.press("[")
-    verdict.keyboard.press("[")
-    expect(states.nth(0)).to_be_checked()
-    verdict.keyboard.press("]")
-    verdict.keyboard.press("]")
-    assert arrows.get_attribute("d") == added
-    for label, rms in zip(states.locator("..").all(), ("8.91", "1.78", "0.65"), strict=True):
-        expect(label).to_contain_text(rms)
-
-
-@pytest.mark.parametrize("step", ["verdict", "bench", "correct"])
-def test_every_sheet_with_states_says_which_keys_compare_them(lab, page, step):
-    measured_machine(lab.folder)
-    page.goto(f"{lab.url}#/{step}")
+    page = verdict
     page.get_by_text("On the sheet the keys [ and ] compare").click()
     states = page.get_by_role("group", name="What is drawn").get_by_role("radio")
     last = states.count() - 1
@@ -125,6 +94,8 @@ def test_every_sheet_with_states_says_which_keys_compare_them(lab, page, step):
     states.nth(last).focus()
     page.keyboard.press("ArrowLeft")
     expect(states.nth(last - 1)).to_be_checked()
+    for label, rms in zip(states.locator("..").all(), ("8.91", "1.78", "0.65"), strict=True):
+        expect(label).to_contain_text(rms)
 
 
 def drawn_on(page):
@@ -191,7 +162,7 @@ def test_a_reading_that_disagrees_is_ringed_and_scales_nothing(lab, page):
         factor = page.get_by_label("Arrows longer than life").input_value()
         return float(figure[1]) if figure else None, factor
 
-    before = {step: seen(step) for step in ("verdict", "readings", "bench")}
+    before = {step: seen(step) for step in ("verdict", "readings")}
     form = lab.folder / "marks.toml"
     assert "[659.5, 110.5]" in form.read_text()
     form.write_text(form.read_text().replace("[659.5, 110.5]", "[759.5, 110.5]"))
@@ -279,29 +250,6 @@ def pinch(page, x, y):
     at_rest(page)
 
 
-def test_the_legend_says_how_much_larger_arrows_are_and_how_long_a_bar_is(verdict):
-    legend = verdict.locator(".legend-of-sheet")
-    expect(legend).to_contain_text(re.compile(r"\d mm: arrows \d+ times larger"))
-    factor = int(re.search(r"arrows (\d+) times", legend.text_content())[1])
-    sample = verdict.locator(".legend-of-sheet path.arrow").bounding_box()["width"]
-    bar = verdict.locator(".legend-of-sheet path.bar").bounding_box()["width"]
-    arrow_mm = float(re.search(r"(\d+) mm: arrows", legend.text_content())[1])
-    bar_mm = float(re.search(r"(\d+) mm$", legend.text_content().strip())[1])
-    assert sample / (arrow_mm * factor) == pytest.approx(bar / bar_mm, rel=0.15)
-    verdict.get_by_label("Arrows longer than life").select_option("50")
-    expect(legend).to_contain_text("arrows 50 times larger")
-
-
-def test_its_axes_are_in_inches_where_the_page_is(verdict):
-    verdict.get_by_role("radio", name="inch").check()
-    at_rest(verdict)
-    expect(verdict.locator(".sheet .axes text").last).to_have_text("inch")
-    assert 40 <= max(ticks(verdict)) <= 50
-    verdict.locator(FRAME).focus()
-    verdict.keyboard.press("Home")
-    expect(verdict.locator(CARD)).to_contain_text(re.compile(r"Mark 1 0\.\d{3} inch off"))
-
-
 def test_a_mark_stays_chosen_while_the_verdict_is_said_in_another_unit(verdict):
     held = []
     verdict.locator(FRAME).focus()
@@ -309,6 +257,8 @@ def test_a_mark_stays_chosen_while_the_verdict_is_said_in_another_unit(verdict):
     verdict.route("**/api/verdict", half_worked(held))
     verdict.get_by_role("radio", name="inch").check()
     expect(verdict.locator(CARD)).to_contain_text(re.compile(r"Mark 1 0\.\d{3} inch off"))
+    expect(verdict.locator(".sheet .axes text").last).to_have_text("inch")
+    assert 40 <= max(ticks(verdict)) <= 50
     await_question(verdict, held, 2)  # asked again after the answer that is not whole
     expect(verdict.locator(".screen")).to_have_attribute("aria-busy", "true")
     expect(verdict.locator(CARD)).to_contain_text("Mark 1")
@@ -317,30 +267,10 @@ def test_a_mark_stays_chosen_while_the_verdict_is_said_in_another_unit(verdict):
     expect(verdict.locator(CARD)).to_contain_text("Mark 1")
 
 
-def test_a_verdict_goes_where_its_readings_have_changed(lab, verdict):
-    verdict.route("**/api/verdict", half_worked([]))
-    form = next(lab.folder.glob("*marks*.toml"))
-    form.write_text(form.read_text() + "\n# read again\n")
-    expect(verdict.get_by_role("progressbar")).to_be_visible()
-    expect(verdict.locator(FRAME)).to_have_count(0)
-
-
 def half_worked(asked):
     """A route that notes each question, and says that half of its work is done."""
     answer = {"share": 0.5, "command": ""}
     return lambda route: (asked.append(route), route.fulfill(json=answer))
-
-
-def test_its_data_are_saved_as_a_table(verdict):
-    path, name = saved(verdict, "Data as CSV")
-    assert name == "residuals.csv"
-    rows = list(csv.DictReader(path.read_text().splitlines()))
-    assert len(rows) == 3 * 23 and rows[0]["state"] == "as set"
-    first = {key: float(value) for key, value in rows[23].items() if key not in {"state", "name"}}
-    assert first["sigma_mm"] == pytest.approx(0.5, abs=0.1)
-    assert abs(first["error_x_mm"]) < 5 and abs(first["chain_left_mm"]) < 5
-    squares = [float(r["error_x_mm"]) ** 2 + float(r["error_y_mm"]) ** 2 for r in rows[23:46]]
-    assert (sum(squares) / 23) ** 0.5 == pytest.approx(1.78, abs=0.01)
 
 
 def test_its_picture_is_saved_in_light_colours_whatever_the_page_has(lab, browser):

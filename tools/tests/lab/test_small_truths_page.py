@@ -1,4 +1,4 @@
-"""Small things that the page said and that were not so."""
+"""Small things that the page says, that they are so; and when it is at rest."""
 
 import re
 
@@ -6,7 +6,7 @@ import pytest
 from folder import got, until
 from lab_machine import PATIENCE, bar, start_virtual
 from playwright.sync_api import expect
-from screens import at_rest, measured_machine
+from screens import at_rest, await_question, measured_machine
 
 SPOKEN = """() => {
   window.spoken = [];
@@ -22,14 +22,6 @@ def test_an_address_that_names_no_screen_shows_none(lab, page):
     expect(page.locator("main h1")).to_have_text("No such screen")
     page.get_by_role("link", name="To the machine").click()
     expect(page.locator("main h1")).to_have_text("Which machine is it?")
-
-
-def test_a_file_that_is_open_is_named_where_another_is_picked(lab, page):
-    measured_machine(lab.folder)
-    page.goto(lab.url)
-    expect(page.locator("label.pick")).to_contain_text("groundcontrol.ini is open")
-    colour = page.locator("label.pick input").evaluate("(each) => getComputedStyle(each).color")
-    assert colour == "rgba(0, 0, 0, 0)"  # the browser says "No file chosen" next to its button
 
 
 def test_the_question_for_the_next_measurement_outlasts_a_reload(lab, page):
@@ -74,11 +66,43 @@ def test_the_drawing_of_the_machine_has_the_sled_where_the_bar_says(lab, page):
         assert drawn == pytest.approx([float(mm) for mm in said[:2]], abs=0.06)
 
 
-def test_a_height_has_a_name_that_says_from_where_it_is_measured(lab, page):
+def test_the_page_is_at_rest_once_all_is_answered_saved_and_drawn(lab, page):
     measured_machine(lab.folder)
-    page.goto(f"{lab.url}#/known")
-    known = page.locator(".known").first
-    expect(known).to_contain_text("the motors above the top edge of the sheet")
-    page.goto(f"{lab.site}#/correct")
-    numbers = page.locator(".numbers")
-    expect(numbers).to_contain_text("motors above the middle of the sheet", timeout=PATIENCE)
+    page.goto(f"{lab.url}#/readings")
+    rest = page.locator("html[data-rest]")
+    at_rest(page)
+    held = []
+    field = page.get_by_label("Mark 2 from the left, mm", exact=True)
+    for path, press in (
+        ("readings", lambda: field.fill("650")),
+        ("verdict", lambda: page.evaluate("() => { location.hash = '#/verdict' }")),
+    ):
+        page.route(f"**/api/{path}", lambda route: held.append(route))
+        press()
+        await_question(page, held)
+        expect(rest).to_have_count(0)
+        held.pop().continue_()
+        page.unroute(f"**/api/{path}")
+        at_rest(page)
+    assert page.locator(".sheet circle.place").count() == 23
+
+
+def reveal(client, status=200):
+    answer = client.post("/api/practice/reveal")
+    assert answer.status_code == status, answer.text
+    return answer.json()
+
+
+def test_the_page_reveals_what_its_virtual_machine_hides(lab, page):
+    page.goto(f"{lab.url}#/practice")
+    page.get_by_text("No virtual machine was started in this folder").wait_for(timeout=PATIENCE)
+    terminal = page.locator("details.command code")
+    expect(terminal).to_have_text("plumb practice start .")
+    start_virtual(page, lab, number=7)
+    page.get_by_role("link", name="Practice").click()
+    expect(terminal).to_have_text("plumb practice reveal . machine.toml")
+    page.get_by_role("button", name="Reveal what was hidden").click()
+    score = page.get_by_role("region", name="Score")
+    expect(score).to_contain_text("Hidden was sled_swing (right and up). You missed")
+    expect(score).not_to_contain_text("You added")  # its numbers are as it listed them
+    expect(score).to_contain_text("2.13 mm as the settings were, 2.13 mm with yours")

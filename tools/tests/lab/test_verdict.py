@@ -1,17 +1,14 @@
 """The verdict of the lab: what the command line says, for each state of the folder."""
 
 import time
-from dataclasses import replace
 
 import numpy as np
 import pytest
-from folder import EXAMPLE, PATIENCE, asked, choose, example_form, finished, got, with_marks
+from folder import EXAMPLE, PATIENCE, example_form, finished, with_marks
 from plumb import api
 from plumb.cli.main import main
-from plumb.cure.auto import AutoAddition
 from plumb.diagnosis.answer import verdict_sentence
 from plumb.fit.observations import rms
-from plumb.lab.routes.verdict import _title
 from plumb.text.errors import read_on_page
 
 
@@ -62,22 +59,6 @@ def test_each_state_has_all_marks_with_what_is_left_of_them(client, tmp_path):
     assert added["fit_rms"] < frame["fit_rms"] < as_set["fit_rms"]
 
 
-def test_what_the_frame_leaves_is_the_same_number_in_sentence_and_map(client, tmp_path):
-    board = [str(tmp_path / name) for name in ("groundcontrol.ini", "marks.toml")]
-    both = ["--effect", "chain_pitch", "chain_stretch", "-o", str(tmp_path / "both.toml")]
-    assert main(["add", *board, *both]) == 0
-    choose(client, settings="both.toml")
-    verdict = finished(client, "verdict")["verdict"]
-    assert verdict["cards"] == [] and verdict["title"] == "Cured"
-    assert verdict["sentence"].startswith("Cured: the machine is now as good as these marks can")
-    assert [state["title"] for state in verdict["states"]] == ["as set", "frame fitted"]
-    left, noise = (f"{verdict['states'][1][key]:.2f} mm" for key in ("fit_rms", "noise_rms"))
-    assert (
-        f"With the frame fitted {left} RMS is left; noise alone leaves {noise}"
-        in (verdict["sentence"])
-    )
-
-
 def test_a_changed_reading_is_never_answered_by_the_verdict_before(client, tmp_path):
     before = finished(client, "verdict")["verdict"]
     form = tmp_path / "marks.toml"
@@ -88,19 +69,6 @@ def test_a_changed_reading_is_never_answered_by_the_verdict_before(client, tmp_p
     assert before["title"] == "Several things could be it"
     assert after["title"] == "A reading disagrees: look at it first"
     assert after["slips"] and [state["title"] for state in after["states"]] == ["as set"]
-
-
-def test_the_next_measurement_has_its_steps_and_places(client):
-    proposal = finished(client, "next")["next"]
-    assert "minutes" in proposal["headline"]
-    assert proposal["steps"]
-    assert proposal["others"]
-
-
-def test_a_form_that_waits_beside_the_readings_does_no_harm(client, tmp_path):
-    (tmp_path / "more.toml").write_text(example_form())
-    choose(client, marks=["marks.toml", "more.toml"])
-    got(client.get("/api/bench"))
 
 
 def test_too_few_marks_are_refused_in_a_line(client, tmp_path):
@@ -114,19 +82,6 @@ def test_too_few_marks_are_refused_in_a_line(client, tmp_path):
         answer = client.get("/api/verdict")
     assert answer.status_code == 422
     assert "too few" in answer.json()["error"]
-
-
-def test_a_heading_and_a_card_name_what_no_known_effect_draws():
-    diagnosis = replace(
-        api.diagnose(api.read(EXAMPLE / "groundcontrol.ini", EXAMPLE / "marks.toml")),
-        verdict="not_in_library",
-        field_chance=0.9,
-        likely=(),
-    )
-    frame = replace(diagnosis.explanations[0], effects=())
-    assert diagnosis.called(frame) == "only what no known effect draws"
-    assert replace(diagnosis, field_chance=0.3).called(frame) == "the frame alone"
-    assert _title(AutoAddition(diagnosis, None, (), (), None, "")).endswith("odds 9 to 1")
 
 
 def in_a_row(folder):
@@ -147,13 +102,3 @@ def test_marks_in_one_row_are_said_not_to_reach_over_the_sheet(tmp_path, capsys,
     main([command, *in_a_row(tmp_path), *more])
     said = " ".join(capsys.readouterr().out.split())
     assert "These marks do not reach over the sheet" in said
-
-
-def test_the_page_says_so_too(tmp_path):
-    in_a_row(tmp_path)
-    with asked(tmp_path) as client:
-        choose(client, settings="groundcontrol.ini", marks=["marks.toml"])
-        verdict = finished(client, "verdict")["verdict"]
-        assert verdict["reach"].startswith("These marks do not reach over the sheet")
-        correction = finished(client, "correction")["correction"]
-        assert correction["nothing"] == "First measure marks all over the sheet"

@@ -116,20 +116,6 @@ def test_a_link_that_leads_nowhere_is_named(tmp_path: Path, text: str, faults: l
     assert list(broken_links(tmp_path)) == faults
 
 
-@pytest.mark.parametrize(
-    ("text", "faults"),
-    [
-        ("`docs/a.md` and docs/", []),
-        ("see `lib/Gone/src`", ["docs/page.md:1: lib/Gone/src"]),
-        ("```\n$ plumb reach docs/gone.toml\n```", ["docs/page.md:2: docs/gone.toml"]),
-        ("/usr/lib/x and .venv/lib/y are not ours", []),
-    ],
-)
-def test_a_file_that_is_not_there_is_named(tmp_path: Path, text: str, faults: list[str]) -> None:
-    plant(tmp_path, text)
-    assert list(missing_files(tmp_path)) == faults
-
-
 def plant(root: Path, text: str) -> None:
     """A tree with two pages; the second holds the text."""
     (root / "docs").mkdir()

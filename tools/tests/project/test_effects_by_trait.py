@@ -43,12 +43,6 @@ def test_every_story_is_still_there():
     assert all((PACKAGE / story).is_file() for story in STORIES)
 
 
-def test_a_name_is_seen_in_text_of_any_kind(tmp_path):
-    module = tmp_path / "module.py"
-    module.write_text('"""chain_sag in words."""\nA = "chain_sag"\nB = f"{A}: chain_zero.left"\n')
-    assert [name for _, name in effects_named(module)] == ["chain_sag", "chain_zero"]
-
-
 def is_exempt(name):
     """Whether a module may name effects."""
     return name in STORIES or name.startswith(OF_EFFECTS)

@@ -45,13 +45,3 @@ def test_what_failed_is_run_again(simulation):
     program, dialogue = simulation
     program.write_text(program.read_text() + "exit 1\n")
     assert [said(program, dialogue)[::2] for _ in range(2)] == [(1, 1), (1, 2)]
-
-
-def test_a_program_is_known_by_what_is_flashed_of_it(tmp_path):
-    elves = []
-    for name, code in (("first", "int a;"), ("second", "int a;"), ("third", "int a = 1;")):
-        source, elf = tmp_path / f"{name}.c", tmp_path / f"{name}.elf"
-        source.write_text(f"{code} int main(void) {{ return a; }}\n")
-        simulations.output("avr-gcc", "-mmcu=atmega2560", source, "-o", elf)
-        elves.append(simulations._content(elf))
-    assert elves[0] == elves[1] != elves[2]

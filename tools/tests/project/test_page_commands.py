@@ -6,7 +6,7 @@ from pathlib import Path
 
 import page_commands
 import pytest
-from page_commands import faults_on, pages, rewritten, written
+from page_commands import faults_on, pages, rewritten
 from preloaded import preloaded
 
 PAGES = pages()
@@ -56,19 +56,6 @@ def test_a_page_is_written_with_what_its_commands_print(tmp_path: Path) -> None:
     new = "text\n\n```console\n$ echo a\na\n\n$ x=c\n$ echo $x\nc\n```\n```\nplumb --help\n```\n"
     assert rewritten(old, tmp_path / "first") == new
     assert rewritten(new, tmp_path / "second") == new
-
-
-def test_only_the_pages_that_are_named_are_written(tmp_path: Path, monkeypatch) -> None:
-    stale = "```console\n$ echo a\nb\n```\n"
-    for name in ("first.md", "second.md"):
-        (tmp_path / name).write_text(stale)
-    monkeypatch.setattr(page_commands, "ROOT", tmp_path)
-    monkeypatch.setattr(page_commands, "pages", lambda: {"first.md": stale, "second.md": stale})
-    assert written(["second.md"]) == ["second.md"]
-    assert (tmp_path / "first.md").read_text() == stale
-    assert "$ echo a\na\n" in (tmp_path / "second.md").read_text()
-    with pytest.raises(SystemExit, match=r"third\.md: no page with commands"):
-        written(["third.md"])
 
 
 def test_a_command_ends_with_the_client_that_asked_for_it(tmp_path: Path) -> None:

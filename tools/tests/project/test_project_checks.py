@@ -191,22 +191,20 @@ def test_annotations_refuse_what_has_no_type_or_no_reason(tmp_path):
 BRANCHES = "def f(x):\n" + "".join(f"    if x == {i}:\n        x += 1\n" for i in range(12))
 
 
-@pytest.mark.parametrize(
-    ("name", "text"),
-    [
-        ("src/main.cpp", "int  a;\n"),
-        ("tools/a.py", "import os\n"),
-        ("tools/a.py", f"{BRANCHES}    return x\n"),
-        ("tools/a", "#!/usr/bin/env python3\nx = {  }\n"),
-        ("tools/a", "#!/usr/bin/env bash\nrm $1\n"),
-        ("docs/a.md", "Wich mark?\n"),
-    ],
-)
-def test_formatting_refuses(tmp_path, name, text):
+def test_formatting_refuses(tmp_path):
+    """All in a single tree: each run starts five programs."""
     good = {"src/good.cpp": "int a;\n", "tools/good.py": '"""A."""\n\nx = 1\n'}
     assert said("formatting", plant(tmp_path, good))[0] == 0
-    code, out = said("formatting", plant(tmp_path, {name: text}))
-    assert code == 1 and out.startswith(f"{name}:")
+    bad = {
+        "src/main.cpp": "int  a;\n",
+        "tools/a.py": "import os\n",
+        "tools/b.py": f"{BRANCHES}    return x\n",
+        "tools/c": "#!/usr/bin/env python3\nx = {  }\n",
+        "tools/d": "#!/usr/bin/env bash\nrm $1\n",
+        "docs/a.md": "Wich mark?\n",
+    }
+    code, out = said("formatting", plant(tmp_path, bad))
+    assert code == 1 and {line.partition(":")[0] for line in out.splitlines()} == {*bad}
 
 
 def test_generated_reports_a_stale_page(tmp_path):

@@ -71,10 +71,6 @@ def test_nothing_that_failed_or_did_not_run_counts_as_passed(results, cases, sta
     assert run.counts(junit, status) == expected
 
 
-def test_a_run_of_nothing_does_not_pass():
-    assert run.sum_up([]) == 1
-
-
 def test_the_usual_run_leaves_out_only_what_is_slow_and_a_word_it_does_not_know_is_refused():
     usual, everything = (
         [part for lane in run.lanes(what) for part in lane] for what in ("fast", "all")

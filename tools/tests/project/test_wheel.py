@@ -1,5 +1,6 @@
 """The package as an owner installs it: a wheel built from the tree works in an empty folder."""
 
+import json
 import os
 import re
 import shutil
@@ -22,7 +23,7 @@ ROOT = Path(__file__).resolve().parents[3]
 PIP = [sys.executable, "-m", "pip", "--disable-pip-version-check"]
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture
 def wheel(tmp_path_factory):
     """A wheel built from a copy of what the package is made of, without the folder test.
 
@@ -45,7 +46,7 @@ def wheel(tmp_path_factory):
 run_to_its_end = partial(subprocess.run, capture_output=True)
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture
 def plumb(wheel, tmp_path_factory):
     """Runs a command of the installed wheel in an empty folder, without the project's folder."""
     installed = tmp_path_factory.mktemp("installed")
@@ -62,9 +63,9 @@ def plumb(wheel, tmp_path_factory):
     # Without -S the project's installation would answer to the name plumb.
     packages = os.pathsep.join([str(installed), sysconfig.get_path("purelib")])
 
-    def run(*arguments, start=run_to_its_end):
+    def run(*arguments, program=("-m", "plumb.cli.main"), start=run_to_its_end):
         return start(
-            [sys.executable, "-S", "-m", "plumb.cli.main", *arguments],
+            [sys.executable, "-S", *program, *arguments],
             cwd=empty,
             env={"PATH": os.environ["PATH"], "HOME": str(empty), "PYTHONPATH": packages},
             text=True,
@@ -102,28 +103,40 @@ LACKING = {
 }
 
 
-def test_every_command_is_tried(plumb):
+def every_command_is_tried(plumb):
     shown = plumb("--help").stdout
     names = re.findall(r"^  ([a-z]+)\b", shown, re.MULTILINE)
     assert set(names) == {*COMMANDS, *LACKING, "lab"}, shown
 
 
-@pytest.mark.parametrize("command", LACKING)
-def test_a_command_without_its_file_or_board_says_so(plumb, command):
-    done = plumb(command, *LACKING[command])
-    assert done.returncode == 2, done.stderr
-    assert re.match(r"plumb: (marks\.nc|none|none\.hex): ", done.stderr), done.stderr
+# One after the other in a single program: to load the numerics takes longer than any of them.
+EACH = """
+import contextlib, io, json, sys
+from plumb.cli.main import main
+
+ended = {}
+for name, words in json.loads(sys.argv[1]).items():
+    said, complaint = (io.TextIOWrapper(io.BytesIO(), write_through=True) for _ in range(2))
+    with contextlib.redirect_stdout(said), contextlib.redirect_stderr(complaint):
+        code = main([name, *words])
+    ended[name] = code, *(each.buffer.getvalue().decode() for each in (said, complaint))
+json.dump(ended, sys.stdout)
+"""
 
 
-@pytest.mark.parametrize("command", COMMANDS)
-def test_the_command_runs_from_an_empty_folder(plumb, command):
-    done = plumb(command, *COMMANDS[command])
-    assert "Traceback" not in done.stderr, done.stderr
-    assert done.returncode in (0, 1), f"{done.returncode}: {done.stderr}"
-    assert done.stdout
+def every_command_runs_or_says_what_it_lacks(plumb):
+    done = plumb(json.dumps({**COMMANDS, **LACKING}), program=["-c", EACH])
+    assert done.returncode == 0, done.stderr
+    ended = json.loads(done.stdout)
+    for name in COMMANDS:
+        code, said, complaint = ended[name]
+        assert code in (0, 1) and said, f"{name}: {code}: {complaint}"
+    for name in LACKING:
+        code, _, complaint = ended[name]
+        assert code == 2 and re.match(r"plumb: (marks\.nc|none|none\.hex): ", complaint), name
 
 
-def test_the_lab_is_served_from_the_wheel_with_its_page(plumb):
+def the_lab_is_served_with_its_page(plumb):
     served = plumb(
         "lab",
         "--no-browser",
@@ -142,12 +155,12 @@ def test_the_lab_is_served_from_the_wheel_with_its_page(plumb):
         assert served.wait(20) == 0
 
 
-def test_the_wheel_says_which_python_it_needs(wheel):
-    with zipfile.ZipFile(wheel) as archive:
-        name = next(n for n in archive.namelist() if n.endswith("METADATA"))
-        assert "Requires-Python: >=3.11" in archive.read(name).decode()
-
-
-def test_the_wheel_brings_the_schema_of_the_answers_and_its_types(wheel):
+def test_a_wheel_works_in_an_empty_folder(wheel, plumb):
+    """In a single test: another worker would build the wheel once more."""
     with zipfile.ZipFile(wheel) as archive:
         assert {"plumb/cli/answers.schema.json", "plumb/py.typed"} <= {*archive.namelist()}
+        name = next(n for n in archive.namelist() if n.endswith("METADATA"))
+        assert "Requires-Python: >=3.11" in archive.read(name).decode()
+    every_command_is_tried(plumb)
+    every_command_runs_or_says_what_it_lacks(plumb)
+    the_lab_is_served_with_its_page(plumb)

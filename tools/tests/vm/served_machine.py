@@ -46,6 +46,7 @@ class Served:
     """A `plumb vm` that runs in a folder."""
 
     def __init__(self, folder: Path, *words: str):
+        (folder / "maslow").unlink(missing_ok=True)  # that of a machine which was killed
         command = [*PLUMB, "vm", "--link", "maslow", "--speed", str(SPEED), *words]
         self.program = INTERRUPTIBLE(
             command, cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True

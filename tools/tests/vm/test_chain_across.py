@@ -59,17 +59,6 @@ def test_the_hook_is_refused_where_nothing_could_hang():
         below.hook_across("left", 5)
 
 
-def test_the_sled_hangs_again_when_the_chain_is_unhooked():
-    machine = _vm.VirtualMachine(NUMBERS)
-    sled = machine.sled
-    chains = machine.chains
-    machine.hook_across("left", 5)
-    machine.slip("left", chains[0] - machine.chains[0])
-    machine.unhook()
-    assert machine.sled == pytest.approx(sled, abs=1e-6)
-    assert machine.across == (0, 0)
-
-
 def test_motors_without_power_give_way_until_their_friction_holds_the_chain():
     machine = _vm.VirtualMachine(NUMBERS)
     machine.hook_across("left", -6, BEYOND)

@@ -103,22 +103,6 @@ def test_a_lost_wire_stops_it(wire, at):
     assert pulled.most_pull < 110
 
 
-@pytest.mark.parametrize("wire", ["encoder_reversed", "motor_reversed"])
-def test_a_motor_that_turns_the_wrong_way_or_not_at_all_stops_it(wire):
-    pulled = Pulled("B11 S255 T15 L")
-    pulled.machine.set_wire("left", wire, True)
-    assert pulled.answered() == [DEAD, "ok"]
-    assert pulled.most_pull < 60
-
-
-@pytest.mark.parametrize("wire", ["encoder_unplugged", "blocked"])
-def test_what_does_not_move_from_the_start_is_driven_no_longer_than_it_takes_to_see(wire):
-    pulled = Pulled("B11 S255 T15 L")
-    pulled.machine.set_wire("left", wire, True)
-    assert pulled.answered() == [DEAD, "ok"]
-    assert pulled.seconds < 0.9  # 0.6 s with power, and a rest
-
-
 @pytest.mark.parametrize("at", [2.5, 4.4])
 def test_a_chain_that_comes_off_in_a_pull_is_wound_in_until_the_time_is_over(at):
     pulled = Pulled("B11 S255 T6 L")
@@ -145,12 +129,6 @@ def test_pulls_that_differ_are_said():
     lines = pulled.answered()
     assert lines[1] == "The pulls differ: look after chain, hook and supply, send B11 again."
     assert numbers_of([lines[0], "ok"])[1] > 0.5
-
-
-def test_a_short_pull_is_gentle_and_says_nothing():
-    pulled = Pulled("B11 S255 T1.5 L", slack=0.5)
-    assert pulled.answered() == ["ok"]
-    assert pulled.most_pull < 115
 
 
 def test_the_flashed_program_pulls_as_the_host_does(elf):

@@ -1,6 +1,5 @@
 """The closed loop: a hidden effect is found, added, and the next sheet is better."""
 
-import re
 from dataclasses import replace
 
 import numpy as np
@@ -14,7 +13,6 @@ from plumb.plan.planned_visits import sent
 from plumb.vm.garage import Garage, astray, random_garage
 from plumb.vm.loop import Spent, closed_loop
 from plumb.vm.owner import VirtualOwner, true_value
-from plumb.vm.tape import filled_form, marks_on
 
 GRID = Grid(columns=5, rows=5)
 NOISE = 0.4
@@ -61,39 +59,6 @@ def test_an_owner_measures_what_is_true_and_no_better():
     assert true_value(owner.garage, "chain_stretch.compliance") == 5.17e-6
     assert true_value(owner.garage, "motor_level.height_difference") == 0
     assert true_value(owner.garage, "sled_friction.drag") == owner.garage.friction
-
-
-def test_a_cut_that_goes_sideways_is_no_mark():
-    dimple = [(1, 0.1, 5.0, 6.0, 0.1), (1, 0.2, 5.1, 6.0, 0.4)]
-    line = [(2, 1.0, 5.0, 6.0, 0.4), (2, 2.0, 9.0, 6.0, 0.4)]
-    assert marks_on(dimple + line).tolist() == [[5.1, 6.0]]
-    assert marks_on([]).shape == (0, 2)
-
-
-def test_a_form_takes_a_reading_for_each_mark():
-    form = """target = [1010.00, 500.00]
-approach = [0.0, -40.0]
-# measured = [ , ]
-target = [900.00, 440.00]
-# measured = [ , ]
-target = [880.00, 440.00]
-measured = [880.00, 441.00]
-"""
-    readings = np.array([(-91.0, 56.0), (4.0, 2.0)])
-    filled = filled_form(form, readings, sheet=(2000.0, 1000.0))
-    assert re.findall("^measured = (.*)", filled, re.MULTILINE) == [
-        "[1004.0, 498.0]",
-        "[909.0, 444.0]",
-        "[880.00, 441.00]",
-    ]
-    with pytest.raises(ValueError, match="waits for 2 marks, and the sheet has 1"):
-        filled_form(form, readings[:1], sheet=(2000.0, 1000.0))
-
-
-def test_a_turned_sheet_reads_turned():
-    garage = Garage(Hidden(), sheet_center=(2.0, 1.0), sheet_turn=0.01)
-    x, y = garage.on_sheet(np.array([[1002.0, 1.0]]))[0]
-    assert (x, y) == pytest.approx((999.95, -10.0), abs=0.001)
 
 
 @pytest.mark.slow

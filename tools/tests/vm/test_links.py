@@ -47,19 +47,6 @@ def test_a_link_of_a_killed_machine_is_replaced_even_if_its_number_is_used_again
         ours.close()
 
 
-def test_a_killed_machines_link_is_replaced_even_if_another_machine_has_its_number(
-    terminal, tmp_path
-):
-    other, ours = terminal(), terminal()
-    other.link_as(str(tmp_path / "other"))
-    link = tmp_path / "maslow"
-    link.symlink_to(other.path)  # as a killed machine left it
-    ours.link_as(str(link))
-    assert os.readlink(link) == ours.path and os.readlink(tmp_path / "other") == other.path
-    ours.close()
-    other.close()
-
-
 def test_what_is_no_machine_keeps_its_name(terminal, tmp_path):
     (tmp_path / "job.nc").write_text("G21\n")
     link = tmp_path / "maslow"

@@ -8,10 +8,8 @@ import pytest
 from plumb.bench.causes import MAKER, Hidden
 from plumb.cli.main import main
 from plumb.marks.read import read_marks
-from plumb.settings.files import read_settings
-from plumb.settings.toml import machine_toml
 from plumb.vm.garage import Garage, sled_error
-from plumb.vm.practice import Secret, claims_of, score, secret_in
+from plumb.vm.practice import Secret, score, secret_in
 from served_machine import INTERRUPTIBLE, PLUMB, plumb
 
 GRID = ("grid", "--places=-1119,510 1119,510 1119,-510 -1119,-510")
@@ -87,10 +85,3 @@ def test_the_error_over_the_sheet_is_nothing_where_the_settings_are_true():
     assert sled_error(Garage(Hidden()), MAKER) < 0.02
     assert sled_error(Secret(1).garage, MAKER) > 1
     assert score(Secret(1), replace(MAKER, motor_height=100.0)).after_mm is None
-
-
-def test_claims_are_the_effects_that_changed(tmp_path):
-    path = tmp_path / "machine.toml"
-    path.write_text(machine_toml(MAKER) + "\n[effects.frame_lean]\nsine = 0.02\n")
-    assert claims_of(MAKER, MAKER) == ()
-    assert claims_of(MAKER, read_settings(path)) == ("frame_lean",)

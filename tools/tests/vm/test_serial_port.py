@@ -32,29 +32,6 @@ def test_a_program_is_cut_read_with_a_tape_and_the_machine_tells_its_place(serve
     assert not os.path.lexists(tmp_path / "maslow")
 
 
-READING = """
-import sys
-import numpy as np
-from plumb.vm.garage import random_garage
-from plumb.vm.garage import hide
-from plumb.vm.tape import Tape
-from types import SimpleNamespace as Machine
-form = "[[mark]]\\nname = '1'\\ntarget = [100.0, 200.0]\\n# measured = [ , ]\\n"
-garage = random_garage(hide([], millimetres=3, seed=1), 1)
-tape = Tape(garage, np.random.default_rng(1), noise=0.4)
-tape.get_ready(form)
-loaded = set(sys.modules)
-cut = (1, 0.0, 0.0, 0.0, 0.5)
-assert "\\nmeasured = [" in tape.fill_when_cut(form, Machine(cuts=lambda: [cut], height=1.0))
-assert set(sys.modules) == loaded, set(sys.modules) - loaded
-"""
-
-
-def test_a_machine_that_is_served_does_not_fall_silent_to_load_what_its_tape_needs():
-    done = subprocess.run([PLUMB[0], "-c", READING], capture_output=True, text=True)
-    assert done.returncode == 0, done.stderr
-
-
 def test_numbers_are_written_read_back_kept_and_brought_back(served, tmp_path):
     served()
     plumb("read", "--port", "maslow", "-o", "machine.toml", folder=tmp_path)
@@ -257,13 +234,6 @@ def test_a_program_gets_the_port_as_an_object(ask, tmp_path):
     assert code == 0 and answer["port"] == str(link) and answer["preload"] is None
     assert answer["hidden"].startswith("chain_sag")
     assert ask("vm", "--preload")[1]["preload"].endswith("serial_port.so")
-
-
-def test_opening_the_port_resets_the_board_each_time(served, tmp_path):
-    served()
-    for _ in range(3):
-        with serial.Serial(str(tmp_path / "maslow"), 57600, timeout=START) as line:
-            assert b"PCB v1.2" in line.read_until(b"Detected")
 
 
 def test_the_sled_hangs_at_the_next_start_where_it_hung_at_the_end(served, tmp_path):

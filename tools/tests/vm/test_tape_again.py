@@ -76,13 +76,6 @@ def test_each_mark_is_read_again_with_new_noise(tape, sheet, tmp_path):
         assert read[:, 0].std() == pytest.approx(NOISE, rel=0.2)
 
 
-def test_a_mark_next_to_another_is_not_taken_for_it(tape, sheet, tmp_path):
-    cut_and_read(tape, sheet, 12.0, *NEAR)
-    cut_and_read(tape, sheet, 12.0, ("4", 120.0, 100.0))
-    again = readings(tape.fill_again(form(*NEAR, ("4", 120.0, 100.0))), tmp_path)
-    assert [x for _, x, _ in again] == pytest.approx([112, 2312, 2312, 132], abs=5 * NOISE)
-
-
 def test_a_target_that_was_cut_in_two_rounds_has_a_name_in_each(tape, sheet, tmp_path):
     cut_and_read(tape, sheet, 9.0, *NEAR)
     cut_and_read(tape, sheet, -6.0, ("1", 100.0, 100.0))

@@ -74,14 +74,6 @@ def test_a_feed_that_the_settings_have_wrong_winds_in_what_should_be_paid_out(ov
     assert machine.chains[0] < left - 20
 
 
-def test_the_encoder_counts_what_the_motor_pays_out(machine):
-    before, chains = machine.count("left"), machine.chains
-    said_by(machine, "G0 X-300", 25_000)
-    paid = machine.chains[0] - chains[0]
-    assert (machine.count("left") - before) * COUNT == pytest.approx(paid, abs=2 * COUNT)
-    assert paid < -100
-
-
 def test_friction_leaves_the_sled_behind_on_the_side_it_came_from():
     places = []
     for first in (-100, 300):
@@ -128,11 +120,6 @@ def test_a_sled_of_twenty_kilograms_travels_without_an_alarm():
         assert "ALARM" not in machine.take_said().decode()
 
 
-def test_an_unplugged_encoder_stops_the_machine(machine):
-    machine.set_wire("left", "encoder_unplugged", True)
-    assert any("ALARM" in line for line in said_by(machine, "G0 X200", 10_000))
-
-
 def test_what_cannot_be_is_refused():
     with pytest.raises(ValueError, match="no number color"):
         _vm.VirtualMachine({"color": 1.0})
@@ -147,14 +134,6 @@ def test_what_cannot_be_is_refused():
         machine.set_wire("z", "rust", True)
     with pytest.raises(ValueError, match="4096"):
         machine.eeprom = b""
-
-
-def test_a_line_in_the_sheet_is_seen_every_ten_milliseconds(machine):
-    said_by(machine, "G0 Z2\nG0 X0 Y0\nG1 Z-1 F500\nG1 X60 F800\nG0 Z2", 60_000)
-    places = np.array([cut[2:4] for cut in machine.cuts()])
-    # At 13 mm/s it goes 0.13 mm in that time; above the sheet it is looked at every half mm.
-    assert len(places) > 300
-    assert np.linalg.norm(np.diff(places, axis=0), axis=1).max() < 0.3
 
 
 def test_what_the_simulated_mega_cannot_run_is_refused(run, monkeypatch):

@@ -13,23 +13,6 @@ def test_the_begin_of_a_line_waits_for_its_end():
     assert lines.take(b"\n$31", 3) == b"$30=0 (z axis)\r\n"
 
 
-def test_what_is_no_line_goes_after_a_pause():
-    lines = WholeLines()
-    assert lines.take(b"Gr", LONGEST_PAUSE) == b""
-    assert lines.take(b"", LONGEST_PAUSE - 1) == b""
-    assert lines.take(b"", 1) == b"Gr"
-    assert lines.take(b"", LONGEST_PAUSE) == b""
-    assert lines.take(b"bl", 3) == b""
-
-
-def test_each_byte_begins_the_pause_again():
-    lines = WholeLines()
-    for byte in (b"$", b"3", b"0"):
-        assert lines.take(byte, 1) == b""
-        assert lines.take(b"", LONGEST_PAUSE - 1) == b""
-    assert lines.take(b"\n", 1) == b"$30\n"
-
-
 class SlowSpeaker:
     """A machine that says the next part each time its time passes."""
 
@@ -95,16 +78,6 @@ def test_a_client_that_stood_still_loses_no_line():
     # A program that does not read holds the machine's time, so nothing has to be thrown away.
     assert stood_at > 0
     assert heard == b"".join(said)
-
-
-def test_without_a_client_the_machines_time_goes_on():
-    said = [b"<Idle,MPos:0.00,0.00,0.00,WPos:0,0,0>\r\n"] * 3000
-    terminal = PseudoTerminal(SlowSpeaker(b"", *said))
-    serial.Serial(terminal.path, 57600, timeout=0).close()
-    for _ in range(3001):
-        terminal.pass_time(1)
-    terminal.close()
-    assert terminal.machine.parts == []
 
 
 def test_a_client_that_opens_the_port_hears_nothing_of_before():
