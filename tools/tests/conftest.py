@@ -2,9 +2,11 @@
 
 import json
 import os
+import shutil
 from importlib import resources
 
 import pytest
+from chromium import QUIET
 from jsonschema import Draft202012Validator
 from plumb.cli.main import main
 from plumb.text.compiled import stale_source
@@ -74,3 +76,16 @@ def file(tmp_path):
         return path
 
     return write
+
+
+@pytest.fixture(scope="session")
+def browser():
+    """Debian's Chromium, one for all rooms that a worker tests."""
+    from playwright.sync_api import sync_playwright  # most rooms need no browser
+
+    with sync_playwright() as playwright:
+        running = playwright.chromium.launch(
+            executable_path=shutil.which("chromium"), args=QUIET, headless=True
+        )
+        yield running
+        running.close()
