@@ -1,9 +1,11 @@
 """What tests of the command line share: running one command, and asking it for JSON."""
 
 import json
+import shutil
 from importlib import resources
 
 import pytest
+from chromium import QUIET
 from jsonschema import Draft202012Validator
 from plumb.cli.main import main
 from plumb.text.compiled import stale_source
@@ -54,3 +56,16 @@ def file(tmp_path):
         return path
 
     return write
+
+
+@pytest.fixture(scope="session")
+def browser():
+    """Debian's Chromium, one for all rooms that a worker tests."""
+    from playwright.sync_api import sync_playwright  # most rooms need no browser
+
+    with sync_playwright() as playwright:
+        running = playwright.chromium.launch(
+            executable_path=shutil.which("chromium"), args=QUIET, headless=True
+        )
+        yield running
+        running.close()

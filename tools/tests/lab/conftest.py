@@ -1,6 +1,5 @@
 """A lab that is served, and a browser that looks at it."""
 
-import shutil
 import threading
 from contextlib import contextmanager, suppress
 from urllib.parse import urljoin
@@ -9,7 +8,7 @@ import pytest
 from asked_again import asked_again  # noqa: F401
 from folder import with_settings
 from journeys import Garage
-from playwright.sync_api import Error, expect, sync_playwright
+from playwright.sync_api import Error, expect
 from plumb.vm.garage import hide, random_garage
 from plumb.vm.owner import VirtualOwner
 from plumb.vm.pseudo_terminal import Pace, PseudoTerminal
@@ -17,9 +16,6 @@ from served_lab import SharedLab
 
 BUSY_MS = 120_000  # of a busy computer
 expect.set_options(timeout=BUSY_MS)
-# Without these Chromium asks the network for things that nobody wants here.
-QUIET = ["--no-sandbox", "--disable-gpu", "--disable-background-networking", "--disable-sync"]
-QUIET += ["--no-first-run", "--disable-component-update", "--disable-quic", "--in-process-gpu"]
 
 
 @pytest.fixture(scope="session")
@@ -41,17 +37,6 @@ def client(tmp_path):
     """A lab that is asked without a network, with the example's settings open."""
     with with_settings(tmp_path) as client:
         yield client
-
-
-@pytest.fixture(scope="session")
-def browser():
-    """Debian's Chromium."""
-    with sync_playwright() as playwright:
-        running = playwright.chromium.launch(
-            executable_path=shutil.which("chromium"), args=QUIET, headless=True
-        )
-        yield running
-        running.close()
 
 
 @contextmanager

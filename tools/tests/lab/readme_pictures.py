@@ -13,7 +13,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
-from conftest import QUIET
+from chromium import QUIET
 from playwright.sync_api import Browser, Page, sync_playwright
 from screens import ROOT, at_rest, measured_machine
 from served_lab import ServedLab, serve

@@ -1,21 +1,7 @@
 """Tests of this room ask the same of the same boards, and open pages without any network."""
 
-import shutil
-
 import pytest
 from asked_again import asked_again  # noqa: F401
-from playwright.sync_api import sync_playwright
-
-
-@pytest.fixture(scope="session")
-def browser():
-    """Debian's Chromium."""
-    with sync_playwright() as playwright:
-        running = playwright.chromium.launch(
-            executable_path=shutil.which("chromium"), args=["--no-sandbox", "--disable-gpu"]
-        )
-        yield running
-        running.close()
 
 
 @pytest.fixture
