@@ -25,7 +25,7 @@ QUESTIONS = (
     ("add", *BOARD, "--effect", "chain_pitch", "chain_stretch", "--patch", *CLIENT),
     ("add", *BOARD, "--effect", "auto"),
     ("add", *SLIPPED, "--effect", "auto"),
-    ("bench", "--scenario", "none-9", "one-9", "--boards", "1"),
+    ("bench", "--kinds", "none", "one", "--marks", "9", "--boards", "1"),
     ("calibrate", *BOARD),
     ("calibrate", *BOARD, *TAPE, *CLIENT),
     ("calibrate", "kept/machine.toml", "kept/check.toml"),

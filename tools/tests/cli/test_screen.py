@@ -29,7 +29,7 @@ def _no_screen(monkeypatch):
         ("add", INI, MARKS, "--effect", "auto", "--patch"),
         ("add", INI, MARKS, "--effect", "sprocket_runout", "frame_flex"),
         ("effects",),
-        ("bench", "--scenario", "one-9", "--boards", "1"),
+        ("bench", "--kinds", "one", "--marks", "9", "--boards", "1"),
         ("inverse", INI, "--points", EXAMPLE / "places.csv"),
         ("forward", INI, "--lengths", EXAMPLE / "lengths.csv"),
         ("settings", EXAMPLE / "machine.toml"),

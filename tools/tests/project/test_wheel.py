@@ -84,7 +84,7 @@ COMMANDS = {
     "next": MEASURED,
     "add": (*MEASURED, "--effect", "chain_pitch", "-o", "fitted.toml"),
     "effects": (),
-    "bench": ("--scenario", "none-9", "--boards", "1"),
+    "bench": ("--kinds", "none", "--marks", "9", "--boards", "1"),
     "report": (*MEASURED, "-o", "report.html"),
     "inverse": ("groundcontrol.ini", "--points", "points.csv"),
     "forward": ("groundcontrol.ini", "--lengths", "chains.csv"),
