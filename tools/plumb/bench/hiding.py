@@ -111,6 +111,7 @@ def _size(cause: Cause, source: Source) -> float:
 
 STRETCH, STRETCH_SIGMA, LEAST_STRETCH = 5.2e-6, 1.5e-6, 5e-7  # [1/N] of a chain
 SAG_SHARE = 0.1  # by which a chain is heavier or lighter than the settings say, at most
+SMALLEST = "chain_sag"  # of what is usual: a tenth of it is not worth a fit
 PITCH_CHANCE, PITCH_SIGMA = 0.5, 5e-4
 
 

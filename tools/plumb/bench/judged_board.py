@@ -11,6 +11,7 @@ import numpy as np
 
 from plumb.bench.boards import BoardCut, TrueMachine
 from plumb.bench.causes import CHAIN, HALF, MAKER
+from plumb.bench.hiding import SMALLEST
 from plumb.bench.kinds import KINDS, board_of
 from plumb.bench.shown import Truth, truth_of
 from plumb.cure.auto import add_auto
@@ -27,7 +28,6 @@ from plumb.settings.machine import MachineSettings
 
 NAMED = ("one_suspect", "cannot_tell")
 WORSE = 0.05  # [mm] by which the error must grow to be called worse
-SMALL = "chain_sag"  # a tenth of it is not worth a fit
 
 
 @dataclass(frozen=True)
@@ -94,7 +94,7 @@ def judge_board(kind: str, index: int, *, marks: int, seed: int, rounds: int = 0
 
 def _with_what_is_there(inputs: Inputs, diagnosis: Diagnosis, truth: Truth) -> MachineSettings:
     """Return the settings with the frame and all that is there fitted, as `plumb add` does it."""
-    usual = (name for name in truth.usual if name != SMALL)
+    usual = (name for name in truth.usual if name != SMALLEST)
     there = tuple(dict.fromkeys([*usual, *truth.effects]))
     model, rows = inputs.model_and_observations()
     sigma, checked = diagnosis.noise.sigma, inputs.checked
