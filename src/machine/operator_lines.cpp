@@ -25,8 +25,7 @@ void OperatorLines::resume() {
 
 gcode::Input& OperatorLines::inputFor(char character) {
   const uint32_t kFirstMs = 300;  // a sender that has not noticed may go on for a moment
-  // A question belongs to no line: the end behind `~?` is still that of the `~`.
-  if (character != '\n' && character != '?' && !coming_->isInLine()) {
+  if (character != '\n' && !coming_->isInLine()) {
     // To a sender of Grbl a line in a hold is one of the program, to be done after it.
     const bool is_own = !base_.out.speaksGrbl() && isOperatorsTurn() &&
                         base_.clock.milliseconds() - since_ms_ >= kFirstMs;

@@ -62,15 +62,15 @@ void Answers::checkLine(const std::string& line) {
 }
 
 void Answers::taken(char character) {
+  // The end of line right behind a quick character is that character's.
+  const bool follows_quick = after_quick_;
+  after_quick_ = isQuick(character);
   if (character == '?' && !is_in_line_) {
     // A Maslow client had no answers after an alarm.
     if (!is_of_grbl_ && is_locked_) broken_ = lines_ + quick_ - answered_;
     is_of_grbl_ = true;
     return;
   }
-  // An end of line behind a quick character is that character's, but within a line.
-  const bool follows_quick = after_quick_ && (!is_in_line_ || is_cut_);
-  after_quick_ = isQuick(character);
   // CR ends a line too; what may follow it is part of that end.
   const bool follows_return = after_return_ && !is_in_line_;
   after_return_ = character == '\r' || (follows_return && character == ' ');
@@ -90,7 +90,7 @@ void Answers::taken(char character) {
 
 void Answers::takenEnd(bool follows_quick) {
   if (!follows_quick && !is_cut_) ++lines_;
-  is_in_line_ = false;
+  if (!follows_quick || is_cut_) is_in_line_ = false;
   is_cut_ = false;
 }
 

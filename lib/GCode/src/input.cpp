@@ -48,9 +48,9 @@ Quick Input::quickOf(char character) {
 
 Quick Input::put(char character) {
   const Quick quick = quickOf(character);
-  if (quick >= Quick::kStatus) return quick;
   const bool after_quick = after_quick_;
-  after_quick_ = quick != Quick::kNone;
+  after_quick_ = quick != Quick::kNone && quick < Quick::kStatus;
+  if (quick >= Quick::kStatus) return quick;
   if (quick == Quick::kResume) resumable_ = uint8_t(lines_ + 1);
   if (quick != Quick::kNone) return quick;
   if (after_return_ && line_ == Line::kBegins && (character == ' ' || character == '\n')) {
@@ -59,8 +59,8 @@ Quick Input::put(char character) {
   }
   after_return_ = character == '\r';
   if (character == '\n' || character == '\r') {
-    // The end of the quick character, and of what it cut; not of a line into which it fell.
-    if (!after_quick || (isInLine() && line_ != Line::kCut)) return endLine();
+    // The end of the quick character, and of what it cut.
+    if (!after_quick) return endLine();
     if (line_ == Line::kCut) line_ = Line::kBegins;
     return Quick::kNone;
   }
