@@ -3,7 +3,7 @@
 import json
 
 import pytest
-import settings_page
+import write
 from plumb.text import compiled
 
 SAG = "lib/Kinematics/src/effects/chain_sag.h"
@@ -62,7 +62,7 @@ def test_every_program_refuses_with_a_line(an_edit, run):
 
 
 def test_the_generators_of_pages_refuse(an_edit, capsys, tmp_path):
-    assert settings_page.main(["--folder", str(tmp_path)]) == 2
-    assert capsys.readouterr().err.startswith(f"settings_page: {SAG}: ")
-    assert settings_page.main(["--check"]) == 2
+    assert write.main(["--folder", str(tmp_path)]) == 2
+    assert capsys.readouterr().err.startswith(f"write.py: {SAG}: ")
+    assert write.main(["--check"]) == 2
     assert not any(tmp_path.iterdir())
