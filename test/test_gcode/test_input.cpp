@@ -63,6 +63,8 @@ TEST(Quick, CharactersSwallowTheLineFeedBehindThem) {
   EXPECT_EQ("|", lines(input)) << "only one line feed";
   put(input, "~G1\n");
   EXPECT_EQ("G1|", lines(input)) << "another character begins a normal line";
+  put(input, "G1 X5~?\n");
+  EXPECT_EQ("G1 X5|", lines(input)) << "a question stands between";
 }
 
 TEST(Quick, CharactersFindRoomWhenNothingElseDoes) {
