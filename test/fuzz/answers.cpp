@@ -65,9 +65,15 @@ void Answers::taken(char character) {
   // The end of line right behind a quick character is that character's.
   const bool follows_quick = after_quick_;
   after_quick_ = isQuick(character);
+  // GroundControl puts a space behind each line: then the only `?` so far was noise, and the line
+  // turns the dialect back once it is done.
+  const bool ends = character == '\n' || character == '\r';
+  if (ends && has_space_ && is_of_grbl_ && !is_sure_) is_unclear_ = true;
+  has_space_ = character == ' ' || character == '\t';
   if (character == '?' && !is_in_line_) {
     // A Maslow client had no answers after an alarm.
     if (!is_of_grbl_ && is_locked_) broken_ = lines_ + quick_ - answered_;
+    is_sure_ = is_of_grbl_;
     is_of_grbl_ = true;
     return;
   }
@@ -79,7 +85,7 @@ void Answers::taken(char character) {
     takenByGrbl(character);
   else if (after_quick_)
     takenQuick(character);
-  else if (character == '\n' || character == '\r')
+  else if (ends)
     takenEnd(follows_quick);
   else if (beginsLine(character))
     is_in_line_ = true;
@@ -118,6 +124,7 @@ void Answers::dropLines() {
 }
 
 void Answers::said(const std::string& line) {
+  if (is_unclear_) return;
   // B05 is echoed once it has turned the dialect off.
   if (startsWith(line, "B05")) is_of_grbl_ = false;
   // The answers to $I, $G and $X, which turn it on: what came since may have no answer.
@@ -177,6 +184,7 @@ void Answers::saidToMaslow(const std::string& line) {
 }
 
 void Answers::wentRound() {
+  if (is_unclear_) return;
   const int kMostRounds = 4;
   const bool may_wait = is_locked_ || is_held_ || is_waiting_;
   const bool waits = !isComplete() && !may_wait && answered_ == answered_before_;

@@ -23,9 +23,11 @@ class Answers {
 
   bool isComplete() const { return answered_ >= lines_ + quick_ - broken_; }
   bool isOfGrbl() const { return is_of_grbl_; }
+  /// Whether nobody can tell from outside which dialect the machine will speak, and from when on.
+  bool isUnclear() const { return is_unclear_; }
   bool isLocked() const { return is_locked_; }
   /// After a halt the moves before it are finished; after an alarm nothing turns.
-  bool mayDrive() const { return !is_locked_ || is_halted_; }
+  bool mayDrive() const { return is_unclear_ || !is_locked_ || is_halted_; }
   /// Whether the last status says so, and nothing came since that could change it.
   bool isIdle() const { return is_idle_; }
   bool isSimulated() const { return is_simulated_; }
@@ -46,6 +48,8 @@ class Answers {
   long broken_ = 0;   ///< lines that a Grbl alarm may have left without an answer
   int rounds_ = 0, settings_ = 0;
   bool is_of_grbl_ = false;
+  bool is_sure_ = false;  ///< a second `?` came, so the first was no noise
+  bool is_unclear_ = false, has_space_ = false;
   bool is_in_line_ = false, is_cut_ = false;  ///< part of a line came; its rest is dropped
   bool after_quick_ = false, after_return_ = false, is_locked_ = false, is_halted_ = false,
        is_simulated_ = false;

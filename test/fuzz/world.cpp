@@ -119,6 +119,7 @@ class World : public Wire, public Drives, public Aux, public Clock {
   void releaseTicks() override {}
 
   void idle() override {
+    if (answers_.isUnclear()) throw TheEnd();
     pass(story_.step_ms);
     must(answers_.isOfGrbl() || now_ms_ - last_line_ms_ <= kLongestGapMs + story_.step_ms,
          "silence for over 1.5 s");
