@@ -10,99 +10,6 @@ namespace {
 
 const std::size_t kLongest = 2000;
 
-const char* const kWords[] = {"G0 ",
-                              "G1 ",
-                              "G2 ",
-                              "G3 ",
-                              "G4 P10",
-                              "G10 Z0",
-                              "G20\n",
-                              "G21\n",
-                              "G38.2 Z-5",
-                              "G90 ",
-                              "G91 ",
-                              "G90.1",
-                              "G91.1",
-                              "M0\n",
-                              "M3\n",
-                              "M5\n",
-                              "T1 M6\n",
-                              "M6 T2\n",
-                              "X",
-                              "Y",
-                              "Z",
-                              "I",
-                              "J",
-                              "R",
-                              "F",
-                              "X10 Y5",
-                              "Z-1",
-                              "I5 J0",
-                              "R-20",
-                              "F500",
-                              "B01\n",
-                              "B02 L1 R0\n",
-                              "B04\n",
-                              "B05\n",
-                              "B06 L1651 R1651\n",
-                              "B08\n",
-                              "B09 L5 R5\n",
-                              "B10 L\n",
-                              "B11 S100 T1 L\n",
-                              "B13 L1 S5 F10 I2 V2\n",
-                              "B14 L1 S1 F5 I2 T100\n",
-                              "B15\n",
-                              "B16 L1 S10 F20\n",
-                              "B17\n",
-                              "B18\n",
-                              "B19\n",
-                              "B20\n",
-                              "B99 ON\n",
-                              "B99\n",
-                              "$$\n",
-                              "$\n",
-                              "$16=0\n",
-                              "$17=1\n",
-                              "$7=1\n",
-                              "$7=0\n",
-                              "$37=1e-5\n",
-                              "$62=",
-                              "$RST=$\n",
-                              "$RST=*\n",
-                              "$RST=#\n",
-                              "$",
-                              "=",
-                              "!",
-                              "!\n",
-                              "~",
-                              "~\n",
-                              "\x18\n",
-                              "`",
-                              "(",
-                              ")",
-                              ";",
-                              "%",
-                              "/",
-                              "\n",
-                              "\n\n",
-                              "1e99",
-                              "1E-05",
-                              "--",
-                              ".",
-                              "-",
-                              "nan",
-                              "inf",
-                              "0.000001",
-                              "99999999999",
-                              "63.50000000000001",
-                              "\x01",
-                              "\x02",
-                              "\x03",
-                              "\x04",
-                              "\x05",
-                              "\x06",
-                              "\x07"};
-
 }  // namespace
 
 Corpus readCorpus(const std::string& folder) {
@@ -147,7 +54,7 @@ void Mutator::change(Input& input, const Corpus& corpus) {
       break;
     case 4:
     case 5:
-      insert(input, kWords[below(sizeof kWords / sizeof kWords[0])]);
+      insert(input, wordOf(corpus[below(corpus.size())]));
       break;
     case 6:
       insert(input, std::to_string(double(int(below(40001)) - 20000) / double(1 + below(100))));
@@ -158,6 +65,15 @@ void Mutator::change(Input& input, const Corpus& corpus) {
     default:
       moveLine(input);
   }
+}
+
+/// A word of an input with the space or line end behind it, or what acts on the board.
+std::string Mutator::wordOf(const Input& other) {
+  if (other.empty() || below(8) == 0) return std::string(1, char(1 + below(7)));
+  const auto isEnd = [](uint8_t byte) { return byte == ' ' || byte == '\n'; };
+  const auto start = other.begin() + long(below(other.size()));
+  const auto end = std::find_if(start, other.end(), isEnd);
+  return std::string(start, end == other.end() ? end : end + 1);
 }
 
 void Mutator::insert(Input& input, const std::string& text) {

@@ -24,6 +24,7 @@ class Mutator {
  private:
   std::size_t below(std::size_t limit) { return limit == 0 ? 0 : random_() % limit; }
   void change(Input& input, const Corpus& corpus);
+  std::string wordOf(const Input& other);
   void insert(Input& input, const std::string& text);
   void splice(Input& input, const Input& other);
   void moveLine(Input& input);
