@@ -13,7 +13,6 @@ sys.path.insert(0, str(ROOT / "tools/bench"))
 import played as plays  # noqa: E402
 from played import check_board, play, played, ran  # noqa: E402
 
-BUILD = ROOT / ".build/vm"
 VM = ROOT / "test/vm"
 DIALOGUES = VM / "dialogues"
 TOLERANCE = 0.011  # [mm] two decimals, and a chain count or two
@@ -48,11 +47,16 @@ def hard(player) -> dict[str, float]:
     return figures(played(player, DIALOGUES, "hard.nc"))
 
 
-def test_the_simulated_mega_runs_as_a_mega_where_simavr_does_not():
-    BUILD.mkdir(parents=True, exist_ok=True)
-    elf = BUILD / "board_program.elf"
-    avr = ["avr-gcc", "-mmcu=atmega2560", "-DF_CPU=16000000UL", "-Os", VM / "board_program.cpp"]
-    subprocess.run([*avr, "-o", elf], check=True)
+def built(tmp_path, compiler, *words):
+    """A program for the Mega of these sources, with these options."""
+    elf = tmp_path / "program.elf"
+    avr = [compiler, "-mmcu=atmega2560", "-DF_CPU=16000000UL", "-Os"]
+    subprocess.run([*avr, *words, "-o", elf], check=True)
+    return elf
+
+
+def test_the_simulated_mega_runs_as_a_mega_where_simavr_does_not(tmp_path):
+    elf = built(tmp_path, "avr-gcc", VM / "board_program.cpp")
     counted = figures(ran(check_board(), elf))
     assert counted["masked"] == 10  # an interrupt waits behind its mask
     assert counted["taken_back"] == 0  # unless its flag is cleared
@@ -61,11 +65,9 @@ def test_the_simulated_mega_runs_as_a_mega_where_simavr_does_not():
     assert (counted["skip_cycles"], counted["add_cycles"]) == (2, 3)
 
 
-def test_sum_product_and_quotient_are_those_of_avr_libc_and_faster():
-    elf = BUILD / "float_program.elf"
+def test_sum_product_and_quotient_are_those_of_avr_libc_and_faster(tmp_path):
     sources = [VM / "float_program.cpp", VM / "float_of_libc.S", ROOT / "src/board/float.S"]
-    avr = ["avr-g++", "-mmcu=atmega2560", "-DF_CPU=16000000UL", "-Os", "-std=gnu++11"]
-    subprocess.run([*avr, *sources, "-o", elf], check=True)
+    elf = built(tmp_path, "avr-g++", *sources, "-std=gnu++11")
     counted = figures(ran(check_board(), elf, "5500"))
     assert [counted[name] for name in ("products", "sums", "differences", "quotients")] == [0] * 4
     assert counted["product_cycles"] < 0.85 * counted["product_cycles_of_libc"]
