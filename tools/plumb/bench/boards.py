@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from plumb.bench import judge
-from plumb.bench.causes import MAKER, OUTSIDE, SLED, Cause, Hidden, Numbers, Plan
+from plumb.bench.causes import MAKER, SLED, Cause, Field, Hidden, Numbers, Plan
 from plumb.marks.read import Distance, Mark, Measurements
 from plumb.model.predict import FOUND, judged, lengths
 from plumb.settings.machine import MachineSettings
@@ -71,6 +71,7 @@ class TrueMachine:
     motor_center_x: float = 0.0
     turn: float = 0.0  # [rad] of the sheet
     swapped: bool = False  # whether the chains hang on each other's sprockets
+    field: Field | None = None  # what else it does, which no effect of the library draws
 
     def read(self, chains: Array, *, approaches: Array, weights: Array) -> Array:
         """Return where marks would be read (n, 2) [mm] without noise; NaN where the sled cannot
@@ -94,12 +95,13 @@ class TrueMachine:
         }
         heavier = numbers["sled_weight"] / SLED
         still = np.zeros_like(chains)
-        return judge.places(
+        where = judge.places(
             numbers,
             chains,
             pushes=still if approaches is None else -self.hidden.drag * approaches,
             weights=heavier * (np.full(len(chains), SLED) if weights is None else weights),
         )
+        return where + self.field(where) if self.field else where
 
     def _hidden_numbers(self) -> Numbers:
         """Return the judge's; what goes with a chain is where the chain is."""
@@ -138,9 +140,8 @@ def cut(
         motor_center_x=POSE_SIGMA * source.standard_normal(),
         turn=TURN_SIGMA * source.standard_normal(),
     )
+    machine = replace(machine, field=hidden.field(plan.targets, source))
     where = read(machine, plan, settings)
-    if hidden.outside:
-        where = where + hidden.outside_mm * _unit(OUTSIDE[hidden.outside](plan.targets, source))
     return BoardCut(machine, _measured(where, plan, source, noise, tape_sigma))
 
 
@@ -195,11 +196,6 @@ def _measured(
             for i in plan.again
         ]
     return Measurements(tuple(marks), spans, tape_sigma=tape_sigma, source="hidden")
-
-
-def _unit(moved: Array) -> Array:
-    """Return a field of unit RMS."""
-    return moved / max(float(np.sqrt(np.mean(np.sum(moved**2, axis=1)))), 1e-9)
 
 
 def chains_for(plan: Plan, settings: MachineSettings = MAKER) -> Array:

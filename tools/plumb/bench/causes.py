@@ -17,6 +17,7 @@ from plumb.settings.machine import MachineSettings
 
 Array = np.ndarray
 Numbers = dict[str, float]
+Field = Callable[[Array], Array]  # how far the sled is off at places (n, 2) [mm]
 
 # The default machine without effects.
 BARE = MachineSettings(
@@ -132,6 +133,17 @@ class Hidden:
         """Friction of the sled [N]."""
         return sum(cause.drag * size for cause, size in (*self.usual, *self.causes))
 
+    def field(self, targets: Array, source: np.random.Generator) -> Field | None:
+        """Draw how far the sled is off at places (n, 2) [mm] by what the library has no word for;
+        targets (n, 2) [mm]: where it is so much RMS. None where it does nothing of the kind.
+        """
+        if not self.outside:
+            return None
+        drawn = OUTSIDE[self.outside](source)
+        length = np.sqrt(np.mean(np.sum(drawn(targets) ** 2, axis=1)))
+        scale = self.outside_mm / max(float(length), 1e-9)
+        return lambda places: scale * drawn(places)
+
     def read(self, places: Array) -> Array:
         """Return places (n, 2) [mm] as edges that are not square and a wrong tape give them."""
         for cause, size in self.causes:
@@ -140,41 +152,58 @@ class Hidden:
         return places
 
 
-def _bump(targets: Array, source: np.random.Generator) -> Array:
+def _bump(source: np.random.Generator) -> Field:
     """Return a bump as wide as 0.35 half sheets each way, somewhere on the sheet, in some
     direction.
     """
     middle = source.uniform(-0.8, 0.8, 2)
-    shape = np.exp(-np.sum((targets / HALF - middle) ** 2, axis=1) / (2 * 0.35**2))
-    turn = source.uniform(0, 2 * np.pi)
-    moved: Array = shape[:, np.newaxis] * np.array([np.cos(turn), np.sin(turn)])
+    along = _direction(source)
+
+    def moved(places: Array) -> Array:
+        apart = np.sum((places / HALF - middle) ** 2, axis=1)
+        return np.outer(np.exp(-apart / (2 * 0.35**2)), along)
+
     return moved
 
 
-def _cubic(targets: Array, source: np.random.Generator) -> Array:
+def _cubic(source: np.random.Generator) -> Field:
     """Return a polynomial of second and third degree in x and y, with coefficients of equal size.
 
     Shifts, turns, scales and skews are left out: the frame and the library have those.
     """
-    x, y = (targets / HALF).T
-    terms = [x**i * y**j for i in range(4) for j in range(4) if 2 <= i + j <= 3]
-    return np.stack(terms, axis=1) @ source.standard_normal((len(terms), 2))
+    powers = [(i, j) for i in range(4) for j in range(4) if 2 <= i + j <= 3]
+    sizes = source.standard_normal((len(powers), 2))
+
+    def moved(places: Array) -> Array:
+        x, y = (places / HALF).T
+        shape: Array = np.stack([x**i * y**j for i, j in powers], axis=1) @ sizes
+        return shape
+
+    return moved
 
 
-def _tipping(targets: Array, source: np.random.Generator) -> Array:
+def _tipping(source: np.random.Generator) -> Field:
     """Return a sled that hangs over one edge of the sheet, where nothing holds it, and tips.
 
     Its bit then leans outward or inward, and up or down, by how far the sled of 230 mm stands out.
     """
     side = int(source.integers(4))
     axis, sign = side % 2, 1 - 2 * (side // 2)
-    out = np.maximum(sign * targets[:, axis] + 230.0 - HALF[axis], 0.0)
-    turn = source.uniform(0, 2 * np.pi)
-    moved: Array = out[:, np.newaxis] * np.array([np.cos(turn), np.sin(turn)])
+    along = _direction(source)
+
+    def moved(places: Array) -> Array:
+        out = np.maximum(sign * places[:, axis] + 230.0 - HALF[axis], 0.0)
+        return np.outer(out, along)
+
     return moved
 
 
-OUTSIDE: Mapping[str, Callable[[Array, np.random.Generator], Array]] = {
+def _direction(source: np.random.Generator) -> Array:
+    turn = source.uniform(0, 2 * np.pi)
+    return np.array([np.cos(turn), np.sin(turn)])
+
+
+OUTSIDE: Mapping[str, Callable[[np.random.Generator], Field]] = {
     "bump": _bump,
     "cubic": _cubic,
     "tipping sled": _tipping,

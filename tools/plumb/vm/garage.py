@@ -12,7 +12,7 @@ from rich.text import Text
 from plumb._vm import VirtualMachine
 from plumb.bench import judge
 from plumb.bench.boards import plan, size_for
-from plumb.bench.causes import MAKER, OUTSIDE, SLED, Cause, Hidden, causes_of
+from plumb.bench.causes import MAKER, SLED, Cause, Hidden, causes_of
 from plumb.bench.hiding import REAL
 from plumb.bench.judged_board import sheet
 from plumb.firmware.client_files import gcode
@@ -152,15 +152,8 @@ def hide(names: Sequence[str], *, millimetres: float, seed: int) -> Hidden:
 
 def astray(hidden: Hidden, places: Array, seed: int) -> Array:
     """Return how far (n, 2) [mm] the sled is off at places by what the library has no word for."""
-    if not hidden.outside:
-        return np.zeros_like(places)
-
-    def field(at: Array) -> Array:
-        return OUTSIDE[hidden.outside](at, np.random.default_rng([seed, 13]))
-
-    length = np.sqrt(np.mean(np.sum(field(BOARD.targets) ** 2, axis=1)))
-    moved: Array = field(places) * hidden.outside_mm / max(float(length), 1e-9)
-    return moved
+    field = hidden.field(BOARD.targets, np.random.default_rng([seed, 13]))
+    return field(places) if field else np.zeros_like(places)
 
 
 def described(hidden: Hidden) -> str:
