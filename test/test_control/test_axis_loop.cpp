@@ -1,6 +1,8 @@
 // The loops of an axis on motors with inertia, friction, back-EMF, load and a sagging supply.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "axis.h"
 
 namespace {

@@ -1,6 +1,8 @@
 // Where a chain comes to rest: how far it passes its goal, compared with the published law.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "axis.h"
 
 namespace {

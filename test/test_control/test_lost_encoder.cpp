@@ -1,6 +1,8 @@
 // An encoder whose signal is lost or reversed: how far its motor runs before the watch says so.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "axis.h"
 
 using motion::Fault;

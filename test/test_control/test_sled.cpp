@@ -2,6 +2,8 @@
 // motors.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "sled.h"
 
 namespace {

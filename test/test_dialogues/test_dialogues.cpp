@@ -1,6 +1,7 @@
 // One test for each dialogue in test/dialogues/*.nc.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "host_machine.h"

@@ -1,6 +1,7 @@
 // Programs as common CAM writes them: each line is done, and the sled goes where the program says.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <map>
 #include <sstream>

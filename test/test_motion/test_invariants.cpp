@@ -1,6 +1,7 @@
 // The invariants of mover_detail.h and stretch.h, asked after every step of random moves.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
 
 #include "plain.h"

@@ -1,4 +1,6 @@
 // The position survives a power cut, wears out no cell, and a cut in motion is never overlooked.
+#include <algorithm>
+
 #include "boards.h"
 
 namespace {

@@ -1,4 +1,6 @@
 // Power may fail in any byte: afterwards either all settings are old or all are new.
+#include <algorithm>
+
 #include "boards.h"
 
 namespace {
