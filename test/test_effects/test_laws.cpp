@@ -170,6 +170,9 @@ struct Missing {
     for (uint8_t i = 0; i < ThisEffect::kParamCount; ++i) checked |= ThisEffect::param(i).sigma > 0;
     if (ThisEffect::check().title && checked != (ThisEffect::check().title[0] != 0))
       lines.push_back(header + "a check() needs the sigma of a param(), and a sigma a check()");
+    for (uint8_t i = 0; i < ThisEffect::kParamCount; ++i)
+      if ((ThisEffect::param(i).sigma > 0) != (*ThisEffect::reading(i).title != 0))
+        lines.push_back(header + "a sigma needs a reading(), and a reading() a sigma");
     if (ThisEffect::kEmpirical == 1) return;
     for (uint8_t i = 0; i < ThisEffect::kExampleCount; ++i)
       if (!ThisEffect::example(i).label)

@@ -87,6 +87,21 @@ nb::list examplesOf() {
   return examples;
 }
 
+const char* const kCurves[] = {"straight", "square", "tangent squared"};  // by Curve
+
+nb::object readingOf(const ReadingInfo& info) {
+  if (!*info.title) return nb::none();
+  nb::dict reading;
+  reading["title"] = info.title;
+  reading["unit"] = info.unit;
+  reading["usual"] = info.usual;
+  reading["factor"] = info.factor;
+  reading["digits"] = info.digits;
+  reading["zero"] = info.zero;
+  reading["curve"] = kCurves[info.curve];
+  return reading;
+}
+
 const char* const kShown[] = {"as is", "root", "angle"};  // by Shown
 
 nb::object plainOf(const PlainInfo& info) {
@@ -114,6 +129,7 @@ nb::dict parameterOf(int first_setting, uint8_t i) {
   entry["summary"] = param.summary;
   entry["sigma"] = param.sigma;
   entry["plain"] = plainOf(ThisEffect::plain(i));
+  entry["reading"] = readingOf(ThisEffect::reading(i));
   entry["published"] = nb::none();
   if (published.number) entry["published"] = nb::make_tuple(published.number, published.factor);
   return entry;

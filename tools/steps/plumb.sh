@@ -19,10 +19,10 @@ setup_plumb() {
   printf '%s\n' "$wanted" >"$note"
 }
 
-# One number for all that the compiled modules are made of, and for the folders that the installation lists.
+# One number for all that the compiled modules are made of, and for the modules that the installation lists.
 made_of() {
   {
-    find tools/plumb -name __init__.py | sort
+    find tools/plumb -name '*.py' | sort
     fingerprint "${plumb_sources[@]}"
     (cd tools && ../.venv/bin/python -B -m plumb.text.compiled)
     "${CXX:-c++}" --version

@@ -9,7 +9,7 @@ from plumb.model.catalogue import effect_names
 from plumb.plan import propose
 from plumb.plan.outlook import DRAWS, Outlooks
 
-DIAGNOSING = ("plumb.cli.diagnose", "plumb.cli.next", "plumb.cure.auto", "plumb.lab.report")
+DIAGNOSING = ("plumb.cli.diagnose", "plumb.cli.next", "plumb.cure.decision", "plumb.lab.report")
 PROPOSING = ("plumb.cli.diagnose", "plumb.cli.next", "plumb.cli.calibrate", "plumb.lab.report")
 _known = {}
 

@@ -67,6 +67,35 @@ struct CheckInfo {
   double minutes;     ///< of work
 };
 
+/// How a parameter follows from what is read.
+enum Curve {
+  kStraight,
+  kSquare,
+  kSquareOfTangent,  ///< of degrees
+};
+
+/// What the owner reads off a rule or a scale for a parameter, which is
+/// factor * curve(read - zero) * (the sled's weight [N] to the power of kWeightPower).
+struct ReadingInfo {
+  const char* title;  ///< what is read; empty: nobody reads it
+  const char* unit;
+  double usual;  ///< how far a careful reading may be off
+  double factor;
+  int digits;  ///< behind the point
+  double zero;
+  Curve curve;
+
+  constexpr ReadingInfo(const char* what, const char* its_unit, double off, double times,
+                        int shown = 1, double start = 0, Curve how = kStraight)
+      : title(what),
+        unit(its_unit),
+        usual(off),
+        factor(times),
+        digits(shown),
+        zero(start),
+        curve(how) {}
+};
+
 /// A machine that has the effect: the bench hides the effect, the tests compare it with the judge.
 struct Example {
   const char* label;
@@ -157,6 +186,7 @@ struct Effect {
 
   // Every effect must hide these two and setJudge (see judged.h); a test checks that.
   static CheckInfo check() { return {nullptr, nullptr, nullptr, 0}; }
+  static ReadingInfo reading(uint8_t) { return {"", "", 0, 0}; }
   static Example example(uint8_t) { return {nullptr, {0, 0, 0, 0}, 0}; }
   template <class Judge>
   static void setJudge(const Frame<Real>&, const Real*, Judge&) {}

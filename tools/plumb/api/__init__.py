@@ -13,7 +13,8 @@ from pathlib import Path
 
 from plumb.cure.add import Addition
 from plumb.cure.add import add as add_effects
-from plumb.cure.auto import AutoAddition, add_auto
+from plumb.cure.decision import Decision
+from plumb.cure.decision import decide as decision_of
 from plumb.diagnosis import Checked, Diagnosis
 from plumb.diagnosis import diagnose as diagnosis_of
 from plumb.fit.compare import Comparison, compare
@@ -27,15 +28,15 @@ from plumb.text.errors import InputError
 
 __all__ = [
     "Addition",
-    "AutoAddition",
     "Comparison",
+    "Decision",
     "Diagnosis",
     "InputError",
     "Inputs",
     "Next",
     "add",
-    "auto",
     "compare",
+    "decide",
     "diagnose",
     "next",
     "read",
@@ -84,9 +85,9 @@ def add(inputs: Inputs, effects: Sequence[str] = (), *, patch: bool = False) -> 
     return add_effects(inputs, effects=effects, patch=patch)
 
 
-def auto(inputs: Inputs) -> AutoAddition:
-    """Return the machine with what the marks ask for."""
-    return add_auto(inputs)
+def decide(inputs: Inputs) -> Decision:
+    """Return what to write: the machine with what the marks ask for, or why nothing is written."""
+    return decision_of(inputs)
 
 
 def write(addition: Addition, path: AnyPath) -> Path:

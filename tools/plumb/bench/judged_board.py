@@ -14,7 +14,7 @@ from plumb.bench.causes import CHAIN, HALF, MAKER
 from plumb.bench.hiding import SMALLEST
 from plumb.bench.kinds import KINDS, board_of
 from plumb.bench.shown import Truth, truth_of
-from plumb.cure.auto import add_auto
+from plumb.cure.decision import decide
 from plumb.diagnosis import Checked, Diagnosis, diagnose
 from plumb.fit.compare import best_pose
 from plumb.fit.fit import fit
@@ -63,7 +63,7 @@ def judge_board(kind: str, index: int, *, marks: int, seed: int, rounds: int = 0
     owner = BoardOwner(source, hidden.kind.noise)
     loop = followed(hidden.board, settings, owner, rounds=rounds)
     diagnosis, inputs = loop.diagnosis, loop.inputs(settings)
-    addition = add_auto(inputs, diagnosis=diagnosis).addition
+    addition = decide(inputs, diagnosis=diagnosis).addition
     cpu = time.process_time() - start
     best = set(diagnosis.explanations[0].effects) if diagnosis.explanations else set[str]()
     said = best if diagnosis.verdict in NAMED or diagnosis.is_finding else set[str]()

@@ -9,11 +9,11 @@ from pathlib import Path
 from pydantic import computed_field
 
 from plumb.cli.addition import (
-    as_text,
-    auto_text,
-    auto_verdict,
+    addition_text,
+    decision_verdict,
+    details_text,
     numbers_text,
-    short_auto_text,
+    short_text,
     verdict_of,
 )
 from plumb.cli.arguments import (
@@ -43,7 +43,7 @@ from plumb.cli.screen import (
 )
 from plumb.cli.settings import Written, add_client, add_firmware, client_files_of, client_text
 from plumb.cure.add import Addition, add
-from plumb.cure.auto import AutoAddition, add_auto
+from plumb.cure.decision import Decision, decide
 from plumb.cure.live_board import refuse_other_origin
 from plumb.cure.machine_file import record_of, toml_of
 from plumb.diary.file import FIT, fit_entry, keep
@@ -79,14 +79,14 @@ class NamedAnswer(WrittenMachine, Addition):
 class AutoAnswer(NamedAnswer):
     """The addition of the effects that were chosen."""
 
-    auto: AutoAddition
+    auto: Decision
 
 
 @dataclass(frozen=True, kw_only=True)
 class NothingAdded(WrittenMachine):
     """Why nothing was added."""
 
-    auto: AutoAddition
+    auto: Decision
 
 
 AddAnswer = NamedAnswer | AutoAnswer | NothingAdded
@@ -112,16 +112,17 @@ def run(arguments: argparse.Namespace) -> int:
     files: list[str] = []
     client: ClientFiles | None = None
     if arguments.force or not result.stops:
-        files, client = written(arguments, inputs, result)
+        files, client = written(Wanted.by(arguments), inputs, result)
     if arguments.json:
         print_json(NamedAnswer(**vars(result), written=tuple(files), client=client))
     else:
-        shown = as_text(result, asked_patch=arguments.patch)
-        _print(shown if arguments.details else numbers_text(result), verdict_of(result))
-        if result.stops and not arguments.force:
-            print("\nNothing is written. --force writes these numbers all the same.")
-        else:
-            _print_written(files, client, arguments)
+        shown = (
+            addition_text(result, result.notes, asked_patch=arguments.patch)
+            if arguments.details
+            else [numbers_text(result, result.notes)]
+        )
+        print("\n\n".join([*shown, verdict_of(result)]))
+        _print_written(result, files, client, arguments)
     return int(not result.pays and arguments.effect != [NONE])
 
 
@@ -130,76 +131,104 @@ def _run_auto(arguments: argparse.Namespace, inputs: Inputs) -> int:
         raise InputError("--effect auto finds the effects itself; name no others with it")
     if arguments.hold:
         raise InputError("--effect auto finds the sizes itself; hold none with it")
-    result = add_auto(inputs, patch=arguments.patch)
+    result = decide(inputs, patch=arguments.patch)
     files: list[str] = []
     client: ClientFiles | None = None
-    if result.addition:
-        files, client = written(arguments, inputs, result.addition)
+    if result.addition and (arguments.force or result.state != "impossible"):
+        files, client = written(Wanted.by(arguments), inputs, result.addition)
     if arguments.json:
         why = NothingAdded(auto=result, written=tuple(files), client=client)
         added = result.addition
         print_json(AutoAnswer(**vars(added), **vars(why)) if added else why)
-    else:
-        _print(
-            auto_text(result) if arguments.details else short_auto_text(result),
-            auto_verdict(result),
-        )
-        same = same_inputs(arguments)
-        if result.addition:
-            _print_written(files, client, arguments)
-        elif result.is_good:
-            pass  # there is nothing to do
-        elif result.diagnosis.outliers:
-            corrected = ["add", *same, "--effect", AUTO]
-            print(f"\n{next_step('When the file is corrected:', corrected)}")
-        else:
-            print(f"\n{next_step('What to measure next:', ['next', *same])}")
+        return int(not result.done)
+    shown = (
+        details_text(result, is_taken=True)
+        if arguments.details
+        else short_text(result, with_numbers=True)
+    )
+    print("\n\n".join([*shown, decision_verdict(result)]))
+    same = same_inputs(arguments)
+    if result.addition:
+        _print_written(result.addition, files, client, arguments)
+    elif result.state == "read_again":
+        corrected = ["add", *same, "--effect", AUTO]
+        print(f"\n{next_step('When the file is corrected:', corrected)}")
+    elif result.state == "measure_first":
+        print(f"\n{next_step('What to measure next:', ['next', *same])}")
     return int(not result.done)
 
 
-def _print(facts: str, verdict: str) -> None:
-    print(f"{facts}\n\n{verdict}")
+@dataclass(frozen=True)
+class Wanted:
+    """The files that are wanted of a new machine."""
+
+    output: str | None  # the machine.toml
+    picture: str | None
+    client: str | None
+    original: str | None  # the client's file
+    firmware: str
+    settings: tuple[str, ...]  # files of settings that were read; one may be the client's
+    marks: tuple[str, ...]
+    without: tuple[str, ...]  # names of marks that took no part
+
+    @classmethod
+    def by(cls, arguments: argparse.Namespace, **other: str | None) -> Wanted:
+        """Return what was typed, but for what is given otherwise."""
+        named = ("output", "picture", "client", "original")
+        typed = {name: getattr(arguments, name, None) for name in named}
+        settings = (arguments.settings, arguments.cut_with)
+        return cls(
+            **{**typed, **other},
+            firmware=arguments.firmware,
+            settings=tuple(filter(None, settings)),
+            marks=tuple(arguments.marks),
+            without=tuple(arguments.without),
+        )
 
 
 def written(
-    arguments: argparse.Namespace, inputs: Inputs, result: Addition
+    wanted: Wanted, inputs: Inputs, result: Addition
 ) -> tuple[list[str], ClientFiles | None]:
     """Write the files; their names, and what belongs to the client."""
-    _refuse_sketches(arguments, result)
+    _refuse_sketches(wanted, result)
     client = client_files_of(
-        arguments,
+        wanted.client,
+        wanted.original,
         result.settings,
-        lines=arguments.output and str(Path(arguments.output).with_suffix(".nc")),
-        firmware=arguments.firmware,
-        originals=[arguments.settings, arguments.cut_with],
+        lines=wanted.output and str(Path(wanted.output).with_suffix(".nc")),
+        firmware=wanted.firmware,
+        originals=wanted.settings,
     )
-    files = _files(arguments, inputs, result)
+    files = _files(wanted, inputs, result)
     refuse_twins(*files, *(client.files if client else ()))
     files |= client.files if client else {}
-    read = [arguments.settings, *arguments.marks, arguments.cut_with, arguments.original]
-    write_outputs(files, inputs=[path for path in read if path])
-    if arguments.output:
-        machine, settings = Path(arguments.output).name, files[arguments.output].decode()
+    original = [wanted.original] if wanted.original else []
+    write_outputs(files, inputs=[*wanted.settings, *wanted.marks, *original])
+    if wanted.output:
+        machine, settings = Path(wanted.output).name, files[wanted.output].decode()
         entry = fit_entry(
-            result, inputs, machine=machine, settings=settings, firmware=arguments.firmware
+            result, inputs, machine=machine, settings=settings, firmware=wanted.firmware
         )
-        say_failure(keep(arguments.output, FIT, entry))
+        say_failure(keep(wanted.output, FIT, entry))
     return list(files), client
 
 
-def _refuse_sketches(arguments: argparse.Namespace, result: Addition) -> None:
+def _refuse_sketches(wanted: Wanted, result: Addition) -> None:
     """Refuse to write settings without a sketch that was fitted with them."""
     for name in filter(is_sketch, result.after_fit.lab_effects):
-        if arguments.output:
+        if wanted.output:
             raise InputError(
-                f"-o {arguments.output}: {name} is a sketch, which no firmware has; write it in "
+                f"-o {wanted.output}: {name} is a sketch, which no firmware has; write it in "
                 "C++ first (docs/new-effect.md), or leave -o away to look at the fit"
             )
 
 
 def _print_written(
-    files: list[str], client: ClientFiles | None, arguments: argparse.Namespace
+    result: Addition, files: list[str], client: ClientFiles | None, arguments: argparse.Namespace
 ) -> None:
+    if result.stops and not arguments.force:
+        print("\nNothing is written. --force writes these numbers all the same.")
+        return
     if files:
         print(f"\nWritten: {', '.join(files)}")
     if client:
@@ -228,19 +257,19 @@ def _for_the_machine(arguments: argparse.Namespace) -> str:
     return next_step("For the machine:", [*words, "-o", sent])
 
 
-def _files(arguments: argparse.Namespace, inputs: Inputs, result: Addition) -> dict[str, bytes]:
+def _files(wanted: Wanted, inputs: Inputs, result: Addition) -> dict[str, bytes]:
     """Return the machine and its picture, complete before the first is written."""
     files: dict[str, bytes] = {}
-    if arguments.output:
-        files[arguments.output] = toml_of(
+    if wanted.output:
+        files[wanted.output] = toml_of(
             result,
             source=inputs.measurements.source,
-            firmware=arguments.firmware,
-            record=record_of(result, inputs, without=arguments.without),
+            firmware=wanted.firmware,
+            record=record_of(result, inputs, without=wanted.without),
         )
-    if arguments.picture:
-        form = picture_form(arguments.picture)
-        files[arguments.picture] = fall_of(result, form=form)
+    if wanted.picture:
+        form = picture_form(wanted.picture)
+        files[wanted.picture] = fall_of(result, form=form)
     return files
 
 

@@ -1,19 +1,22 @@
-"""What `plumb add` says to people: few facts or all, and its verdict."""
+"""What to write, for people: few facts or all, and the headline in its colour."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 
+from plumb.cli.diagnose import explanation_table
 from plumb.cli.screen import BAD, GOOD, OPEN, headline, sentences, table
-from plumb.cure.add import Addition
-from plumb.cure.auto import AutoAddition
-from plumb.cure.machine_file import PATCH_WARNING, turn_sentences
-from plumb.diagnosis.answer import MOST_NAMED, odds_words
+from plumb.cure.add import Addition, Note
+from plumb.cure.decision import Decision, fall_sentence
+from plumb.cure.machine_file import PATCH_WARNING
+from plumb.diagnosis.answer import MOST_NAMED
 from plumb.fit.covariates import PATCH
-from plumb.model.plain import noun_of, plain_before, plain_size, plainly
+from plumb.model.plain import noun_of, plain_before, plain_size
 from plumb.text.values import bare, unit, worded
 
+KINDS = {"good": GOOD, "better": GOOD, "measure_first": OPEN}  # of decisions; else it is bad news
 NUMBERS = 7  # rows of a short answer
+SLIPS = 2  # sentences of a short answer
 
 
 def verdict_of(result: Addition) -> str:
@@ -21,86 +24,65 @@ def verdict_of(result: Addition) -> str:
     added = [
         noun_of(step.effect) if step.effect != PATCH else "the patch" for step in result.by_effect
     ]
+    fall = fall_sentence(result)
     if not added:
-        return headline(f"Only the frame is fitted. {_fall(result)}", GOOD)
+        return headline(f"Only the frame is fitted. {fall}", GOOD)
     many = " and ".join(added) if len(added) <= MOST_NAMED else f"{len(added)} effects"
     if result.pays:
-        return headline(f"It pays to add {many}. {_fall(result)}", GOOD)
+        return headline(f"It pays to add {many}. {fall}", GOOD)
     if result.stops:
-        return headline(f"Do not set the machine by {many}. {_fall(result)}", BAD)
-    return headline(f"NOT better with {many}. {_fall(result)}", BAD)
+        return headline(f"Do not set the machine by {many}. {fall}", BAD)
+    return headline(f"NOT better with {many}. {fall}", BAD)
 
 
-def auto_verdict(result: AutoAddition) -> str:
-    """Return what was added and how likely it is right, in at most forty words."""
-    addition, diagnosis = result.addition, result.diagnosis
-    if result.is_good:
-        return headline(result.said[0], GOOD)
-    if addition is None:
-        return headline(diagnosis.sentence, BAD if diagnosis.outliers else OPEN)
-    fall = _fall(addition)
-    if diagnosis.is_finding and result.chosen:
-        return headline(diagnosis.sentence, GOOD)
-    if diagnosis.verdict == "not_in_library":
-        return headline(f"No cause explains all that the marks show. {fall}", BAD)
-    named = result.named if len(result.named) <= MOST_NAMED else ()
-    what = plainly(named) if named or not result.named else f"{len(result.named)} causes at once"
-    if result.rivals:
-        share = odds_words(diagnosis.explanations[0].share)
-        return headline(f"Added untested: {what}, right with odds of {share}. {fall}", OPEN)
-    return headline(f"Fitted: {what}. {fall}", GOOD)
+def decision_verdict(decision: Decision) -> str:
+    """Return the decision in its colour."""
+    return headline(decision.headline, KINDS.get(decision.state, BAD))
 
 
-def _fall(result: Addition) -> str:
-    """Return the error before and after."""
-    return (
-        f"The error goes from {bare(result.raw.rms)} to {worded(result.after.fit_rms)} RMS; marks "
-        f"not used are {worded(result.after.left_out_rms)} off."
-    )
+def short_text(decision: Decision, *, with_numbers: bool) -> list[str]:
+    """Return the new numbers, if wanted, and what is to be known of them; or why there are none."""
+    if decision.state == "read_again":
+        return [sentences([note.text for note in decision.notes][:SLIPS])]
+    if decision.addition and with_numbers:
+        return [numbers_text(decision.addition, decision.notes)]
+    if decision.notes:
+        return [sentences(first_of(decision.notes))]
+    return [sentences(decision.said[:1], mark="")]
 
 
-def short_auto_text(result: AutoAddition) -> str:
-    """Return the new numbers, or why there are none."""
-    if result.addition:
-        apart = [result.apart.sentence] if result.apart else []
-        return numbers_text(result.addition, apart)
-    if result.diagnosis.outliers:
-        return sentences([slip.sentence for slip in result.diagnosis.outliers])
-    return sentences(result.said, mark="")
-
-
-def numbers_text(result: Addition, before: Sequence[str] = ()) -> str:
-    """Return the new numbers in a few rows; behind what is said before, what speaks against them,
-    what a hand must do before they hold, and the first thing else to know.
-    """
+def numbers_text(result: Addition, notes: Sequence[Note]) -> str:
+    """Return the new numbers in a few rows, and what is to be known of them first."""
     parts = [parameter_table(result, most=NUMBERS)]
-    notes = [*before, *first_notes(result)]
-    return "\n\n".join([*parts, sentences(notes)] if notes else parts)
+    return "\n\n".join([*parts, sentences(first_of(notes))] if notes else parts)
 
 
-def first_notes(result: Addition) -> list[str]:
-    """Return what speaks against the numbers, what a hand must do before they hold, and the first
-    thing else to know.
+def first_of(notes: Sequence[Note]) -> list[str]:
+    """Return what nobody should overlook; hints by their number."""
+    hints = sum(note.weight == "hint" for note in notes)
+    more = [f"{hints} more to know: see --details"] if hints else []
+    return [*(note.text for note in notes if note.weight != "hint"), *more]
+
+
+def details_text(decision: Decision, *, is_taken: bool) -> list[str]:
+    """Return the diagnosis and the choice, then the new numbers, or what they would follow from if
+    they are not taken.
     """
-    light = [each for each in result.warnings if each not in result.stops]
-    more = [f"{len(light) - 1} more to know: see --details"] if len(light) > 1 else []
-    return [*result.stops, *turn_sentences(result), *result.cures, *light[:1], *more]
-
-
-def auto_text(result: AutoAddition) -> str:
-    """Return the diagnosis and the choice for people, then the addition."""
-    said = [sentences([result.diagnosis.sentence], mark="")]
-    if result.diagnosis.outliers:
-        said.append(sentences([slip.sentence for slip in result.diagnosis.outliers]))
-    said += [sentences([each], mark="") for each in result.said]
-    if result.settled_by:
-        said.append("To be sure which it is:\n" + sentences(result.settled_by))
-    if result.offer:
-        added = result.addition is not None and PATCH in result.addition.effects_added
-        said.append(sentences([_offer_sentence(*result.offer, added=added)], mark=""))
-    if result.addition:
-        said.append(as_text(result.addition))
-    return "\n\n".join(said)
+    diagnosis, addition = decision.diagnosis, decision.addition
+    said = [sentences([diagnosis.sentence], mark="")]
+    if diagnosis.outliers:
+        return [*said, sentences([slip.sentence for slip in diagnosis.outliers])]
+    said += [sentences([each], mark="") for each in decision.said]
+    if decision.settled_by:
+        said.append("To be sure which it is:\n" + sentences(decision.settled_by))
+    if decision.offer:
+        added = addition is not None and PATCH in addition.effects_added
+        said.append(sentences([_offer_sentence(*decision.offer, added=added)], mark=""))
+    if addition and is_taken:
+        said += addition_text(addition, decision.notes)
+    elif diagnosis.explanations:
+        said.append(explanation_table(diagnosis))
+    return said
 
 
 def _offer_sentence(without: float, with_patch: float, *, added: bool) -> str:
@@ -120,20 +102,19 @@ COLUMNS = (
 )
 
 
-def as_text(result: Addition, *, asked_patch: bool = False) -> str:
-    """Return all of the addition for people but its verdict."""
-    parts = [quality_table(result), parameter_table(result)]
-    if result.benchmark_after:
-        parts.insert(0, _benchmark_sentence(result))
+def addition_text(
+    result: Addition, notes: Sequence[Note], *, asked_patch: bool = False
+) -> list[str]:
+    """Return all of the addition but its verdict."""
+    parts = [_benchmark_sentence(result)] if result.benchmark_after else []
+    parts += [quality_table(result), parameter_table(result)]
     parts.append(sentences([f"{COLUMNS} {result.intervals_said}"], mark=""))
-    said = [*result.stops, *turn_sentences(result), *result.cures]
-    said += [each for each in result.warnings if each not in result.stops]
+    said = [note.text for note in notes]
     if PATCH in result.effects_added:
         said.append(PATCH_WARNING)
     elif asked_patch:
         said.append("a residual patch would predict marks not used no better, so none was added")
-    parts += [sentences(said)] if said else []
-    return "\n\n".join(parts)
+    return [*parts, sentences(said)] if said else parts
 
 
 def _benchmark_sentence(result: Addition) -> str:

@@ -26,7 +26,6 @@ from plumb.cure.machine_file import (
     demonstrate,
     record_of,
     toml_of,
-    turn_sentences,
 )
 from plumb.firmware.client_files import client_files
 from plumb.fit.compare import Comparison
@@ -149,7 +148,7 @@ def as_text(demonstration: Demonstration) -> str:
             _parameters(demonstration),
             "What is doubtful:",
             sentences(_doubts(demonstration)),
-            *_beyond_settings(turn_sentences(chosen)),
+            *_beyond_settings(chosen.by_hand),
         ]
     )
 
@@ -237,9 +236,7 @@ def _impossible_pitch(demonstration: Demonstration) -> str:
 
 def calibrated(inputs: Inputs) -> str:
     """Return what plumb calibrate says of these marks, which knows nothing of the steps above."""
-    this = round_of(inputs)
-    said = f"plumb calibrate says of them: {this.result.diagnosis.sentence}"
-    return sentences([said, this.sentence], mark="")
+    return sentences([f"plumb calibrate says of them: {round_of(inputs).sentence}"], mark="")
 
 
 def _last_line(demonstration: Demonstration) -> str:

@@ -47,7 +47,11 @@ def run(arguments: argparse.Namespace) -> int:
     shown = numbers if arguments.details or arguments.output else _at_work(numbers)[:MOST]
     content = gcode(numbers) if arguments.to == "gcode" else _table(shown).encode()
     printed = arguments.client == "none" and not arguments.output
-    client = None if printed else client_files_of(arguments, settings, lines=arguments.output)
+    client = (
+        None
+        if printed
+        else client_files_of(arguments.client, arguments.original, settings, lines=arguments.output)
+    )
     files = client.files if client else {}
     if arguments.output:
         files = {arguments.output: content} | files
@@ -131,29 +135,30 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def client_files_of(
-    arguments: argparse.Namespace,
+    client: str | None,
+    original: str | None,
     settings: MachineSettings,
     *,
     lines: str | None,
     firmware: str = "plumb",
-    originals: Sequence[str | None] = (),
+    originals: Sequence[str] = (),
 ) -> ClientFiles | None:
     """Return the lines for the machine, and what belongs to the client; None if no client was
     named.
     """
-    if arguments.original and arguments.client not in CLIENT_FILES:
+    if original and client not in CLIENT_FILES:
         raise InputError("--original is the file of a client; name the client too, with --client")
-    if arguments.client is None:
+    if client is None:
         return None
     if not lines:
         raise InputError("--client writes several files; name the first with -o FILE")
-    ending = Path(CLIENT_FILES.get(arguments.client, "")).suffix or None
-    given = [path for path in originals if path and ending and path.lower().endswith(ending)]
+    ending = Path(CLIENT_FILES.get(client, "")).suffix or None
+    given = [path for path in originals if ending and path.lower().endswith(ending)]
     return client_files(
         settings,
-        client=arguments.client,
+        client=client,
         firmware=firmware,
-        original=arguments.original or next(iter(given), None),
+        original=original or next(iter(given), None),
         lines=lines,
     )
 

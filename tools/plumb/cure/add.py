@@ -33,7 +33,7 @@ from plumb.model.plain import noun_of, plain_name, plain_range, plain_size
 from plumb.model.predict import frame_words
 from plumb.model.sketches import SKETCHES
 from plumb.settings.machine import MachineSettings
-from plumb.text.answers import Internal, Number, key, meant, part
+from plumb.text.answers import Internal, Number, among, key, meant, part
 from plumb.text.values import bare, worded
 
 Sizes = Mapping[str, Mapping[str, float]]  # of parameters, effect by effect
@@ -110,6 +110,21 @@ class Benchmark:
     after: Score | None
 
 
+WEIGHTS = ("stop", "by_hand", "promise", "doubt", "hint")
+
+
+@dataclass(frozen=True)
+class Note:
+    """Something to know of new numbers, in a sentence."""
+
+    weight: Annotated[
+        str,
+        among(WEIGHTS),
+        meant("A stop forbids the numbers; without what is done by hand no promise holds."),
+    ]
+    text: str
+
+
 @dataclass(frozen=True)
 class Addition:
     """A machine before and after its effects were added."""
@@ -166,6 +181,21 @@ class Addition:
         """A sentence for each lab effect or sketch that was fitted: no setting holds it."""
         return tuple(
             _cure(name, parameters) for name, parameters in self.after_fit.lab_effects.items()
+        )
+
+    @property
+    def by_hand(self) -> tuple[str, ...]:
+        """What a hand must do before the numbers keep what they promise, in sentences."""
+        return (*_turn_sentences(self), *self.cures)
+
+    @property
+    def notes(self) -> tuple[Note, ...]:
+        """What is to be known of the numbers, the heaviest first."""
+        light = [each for each in self.warnings if each not in self.stops]
+        return (
+            *(Note("stop", each) for each in self.stops),
+            *(Note("by_hand", each) for each in self.by_hand),
+            *(Note("doubt" if i == 0 else "hint", each) for i, each in enumerate(light)),
         )
 
     @property
@@ -278,6 +308,18 @@ def quality_of(fitted: Fit, rows: Observations) -> Quality:
         worst=float(lengths.max()),
         shape_rms=rms(pose.errors) if pose else None,
     )
+
+
+def _turn_sentences(addition: Addition) -> list[str]:
+    """Return what to do about the sheet's rotation, if the marks prove it."""
+    if not addition.after_fit.proves_sheet_rotation:
+        return []
+    rise = addition.sheet_rise
+    which = "raise" if rise > 0 else "lower"
+    return [
+        f"no setting holds the sheet's rotation: {which} the right end of the next sheet by "
+        f"{worded(abs(rise))} over its width of {worded(addition.settings.sheet_width, 0)}"
+    ]
 
 
 def _cure(name: str, parameters: Mapping[str, float]) -> str:

@@ -18,7 +18,6 @@ from plumb.settings.files import read_settings
 from plumb.settings.ini import published_machine
 from plumb.settings.machine import FRAME_FIELDS
 from plumb.settings.toml import FitRecord, FittedBoard, machine_toml
-from plumb.text.values import worded
 
 PATCH_WARNING = (
     "It is no physics: a smooth map that holds for this machine, sled and sheet as they are, and "
@@ -40,24 +39,11 @@ def toml_of(
         f"Fitted to {source}: {result.after.fit_rms:.2f} mm RMS "
         f"({result.after.left_out_rms:.2f} checked on marks not used), "
         f"{result.raw.rms:.2f} mm before.",
-        *turn_sentences(result),
-        *result.cures,
+        *result.by_hand,
         *([f"{PATCH}: {PATCH_WARNING}"] if PATCH in result.effects_added else []),
         *result.warnings,
     ]
     return machine_toml(settings, comment="\n".join(lines)).encode()
-
-
-def turn_sentences(result: Addition) -> list[str]:
-    """Return what to do about the sheet's rotation, if the marks prove it."""
-    if not result.after_fit.proves_sheet_rotation:
-        return []
-    rise = result.sheet_rise
-    which = "raise" if rise > 0 else "lower"
-    return [
-        f"no setting holds the sheet's rotation: {which} the right end of the next sheet by "
-        f"{worded(abs(rise))} over its width of {worded(result.settings.sheet_width, 0)}"
-    ]
 
 
 # What a new machine.toml keeps of the fit that gave its numbers.

@@ -8,10 +8,11 @@ from dataclasses import dataclass
 from pydantic import BaseModel
 
 from plumb.diagnosis import Checked
-from plumb.fit.by_hand import CURVES, WEIGHED, WEIGHT, Curve, Reading, Unit, readings
+from plumb.fit.by_hand import WEIGHED, WEIGHT, readings
 from plumb.fit.expected import WIDE, is_absurd, plausible_range, refuse_absurd
 from plumb.fit.problem import priors_with
 from plumb.lab.project import Choices
+from plumb.model.python_effect import CURVES, Curve, Reading, Unit
 from plumb.plan.separation import FRAME_CHECKS, effect_checks
 from plumb.settings.machine import GRAVITY, MachineSettings
 from plumb.text.errors import InputError
@@ -62,6 +63,7 @@ def measured_to(choices: Choices) -> dict[str, float]:
 # The numbers that an owner can measure by hand, each as it is read, and whether it can be.
 
 FIRST = ("chain_pitch",)  # effects that everybody measures
+ON_DRAWING = ("chain_pitch", "chain_zero")  # effects that mark the chain there
 
 
 class KnownNumber(BaseModel):
@@ -211,12 +213,12 @@ def _of_effect(name: str, reading: Reading, settings: MachineSettings) -> KnownN
         unit=reading.unit,
         minutes=check.direct.minutes / len(check.sigmas),
         zero=reading.zero,
-        scale=reading.scale,
+        scale=reading.factor,
         curve=reading.curve,
         believed=reading.read(value) if value or is_first else None,
         usual=reading.usual,
         digits=reading.digits,
-        marked=reading.marked,
+        marked="chain" if effect in ON_DRAWING else "",
         by=WEIGHT if reading.unit == "g" else "",
         is_first=is_first,
     )

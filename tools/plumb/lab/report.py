@@ -12,7 +12,7 @@ from pathlib import Path
 
 from pydantic_core import to_json
 
-from plumb.cure.auto import AutoAddition, add_auto
+from plumb.cure.decision import Decision, decide
 from plumb.diagnosis.answer import Diagnosis
 from plumb.diagnosis.diagnosis import diagnose
 from plumb.diary.file import Diary
@@ -38,14 +38,14 @@ class Findings:
 
     inputs: Inputs
     diagnosis: Diagnosis
-    auto: AutoAddition
+    auto: Decision
     advice: Next
 
 
 def find(inputs: Inputs, *, progress: Callable[[float], None] = lambda share: None) -> Findings:
     """Diagnose, add and propose. Raises InputError as these do."""
     diagnosis = diagnose(inputs)
-    auto = add_auto(inputs, diagnosis=diagnosis)
+    auto = decide(inputs, diagnosis=diagnosis)
     return Findings(inputs, diagnosis, auto, propose(diagnosis, inputs, progress=progress))
 
 

@@ -3,9 +3,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass
-from typing import ClassVar
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+from typing import ClassVar, Literal
 
 from typing_extensions import TypedDict
 
@@ -22,6 +23,22 @@ class PlainWords(TypedDict):
     shown: str
 
 
+Curve = Literal["straight", "square", "tangent squared"]  # of the tangent: degrees
+Unit = Literal["mm", "kg", "g", "degrees"]
+
+
+class ReadingWords(TypedDict):
+    """What the owner reads off a rule or a scale for a parameter."""
+
+    title: str
+    unit: Unit
+    usual: float
+    factor: float
+    digits: int
+    zero: float
+    curve: Curve
+
+
 class ParameterWords(TypedDict):
     """What people read about a parameter of an effect."""
 
@@ -34,6 +51,7 @@ class ParameterWords(TypedDict):
     summary: str
     sigma: float
     plain: PlainWords | None
+    reading: ReadingWords | None
     published: tuple[int, float] | None
 
 
@@ -95,6 +113,49 @@ class Plain:
 
 
 @dataclass(frozen=True)
+class Reading:
+    """What somebody reads off a rule or a scale for a number: factor * curve(reading - zero)."""
+
+    title: str
+    usual: float  # how far a careful reading may be off
+    factor: float = 1.0
+    unit: Unit = "mm"
+    digits: int = 1
+    zero: float = 0.0
+    curve: Curve = "straight"
+    by_sheet: Callable[[float, float], float] | None = None  # times this, of width and height [mm]
+
+    def on(self, sheet: tuple[float, float]) -> Reading:
+        """Return the same on a sheet [mm]."""
+        if self.by_sheet is None:
+            return self
+        return replace(self, factor=self.factor * self.by_sheet(*sheet), by_sheet=None)
+
+    def value(self, read: float) -> float:
+        """Return the number that a reading says."""
+        return self.factor * CURVES[self.curve][0](read - self.zero)
+
+    def read(self, value: float) -> float:
+        """Return what would be read for a number."""
+        return self.zero + CURVES[self.curve][1](value / self.factor)
+
+
+def _root(number: float) -> float:
+    return math.sqrt(max(number, 0.0))
+
+
+# Each with its inverse, for readings from zero on.
+CURVES: Mapping[str, tuple[Callable[[float], float], Callable[[float], float]]] = {
+    "straight": (lambda read: read, lambda number: number),
+    "square": (lambda read: read * read, _root),
+    "tangent squared": (
+        lambda read: math.tan(math.radians(read)) ** 2,
+        lambda number: math.degrees(math.atan(_root(number))),
+    ),
+}
+
+
+@dataclass(frozen=True)
 class PythonParameter:
     """What people read about a parameter; zero always means absent."""
 
@@ -106,6 +167,7 @@ class PythonParameter:
     summary: str
     sigma: float = 0.0  # accuracy of the direct check; 0: no check reads it
     plain: Plain | None = None  # None: its name has to do
+    reading: Reading | None = None  # of the direct check
 
     @property
     def words(self) -> ParameterWords:
@@ -120,6 +182,7 @@ class PythonParameter:
             "summary": self.summary,
             "sigma": self.sigma,
             "plain": self.plain.words if self.plain else None,
+            "reading": None,  # an effect of ours holds it as it is
             "published": None,
         }
 

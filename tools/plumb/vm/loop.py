@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from plumb.cure.add import Addition
-from plumb.cure.auto import AutoAddition, add_auto
+from plumb.cure.decision import Decision, decide
 from plumb.diagnosis import Checked, Diagnosis, diagnose
 from plumb.fit.compare import Comparison, compare
 from plumb.fit.inputs import Inputs
@@ -41,7 +41,7 @@ class Loop:
     inputs: Inputs  # all that was measured
     done: tuple[Proposal, ...]  # what else was measured
     spent: Spent  # until the machine was changed
-    auto: AutoAddition
+    auto: Decision
     after: Comparison | None  # the second sheet; None where nothing could be added
 
     @property
@@ -78,7 +78,7 @@ def closed_loop(
     inputs = Inputs(owner.settings, board)
     before, first = compare(Inputs(owner.settings, board)), diagnose(inputs)
     more = _measured_more(owner, inputs, first, budget or Budget(), said)
-    auto = add_auto(more.inputs)
+    auto = decide(more.inputs)
     after = None
     if auto.addition:
         said("The new numbers go to the machine, and it cuts the grid again on another sheet.")

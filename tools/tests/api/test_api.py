@@ -56,7 +56,7 @@ def test_options_are_those_of_the_commands():
     inputs = plumb.read(INI, MARKS, cut_with=INI, sigma=0.4, priors={"motor_gap": 0.0})
     assert inputs.sigma == 0.4 and inputs.priors["motor_gap"] == 0.0
     assert inputs.cut_with is not None
-    assert plumb.auto(inputs).diagnosis.noise.sigma == pytest.approx(0.4)
+    assert plumb.decide(inputs).diagnosis.noise.sigma == pytest.approx(0.4)
     with pytest.raises(plumb.InputError, match="there is no such file"):
         plumb.read("none.ini", MARKS)
 

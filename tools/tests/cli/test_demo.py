@@ -35,7 +35,7 @@ def test_the_command_ends_with_the_fall_and_what_calibrate_says(tmp_path, capsys
     words = " ".join(verdict.split())
     # It knows nothing of what was chosen by hand, and finds most of it.
     assert words.startswith("plumb calibrate says of them: Most of it is chains too long or too")
-    assert words.endswith("A pattern of 0.86 mm stays that no effect draws.")
+    assert words.endswith("a pattern of 0.86 mm stays that no effect draws.")
     assert (tmp_path / "demo" / "error-falls.png").read_bytes() == picture.read_bytes()
     new = read_settings(tmp_path / "demo" / "machine.toml", known=known_effects())
     assert set(new.effects) == {"chain_pitch", "chain_sag"}

@@ -116,7 +116,7 @@ def test_a_full_disk_is_a_line_and_leaves_nothing(run):
 
 def test_a_dash_is_the_standard_output_and_the_report_goes_beside(run):
     code, said, report = run(*ADD, "-o", "-")
-    assert code == 0 and "frame" in tomllib.loads(said) and "The error goes from" in report
+    assert code == 0 and "frame" in tomllib.loads(said) and "The error falls from" in report
     code, said, report = run(*LINES, "-o", "-")
     assert code == 0 and said.startswith("$0=2438.4\n") and "Written" in report
     assert said == run(*LINES)[1]

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import pytest
 from plumb.cure.add import add
-from plumb.cure.machine_file import MARKS, SETTINGS, turn_sentences
+from plumb.cure.machine_file import MARKS, SETTINGS
 from plumb.fit.inputs import Inputs
 from plumb.fit.problem import PRIORS, Checked, priors_with
 from plumb.marks.read import Measurements, read_marks
@@ -101,7 +101,7 @@ def test_the_sheet_is_to_be_turned_back():
     turned = Measurements(marks_on(BELIEVED, BELIEVED, grid(5, 3), rotation=0.002))
     result = add(Inputs(BELIEVED, turned), effects=["chain_sag"])
     assert result.sheet_rise == pytest.approx(0.002 * 2438.4, rel=0.01)
-    (sentence,) = turn_sentences(result)
+    (sentence,) = result.by_hand
     assert "raise the right end of the next sheet by 4.88 mm" in sentence
 
 
@@ -109,7 +109,7 @@ def test_the_sheet_is_to_be_turned_back():
 def test_a_turn_that_may_be_none_asks_for_nothing(turn, said):
     marks = marks_on(BELIEVED, BELIEVED, grid(5, 3), rotation=turn, noise=0.5)
     result = add(Inputs(BELIEVED, Measurements(marks)), effects=["chain_sag"])
-    assert len(turn_sentences(result)) == said
+    assert len(result.by_hand) == said
 
 
 def test_what_was_measured_directly_holds_the_fit():

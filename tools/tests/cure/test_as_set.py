@@ -5,7 +5,7 @@ import pytest
 from plumb.bench.boards import TrueMachine, chains_for, plan
 from plumb.bench.causes import MAKER, Hidden
 from plumb.cli.main import main
-from plumb.cure.auto import add_auto
+from plumb.cure.decision import decide
 from plumb.fit.inputs import Inputs
 from plumb.marks.read import Mark, Measurements
 from plumb.settings.toml import write_machine_toml
@@ -31,12 +31,12 @@ def marks_of(wider, seed):
 
 def answered(wider, seed):
     measured = Measurements(marks_of(wider, seed), (), tape_sigma=NOISE, source="marks.toml")
-    return add_auto(Inputs(MAKER, measured))
+    return decide(Inputs(MAKER, measured))
 
 
 def good_of(wider, count):
     """How many of so many machines are called good."""
-    return sum(answered(wider, seed).is_good for seed in range(count))
+    return sum(answered(wider, seed).state == "good" for seed in range(count))
 
 
 def test_a_machine_that_is_right_is_left_as_it_is_and_a_machine_that_is_off_is_not():

@@ -3,16 +3,14 @@
 from pathlib import Path
 
 import pytest
-from plumb.cure.auto import add_auto
+from plumb.cure.decision import decide
 from plumb.fit.inputs import read_inputs
 
 BOARDS = Path(__file__).resolve().parents[1] / "data/boards"
 
 
 def cured(name):
-    return add_auto(
-        read_inputs(BOARDS / name / "groundcontrol.ini", [BOARDS / name / "marks.toml"])
-    )
+    return decide(read_inputs(BOARDS / name / "groundcontrol.ini", [BOARDS / name / "marks.toml"]))
 
 
 def test_three_effects_of_a_real_machine_are_named_and_written():

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from plumb.bench.boards import cut, plan
 from plumb.bench.causes import MAKER, Hidden
-from plumb.cure.auto import add_auto
+from plumb.cure.decision import decide
 from plumb.diagnosis import diagnose
 from plumb.fit.expected import expected_error
 from plumb.fit.inputs import Inputs
@@ -47,7 +47,7 @@ def test_before_anything_is_measured_it_is_what_is_normal():
 
 def test_nothing_is_fitted_to_too_little_by_any_door():
     marks = cut(Hidden(), plan(3, 1), seed=3, settings=MAKER).measurements
-    result = add_auto(Inputs(MAKER, marks))
+    result = decide(Inputs(MAKER, marks))
     assert result.addition is None and result.chosen == () and not result.done
     said = result.reason
     assert "leave 1.2 mm open" in said and "2.5 mm by" in said

@@ -7,7 +7,7 @@ import pytest
 from plumb.bench.boards import cut, plan
 from plumb.bench.causes import MAKER, Hidden, causes_of
 from plumb.cure.add import add
-from plumb.cure.auto import add_auto
+from plumb.cure.decision import decide
 from plumb.diagnosis import diagnose
 from plumb.diagnosis.answer import verdict_sentence
 from plumb.fit.inputs import Inputs
@@ -32,7 +32,7 @@ def test_a_slip_of_a_repeat_is_no_noise_whatever_is_hidden(tape_sigma):
     assert [slip.name for slip in diagnosis.outliers] == [slipped.marks[-2].name]
     assert diagnosis.outliers[0].length == pytest.approx(10, abs=1.5)
     assert "disagrees with its repeats" in verdict_sentence(diagnosis)
-    assert add_auto(Inputs(MAKER, slipped)).addition is None
+    assert decide(Inputs(MAKER, slipped)).addition is None
 
 
 def test_an_addition_that_was_asked_for_says_what_disagrees():

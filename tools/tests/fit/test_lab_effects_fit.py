@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from plumb.cli.addition import as_text
+from plumb.cli.addition import addition_text
 from plumb.cure.add import add
 from plumb.cure.machine_file import toml_of
 from plumb.fit.fit import fit
@@ -67,7 +67,11 @@ def test_a_lab_effect_is_told_with_its_cure_and_pays():
     result = add(Inputs(BELIEVED, board), effects=[*EFFECTS, "tape_scale"])
     assert result.pays and result.effects_added == (*EFFECTS, "tape_scale")
     assert len(result.cures) == 1
-    for said in (result.cures[0], as_text(result), toml_of(result, source="marks.toml").decode()):
+    for said in (
+        result.cures[0],
+        "\n".join(addition_text(result, result.notes)),
+        toml_of(result, source="marks.toml").decode(),
+    ):
         said = " ".join(said.replace("#", " ").split())
         assert "% too long: " in said and "no firmware can cure this" in said
         assert "a length that you trust" in said

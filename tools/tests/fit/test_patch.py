@@ -8,7 +8,7 @@ from hidden_boards import board
 from plumb.bench.boards import plan
 from plumb.bench.causes import MAKER
 from plumb.cure.add import add
-from plumb.cure.auto import add_auto
+from plumb.cure.decision import decide
 from plumb.fit.compare import compare
 from plumb.fit.covariates import PATCH, SIZES
 from plumb.fit.inputs import Inputs
@@ -64,11 +64,11 @@ def test_where_nothing_is_left_it_buys_nothing_and_is_not_added():
 
 def test_auto_offers_it_and_adds_it_only_when_asked():
     strange = board({}, plan(5, 5), seed=8, bump=3.0)
-    offered = add_auto(Inputs(MAKER, strange))
+    offered = decide(Inputs(MAKER, strange))
     assert offered.diagnosis.verdict == "not_in_library"
     assert offered.offer[1] < 0.8 * offered.offer[0]
     assert PATCH not in offered.addition.effects_added
-    taken = add_auto(Inputs(MAKER, strange), patch=True)
+    taken = decide(Inputs(MAKER, strange), patch=True)
     assert taken.addition.effects_added == (PATCH,)
     assert taken.addition.after.left_out_rms == pytest.approx(offered.offer[1])
     assert taken.addition.settings.effects[PATCH]

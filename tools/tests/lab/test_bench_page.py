@@ -10,7 +10,7 @@ import plumb.lab.rounds
 import pytest
 from folder import EXAMPLE, asked, finished, got, with_marks
 from playwright.sync_api import expect
-from plumb.cure.auto import add_auto
+from plumb.cure.decision import decide
 from plumb.lab.project import Project
 from plumb.lab.rounds import inputs_of
 from plumb.marks.read import read_marks
@@ -167,7 +167,7 @@ def test_verdict_and_bench_ask_the_same_fit(tmp_path):
     taped(tmp_path)
     with asked(tmp_path) as client:
         _, *fitted = finished(client, "verdict")["verdict"]["states"]
-        chosen = [[], list(add_auto(inputs_of(Project(tmp_path))).chosen)]
+        chosen = [[], list(decide(inputs_of(Project(tmp_path))).chosen)]
         for state, effects in zip(fitted, chosen, strict=False):
             fit = got(client.post("/api/bench/fit", json={"effects": effects}))
             for figure in ("fit_rms", "noise_rms"):

@@ -21,8 +21,6 @@ STORIES = {
     # Machines on which chains slip, and a question to the owner about the links of a chain.
     "bench/slipped_chains.py",
     "lab/known.py",
-    # What a rule or a scale reads for a number: nobody is asked for a number without such words.
-    "fit/by_hand.py",
     "cure/machine_file.py",
     "cli/demo.py",
 }

@@ -39,6 +39,11 @@ struct ChainPitch : Effect<Real> {
             "(25 inches); read to 0.2 mm.",
             "(read - 635) / 635, of each chain", 15};
   }
+  static ReadingInfo reading(uint8_t i) {
+    const char* const title =
+        i == kLeftStrain ? "100 links of the left chain" : "100 links of the right chain";
+    return {title, "mm", 0.2, 1 / 635.0, 1, 635};
+  }
   static Example example(uint8_t i) {
     static const Example kExamples[] = {{"both alike", {0.001, 0.001}, 20},
                                         {"left more", {0.001, 0.0003}, 20},

@@ -38,6 +38,15 @@ struct ChainPlane : Effect<Real> {
             "Measure how far sprockets and ring stand off the sheet, to 3 mm.",
             "the difference of both, squared", 6};
   }
+  static ReadingInfo reading(uint8_t) {
+    return {"how much farther from the sheet the sprockets are than the ring",
+            "mm",
+            3,
+            1,
+            1,
+            0,
+            kSquare};
+  }
   static Example example(uint8_t) { return {"sprockets off the sheet", {1600}, 20}; }
   template <class Judge>
   static void setJudge(const Frame<Real>&, const Real* parameter, Judge& judge) {

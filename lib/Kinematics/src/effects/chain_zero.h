@@ -40,6 +40,11 @@ struct ChainZero : Effect<Real> {
             "marked links are past 12 o'clock, to 1 mm.",
             "mm of chain that are out at 12 o'clock", 8};
   }
+  static ReadingInfo reading(uint8_t i) {
+    const char* const title = i == kLeftOut ? "how far the left chain is out at 12 o'clock"
+                                            : "how far the right chain is out at 12 o'clock";
+    return {title, "mm", 1, 1};
+  }
   static Example example(uint8_t i) {
     static const Example kExamples[] = {{"one each way", {2, -1}, 20}, {"both alike", {2, 2}, 20}};
     return kExamples[i];

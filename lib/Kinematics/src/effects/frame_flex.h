@@ -48,6 +48,11 @@ struct FrameFlex : Effect<Real> {
             "gauge how far the sprocket moves, to 0.1 mm.",
             "mm moved over newtons pulled, inwards and downwards", 20};
   }
+  static ReadingInfo reading(uint8_t i) {
+    const char* const title = i == kInward ? "how far a motor moves inwards under 50 N"
+                                           : "how far a motor moves down under 50 N";
+    return {title, "mm", 0.1, 1 / 50.0, 2};
+  }
   static Example example(uint8_t i) {
     static const Example kExamples[] = {{"inward and downward", {0.007, 0.02}, 20},
                                         {"inward", {0.007, 0}, 20},

@@ -42,6 +42,9 @@ struct FrameLean : Effect<Real> {
             "line or an angle gauge.",
             "the tangent of that angle, squared (a plumb line: distance over height, squared)", 5};
   }
+  static ReadingInfo reading(uint8_t) {
+    return {"how far the frame leans", "degrees", 0.5, 1, 1, 0, kSquareOfTangent};
+  }
   static Example example(uint8_t) { return {"leaning", {0.072}, 1}; }
 
   /// The frame's weights are the parts along the sheet; the judge needs the full weights.

@@ -34,6 +34,7 @@ struct MotorLevel : Effect<Real> {
             "measure how much higher the right axis is, to 1 mm.",
             "mm, negative if the left axis is higher", 8};
   }
+  static ReadingInfo reading(uint8_t) { return {"how much higher the right motor is", "mm", 1, 1}; }
   static Example example(uint8_t) { return {"right motor higher", {4}, 20}; }
   template <class Judge>
   static void setJudge(const Frame<Real>&, const Real* parameter, Judge& judge) {

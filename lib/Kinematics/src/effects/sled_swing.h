@@ -51,6 +51,11 @@ struct SledSwing : Effect<Real> {
             "centre by half the circle that it draws. Measure to 0.3 mm.",
             "mm that the bit is right of, and above, the ring's centre on the upright sled", 12};
   }
+  static ReadingInfo reading(uint8_t i) {
+    const char* const title = i == kBitRight ? "how far the bit is right of the ring's centre"
+                                             : "how far the bit is above the ring's centre";
+    return {title, "mm", 0.3, 1};
+  }
   static Example example(uint8_t i) {
     static const Example kExamples[] = {
         {"right and up", {2, 2}, 8}, {"right", {2, 0}, 4}, {"up", {0, 2}, 4}};

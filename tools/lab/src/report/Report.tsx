@@ -83,7 +83,8 @@ function Numbers({ made }: { made: Schemas["CorrectionParts"] }) {
           </tbody>
         </table>
       )}
-      {made.cures.length > 0 && <ByHand cures={made.cures} />}
+      {made.stops.length > 0 && <ByHand title="Do not write these numbers" said={made.stops} />}
+      {made.cures.length > 0 && <ByHand title="By hand" said={made.cures} />}
       <Why made={made} />
     </section>
   );

@@ -45,7 +45,7 @@ export function Correct() {
   }
   if (made.nothing) {
     return (
-      <Screen title={made.nothing} say={made.reasons.join(" ")}>
+      <Screen title={made.nothing} say={made.said} why={<p>{made.reasons.join(" ")}</p>}>
         <a href={`#/${made.instead}`}>{WAYS[made.instead]}</a>
         <GoBack writing={writing} />
       </Screen>
@@ -131,7 +131,8 @@ function Question(parts: Parts) {
         <ErrorFigure name="with all of it" state={made.whole} units={units} />
       </dl>
       <Numbers made={made} busy={!current} />
-      {made.cures.length > 0 && <ByHand cures={made.cures} />}
+      {made.stops.length > 0 && <ByHand title="Do not write these numbers" said={made.stops} />}
+      {made.cures.length > 0 && <ByHand title="By hand" said={made.cures} />}
       <p class="row">
         <GoBack writing={writing} />
         {writing.notWritten}
@@ -178,7 +179,7 @@ function Written(parts: Parts) {
         />
       </dl>
       <ToMachine writing={writing} isNext isHeld={isHeld} />
-      {current && made.cures.length > 0 && <ByHand cures={made.cures} />}
+      {current && made.cures.length > 0 && <ByHand title="By hand" said={made.cures} />}
       {current && asked(made, []).length > 0 && (
         <details>
           <summary>What would still change</summary>
@@ -212,14 +213,14 @@ function ErrorFigure({ name, state, units }: ErrorParts) {
   );
 }
 
-/** What has to be done at the machine: the promise counts on it. */
-export function ByHand({ cures }: { cures: string[] }) {
+/** What speaks against the numbers, or has to be done at the machine: the promise counts on it. */
+export function ByHand({ title, said }: { title: string; said: string[] }) {
   return (
-    <section class="box edge warned" aria-label="By hand">
-      <h2>By hand</h2>
+    <section class="box edge warned" aria-label={title}>
+      <h2>{title}</h2>
       <ul>
-        {cures.map((said) => (
-          <li key={said}>{capital(said)}.</li>
+        {said.map((each) => (
+          <li key={each}>{capital(each)}.</li>
         ))}
       </ul>
     </section>

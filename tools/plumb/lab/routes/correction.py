@@ -10,7 +10,7 @@ from fastapi import APIRouter
 from pydantic import BaseModel, ConfigDict
 
 from plumb.cure.add import Addition, Parameter
-from plumb.cure.auto import AutoAddition, add_auto
+from plumb.cure.decision import Decision, decide
 from plumb.cure.live_board import BoardView, LiveBoard, refuse_other_origin
 from plumb.cure.machine_file import (
     Correction,
@@ -18,7 +18,6 @@ from plumb.cure.machine_file import (
     has_setting,
     record_of,
     toml_of,
-    turn_sentences,
 )
 from plumb.diary.file import FIT, fit_entry, keep
 from plumb.firmware.client_files import CLIENT_FILES, ClientFiles, client_files
@@ -60,14 +59,16 @@ class CorrectionParts(BaseModel):
     """What could be changed, and what is accepted of it."""
 
     model_config = ConfigDict(json_schema_serialization_defaults_required=True)
+    said: str  # the decision, in a sentence or two
     reasons: list[str]  # why these effects, in sentences
     add: list[str]  # what plumb add is given for what is accepted
     nothing: str = ""  # a heading where no number is to be changed
     instead: str = ""  # and the screen to go to then
     numbers: list[ChangedNumber] = []
     with_accepted: list[ChangedNumber] = []  # fitted with all others held as they are
+    stops: list[str] = []  # why nobody should set a machine by the numbers
     cures: list[str] = []  # for what no setting holds
-    warnings: list[str] = []
+    warnings: list[str] = []  # what else is to be known, the heaviest first
     intervals: str = ""  # for which noise they hold
     settings: str = ""  # name of the file that these numbers would change
     is_written: bool = False  # that file was fitted to just these marks
@@ -120,10 +121,10 @@ def show_correction(project: TheProject, background: TheBackground) -> Correctio
 
     def work(progress: Progress) -> CorrectionParts:
         progress(0.1)
-        auto = add_auto(inputs)
+        decision = decide(inputs)
         progress(0.6)
         with shown_in(choices.units):
-            return correction_of(inputs, auto, choices)
+            return correction_of(inputs, decision, choices)
 
     answer = background.ask("correction", key, work)
     file = project.free_name("machine", *WRITTEN)
@@ -138,26 +139,29 @@ def show_correction(project: TheProject, background: TheBackground) -> Correctio
     )
 
 
-def correction_of(inputs: Inputs, auto: AutoAddition, choices: Choices) -> CorrectionParts:
+def correction_of(inputs: Inputs, decision: Decision, choices: Choices) -> CorrectionParts:
     """Return what the marks would change, and what is accepted of it."""
     # What was written stays in view: it goes to the machine, or is taken back.
     is_written = _is_fit_of(inputs)
-    if auto.addition is None and not (auto.is_good and is_written):
-        nothing, instead = _nothing_to_change(auto)
+    if decision.addition is None and not (decision.state == "good" and is_written):
         return CorrectionParts(
-            reasons=list(auto.said), nothing=nothing, instead=instead, add=_auto_words(choices)
+            said=decision.headline,
+            reasons=list(decision.said),
+            nothing=_NOTHING[decision.state],
+            instead=decision.screen,
+            add=_auto_words(choices),
         )
-    made = correct(auto.inputs, auto.chosen, choices.accepted, noise=auto.diagnosis.noise)
-    return _parts(made, auto, choices, is_written=is_written)
+    made = correct(
+        decision.inputs, decision.chosen, choices.accepted, noise=decision.diagnosis.noise
+    )
+    return _parts(made, decision, choices, is_written=is_written)
 
 
-def _nothing_to_change(auto: AutoAddition) -> tuple[str, str]:
-    """Return a heading, and the screen that comes next."""
-    if auto.is_good:
-        return "Nothing to change", "verdict"
-    if auto.diagnosis.outliers:
-        return "First look at a reading again", "readings"
-    return "First measure marks all over the sheet", "measure"
+_NOTHING = {
+    "good": "Nothing to change",
+    "read_again": "First look at a reading again",
+    "measure_first": "First measure marks all over the sheet",
+}
 
 
 @router.post("/correction")
@@ -167,10 +171,12 @@ def write(known: Write, project: TheProject, line: TheLine) -> Written:
     inputs = inputs_of(project)
     refuse_other_origin(inputs)
     refuse_unanswered(project, line)
-    auto = add_auto(inputs)
-    if auto.addition is None:
-        raise InputError(auto.reason)
-    made = correct(auto.inputs, auto.chosen, choices.accepted, noise=auto.diagnosis.noise).accepted
+    decision = decide(inputs)
+    if decision.addition is None:
+        raise InputError(decision.reason)
+    made = correct(
+        decision.inputs, decision.chosen, choices.accepted, noise=decision.diagnosis.noise
+    ).accepted
     if made is None:
         raise InputError("no number is accepted, so there is nothing to write")
     name = project.free_name("machine", *WRITTEN)
@@ -222,18 +228,21 @@ def _is_fit_of(inputs: Inputs) -> bool:
 
 
 def _parts(
-    made: Correction, auto: AutoAddition, choices: Choices, *, is_written: bool
+    made: Correction, decision: Decision, choices: Choices, *, is_written: bool
 ) -> CorrectionParts:
     whole, some = made.whole, made.accepted
     accepted = [number for number in some.parameters if has_setting(number.name)] if some else []
-    noise = auto.diagnosis.noise
-    left = partial(fitted_state, view=BoardView(LiveBoard(auto.inputs, noise=noise)))
+    noise = decision.diagnosis.noise
+    left = partial(fitted_state, view=BoardView(LiveBoard(decision.inputs, noise=noise)))
+    notes = (some or whole).notes
     return CorrectionParts(
-        reasons=list(auto.said),
+        said=decision.headline,
+        reasons=list(decision.said),
         numbers=[_number(number, choices) for number in made.numbers],
         with_accepted=[_number(number, choices) for number in accepted],
-        cures=[*turn_sentences(whole), *whole.cures],
-        warnings=list((some or whole).warnings),
+        stops=[note.text for note in notes if note.weight == "stop"],
+        cures=list(whole.by_hand),
+        warnings=[note.text for note in notes if note.weight in ("doubt", "hint")],
         intervals=(some or whole).intervals_said,
         settings=choices.settings,
         is_written=is_written,
@@ -243,7 +252,7 @@ def _parts(
         accepted=left("with what you accepted", some.after_fit) if some else None,
         whole=left("with all of it", whole.after_fit),
         left_out=some.after.left_out_rms if some else None,
-        add=_add_words(made, auto.diagnosis.usual, choices),
+        add=_add_words(made, decision.diagnosis.usual, choices),
     )
 
 

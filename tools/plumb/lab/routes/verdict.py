@@ -8,7 +8,7 @@ from fastapi import APIRouter, Depends, Request
 from pydantic import BaseModel
 
 from plumb import api
-from plumb.cure.auto import AutoAddition, add_auto
+from plumb.cure.decision import Decision, decide
 from plumb.cure.live_board import BoardView, Chosen, LiveBoard
 from plumb.diagnosis.answer import SHOWN, Diagnosis, Together, odds_words
 from plumb.diagnosis.diagnosis import diagnose
@@ -121,7 +121,7 @@ def show_verdict(project: TheProject, background: TheBackground) -> VerdictAnswe
         progress(0.1)
         diagnosis = diagnose(inputs)
         progress(0.6)
-        auto = add_auto(inputs, diagnosis=diagnosis)
+        auto = decide(inputs, diagnosis=diagnosis)
         progress(0.8)
         with shown_in(choices.units):
             return verdict_of(inputs, diagnosis, auto)
@@ -141,7 +141,7 @@ def board_and_known(project: Project, inputs: api.Inputs) -> list[str]:
     return [*board_words(project), *known_words(choices), *unit]
 
 
-def verdict_of(inputs: api.Inputs, diagnosis: Diagnosis, auto: AutoAddition) -> Verdict:
+def verdict_of(inputs: api.Inputs, diagnosis: Diagnosis, auto: Decision) -> Verdict:
     """Return a diagnosis as the page shows it."""
     raw = api.compare(inputs)
     shown = list(diagnosis.explanations)[:MOST_CARDS]
@@ -166,7 +166,7 @@ def verdict_of(inputs: api.Inputs, diagnosis: Diagnosis, auto: AutoAddition) -> 
     )
 
 
-def _title(auto: AutoAddition) -> str:
+def _title(auto: Decision) -> str:
     """Return what the answer comes to, in a few words."""
     diagnosis = auto.diagnosis
     if diagnosis.outliers:
@@ -187,7 +187,7 @@ def _title(auto: AutoAddition) -> str:
     return "One suspect" if diagnosis.verdict == "one_suspect" else "Several things could be it"
 
 
-def _states(raw: Comparison, auto: AutoAddition, doubts: Doubts) -> list[State]:
+def _states(raw: Comparison, auto: Decision, doubts: Doubts) -> list[State]:
     """Return what is left of the marks: as set, with the frame, with what is added."""
     addition, noise = auto.addition, auto.diagnosis.noise
     states = [as_set(raw, noise.sigma, doubts=doubts)]

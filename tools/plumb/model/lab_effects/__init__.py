@@ -5,6 +5,7 @@ To add an effect, write it here and give it a line in LAB_EFFECTS.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import ClassVar
@@ -12,7 +13,14 @@ from typing import ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from plumb.model.python_effect import DirectCheck, Example, Plain, PythonEffect, PythonParameter
+from plumb.model.python_effect import (
+    DirectCheck,
+    Example,
+    Plain,
+    PythonEffect,
+    PythonParameter,
+    Reading,
+)
 
 Array = NDArray[np.float64]
 SLED = "sled"  # the sled comes to rest elsewhere, before the turn of the sheet
@@ -116,6 +124,13 @@ def _skew(parameters: Array, seen: Seen) -> Change:
     return Change(moved, by_parameter, by_place)
 
 
+def _of_diagonals(width: float, height: float) -> float:
+    """Return the skew [rad] for each mm by which the diagonals differ: their squares differ by
+    about twice a diagonal times that.
+    """
+    return math.hypot(width, height) / (2 * width * height)
+
+
 SHEET_SKEW = LabEffect(
     name="sheet_skew",
     noun="sheet edges that are not square",
@@ -135,6 +150,11 @@ SHEET_SKEW = LabEffect(
             "by which the reading x grows for each mm up",
             0.0005,
             Plain("sheet edges # out of square for each metre", "", "mm", 1000.0),
+            Reading(
+                "how much longer the diagonal from the top left corner is",
+                1.0,
+                by_sheet=_of_diagonals,
+            ),
         ),
     ),
     check=DirectCheck(
@@ -181,6 +201,7 @@ TAPE_SCALE = LabEffect(
             "share by which readings are too long",
             0.0001,
             Plain("tape reads # too long", "tape reads # too short", "%", 100.0),
+            Reading("how much too much the tape reads over a metre", 0.1, 1 / 1000, digits=2),
         ),
     ),
     check=DirectCheck(

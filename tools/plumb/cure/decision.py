@@ -1,4 +1,10 @@
-"""Adding by itself what the marks ask for: the diagnosis names, the fit adds."""
+"""What to write: the one decision that the terminal, the page and the report ask for.
+
+The diagnosis says what the marks prove. Here it is decided what follows for the machine: a reading
+is looked at again; the settings are good and stay; new numbers are better, and by how much; or
+something is measured first. The headline, what speaks against the numbers, what a hand must do
+before they hold and the screen that comes next are said here and nowhere else.
+"""
 
 from __future__ import annotations
 
@@ -8,29 +14,32 @@ from typing import Annotated
 
 from pydantic import computed_field
 
-from plumb.cure.add import Addition, add
+from plumb.cure.add import WEIGHTS, Addition, Note, add
 from plumb.cure.live_board import TooFewError
-from plumb.diagnosis.answer import MOST_NAMED, Diagnosis, Verdict
+from plumb.diagnosis.answer import MOST_NAMED, Diagnosis, Verdict, odds_words
 from plumb.diagnosis.diagnosis import diagnose
 from plumb.diagnosis.expected_error import LeftOpen, RivalError, expected_error, rival_error
 from plumb.fit.inputs import Inputs
 from plumb.model.catalogue import every_effect
-from plumb.model.plain import noun_of, plainly
-from plumb.text.answers import Internal, key, part
+from plumb.model.plain import noun_of, plainly, ranked
+from plumb.text.answers import Internal, among, key, part
 from plumb.text.errors import to_do
+from plumb.text.values import bare, worded
+
+STATES = ("read_again", "good", "impossible", "better", "measure_first", "unknown_cause")
 
 
 @dataclass(frozen=True)
-class AutoAddition:
-    """What was added without anybody naming it, and why."""
+class Decision:
+    """What to write, and why."""
 
     diagnosis: Internal[Diagnosis]
     inputs: Internal[Inputs]  # with what is usual of the sizes that were added
-    chosen: tuple[str, ...]  # effects added: those asked for, then what every machine has
-    rivals: tuple[tuple[str, ...], ...]  # explanations that the marks allow as well
-    # None: nothing is fitted to a wrong reading, or to too few marks
-    addition: Internal[Addition | None]
     reason: str  # one sentence
+    chosen: tuple[str, ...] = ()  # effects added: those asked for, then what every machine has
+    rivals: tuple[tuple[str, ...], ...] = ()  # explanations that the marks allow as well
+    # None: nothing is fitted to a wrong reading, to too few marks, or where all is well
+    addition: Internal[Addition | None] = None
     offer: Annotated[
         tuple[float, float] | None,
         key("patch_offer_mm", "Error on marks left out, without a patch and with it."),
@@ -40,6 +49,38 @@ class AutoAddition:
     apart: RivalError | None = None  # where rivals would cut elsewhere by more than the noise
 
     verdict = part("diagnosis.verdict", Verdict)
+
+    @computed_field
+    @property
+    def state(self) -> Annotated[str, among(STATES)]:
+        """What follows for the machine."""
+        if self.diagnosis.outliers:
+            return "read_again"
+        if self.addition is None:
+            return "good" if self.diagnosis.is_good else "measure_first"
+        if self.addition.stops:
+            return "impossible"
+        if not self.is_explained:
+            return "unknown_cause"
+        return "measure_first" if self.rivals else "better"
+
+    @computed_field
+    @property
+    def headline(self) -> str:
+        """The decision for people, in at most forty words."""
+        return _headline(self)
+
+    @computed_field
+    @property
+    def notes(self) -> tuple[Note, ...]:
+        """What is to be known of the new numbers, the heaviest first."""
+        return tuple(_notes(self))
+
+    @computed_field
+    @property
+    def slips(self) -> tuple[str, ...]:
+        """Names of the readings that are wrong."""
+        return tuple(slip.name for slip in self.diagnosis.outliers)
 
     @property
     def named(self) -> tuple[str, ...]:
@@ -58,23 +99,17 @@ class AutoAddition:
             return why, "For cutting it hardly matters: they differ by less than a reading's noise."
         return (why,)
 
-    @computed_field
     @property
-    def slips(self) -> tuple[str, ...]:
-        """Names of the readings that are wrong."""
-        return tuple(slip.name for slip in self.diagnosis.outliers)
+    def is_explained(self) -> bool:
+        """Whether the library explains what the new numbers change."""
+        is_named = self.diagnosis.is_finding and bool(self.chosen)
+        return self.diagnosis.verdict != "not_in_library" or is_named
 
     @property
     def done(self) -> bool:
         """Whether the marks ask for nothing more once the chosen effects are there."""
-        is_named = self.diagnosis.is_finding and bool(self.chosen)
-        is_known = self.diagnosis.verdict != "not_in_library" or is_named
-        return self.is_good or (self.addition is not None and is_known)
-
-    @property
-    def is_good(self) -> bool:
-        """Whether nothing is written, as the settings are as good as these marks can show."""
-        return self.reason == GOOD
+        is_untested = self.state == "measure_first" and self.addition is not None
+        return self.state in ("better", "good") or is_untested
 
     @property
     def expected_mm(self) -> float | None:
@@ -87,11 +122,14 @@ class AutoAddition:
         rivals = [(fit, each.share) for fit, each in both if fit is not self.diagnosis.best]
         return expected_error(self.diagnosis.best, rivals).rms
 
+    @property
+    def screen(self) -> str:
+        """Where a page goes on, if there are no numbers to be written."""
+        return {"read_again": "readings", "good": "verdict"}.get(self.state, "measure")
 
-def add_auto(
-    inputs: Inputs, *, patch: bool = False, diagnosis: Diagnosis | None = None
-) -> AutoAddition:
-    """Diagnose the marks and add the likeliest account, with what every machine has and the
+
+def decide(inputs: Inputs, *, patch: bool = False, diagnosis: Diagnosis | None = None) -> Decision:
+    """Diagnose the marks and fit the likeliest account, with what every machine has and the
     settings leave out; nothing where the settings are as good as the marks can show. `diagnosis` is
     that of these inputs, if it is known.
 
@@ -103,17 +141,17 @@ def add_auto(
     diagnosis = diagnosis or diagnose(inputs)
     inputs = replace(inputs, checked=(*inputs.checked, *diagnosis.usual))
     if diagnosis.verdict == "slip":
-        return AutoAddition(diagnosis, inputs, (), (), None, _slip_reason(diagnosis))
+        return Decision(diagnosis, inputs, _slip_reason(diagnosis))
     if diagnosis.left_open.is_too_much:
-        return AutoAddition(diagnosis, inputs, (), (), None, _open_reason(diagnosis.left_open))
+        return Decision(diagnosis, inputs, _open_reason(diagnosis.left_open))
     if diagnosis.is_good:
-        return AutoAddition(diagnosis, inputs, (), (), None, GOOD)
+        return Decision(diagnosis, inputs, GOOD)
     is_known = diagnosis.verdict != "not_in_library"
     try:
         # The noise is that of the diagnosis: what is usual would count twice in another posterior.
         addition = add(inputs, effects=diagnosis.to_add, noise=diagnosis.noise)
     except TooFewError as error:
-        return AutoAddition(diagnosis, inputs, (), (), None, f"nothing was added: {error}")
+        return Decision(diagnosis, inputs, f"nothing was added: {error}")
     chosen, offer = diagnosis.to_add, None
     if not is_known:
         if not addition.pays:
@@ -122,20 +160,61 @@ def add_auto(
         offer = addition.after.left_out_rms, patched.after.left_out_rms
         addition = patched if patch else addition
     rivals = tuple(each.effects for each in diagnosis.explanations[1:]) if is_known else ()
-    return AutoAddition(
+    return Decision(
         diagnosis=diagnosis,
         inputs=inputs,
+        reason=_reason(diagnosis, chosen, rivals),
         chosen=chosen,
         rivals=rivals,
         addition=addition,
-        reason=_reason(diagnosis, chosen, rivals),
         offer=offer,
         settled_by=_settled_by(diagnosis),
         apart=rival_error(diagnosis.fits, diagnosis.noise.sigma) if rivals else None,
     )
 
 
+# The decision in words.
+
 GOOD = "your machine is as good as these marks can show: nothing to change"
+
+
+def _headline(decision: Decision) -> str:
+    diagnosis, addition = decision.diagnosis, decision.addition
+    if decision.state == "good":
+        return f"{GOOD[0].upper()}{GOOD[1:]}.".replace(": nothing", ". Nothing")
+    if addition is None or (diagnosis.is_finding and decision.state == "better"):
+        return diagnosis.sentence
+    fall = fall_sentence(addition)
+    if decision.state == "impossible":
+        return f"Do not set the machine by these numbers. {fall}"
+    if decision.state == "unknown_cause":
+        return f"No cause explains all that the marks show. {fall}"
+    added = addition.effects_added
+    few = added if len(added) <= MOST_NAMED else ()
+    what = plainly(few) if few or not added else f"{len(added)} causes at once"
+    if decision.rivals:
+        share = odds_words(diagnosis.explanations[0].share)
+        return f"Untested: {what}, right with odds of {share}. {fall}"
+    again = f"With {plainly(decision.chosen)} fitted again" if decision.chosen else "With the frame fitted"
+    return f"{f'With {what} added' if added else again}, {fall[0].lower()}{fall[1:]}"
+
+
+def fall_sentence(addition: Addition) -> str:
+    """Return the error before and after, for people."""
+    return (
+        f"The error falls from {bare(addition.raw.rms)} to {worded(addition.after.fit_rms)} RMS, "
+        f"{worded(addition.after.left_out_rms)} checked on marks not used."
+    )
+
+
+def _notes(decision: Decision) -> list[Note]:
+    promises = [decision.apart.sentence] if decision.apart else []
+    if decision.expected_mm is not None and not decision.rivals:
+        promises.append(f"Over the sheet expect errors of {worded(decision.expected_mm)} RMS.")
+    slips = [slip.sentence for slip in decision.diagnosis.outliers]
+    notes = list(decision.addition.notes) if decision.addition else []
+    notes += [Note("promise", each) for each in promises] + [Note("doubt", each) for each in slips]
+    return ranked(notes, lambda note: WEIGHTS.index(note.weight))
 
 
 def _settled_by(diagnosis: Diagnosis) -> tuple[str, ...]:

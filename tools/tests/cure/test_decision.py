@@ -11,7 +11,7 @@ from hidden_boards import HIDDEN, board, size_for
 from plumb.bench.boards import plan
 from plumb.bench.causes import BARE, MAKER, PUBLISHED
 from plumb.cli.main import main
-from plumb.cure.auto import add_auto
+from plumb.cure.decision import decide
 from plumb.cure.machine_file import MARKS, SETTINGS
 from plumb.diagnosis import diagnose
 from plumb.fit.inputs import Inputs
@@ -36,7 +36,7 @@ def moved(measurements, index, by):
 
 def test_one_hidden_effect_is_added_and_the_error_falls_to_the_noise():
     size = size_for("chain_plane", WIDE, 3.0)
-    result = add_auto(Inputs(MAKER, board({"chain_plane": size}, WIDE, seed=4)))
+    result = decide(Inputs(MAKER, board({"chain_plane": size}, WIDE, seed=4)))
     assert result.chosen == ("chain_plane",) and result.done
     addition = result.addition
     assert addition.settings.effect("chain_plane", "gap_squared") == pytest.approx(
@@ -50,7 +50,7 @@ def test_one_hidden_effect_is_added_and_the_error_falls_to_the_noise():
 
 def test_two_hidden_effects_are_added_step_by_step():
     sizes = {name: size_for(name, WIDE, 6.0) for name in ("chain_pitch", "chain_plane")}
-    result = add_auto(Inputs(MAKER, board(sizes, WIDE, seed=5)))
+    result = decide(Inputs(MAKER, board(sizes, WIDE, seed=5)))
     assert set(result.chosen) == set(sizes)
     steps = [result.addition.before, *result.addition.by_effect]
     assert [step.effect for step in result.addition.by_effect] == list(result.chosen)
@@ -62,20 +62,20 @@ def test_two_hidden_effects_are_added_step_by_step():
 def test_the_new_machine_leaves_nothing_to_prove_and_a_second_round_changes_nothing():
     sizes = {name: size_for(name, WIDE, 6.0) for name in ("chain_pitch", "chain_plane")}
     measured = board(sizes, WIDE, seed=5)
-    first = add_auto(Inputs(MAKER, measured))
+    first = decide(Inputs(MAKER, measured))
     assert (
         diagnose(Inputs(first.addition.settings, measured, cut_with=MAKER)).verdict
         == "nothing_provable"
     )
-    again = add_auto(Inputs(first.addition.settings, measured, cut_with=MAKER))
-    assert again.is_good and again.done and again.addition is None
+    again = decide(Inputs(first.addition.settings, measured, cut_with=MAKER))
+    assert again.state == "good" and again.done and again.addition is None
 
 
 def test_a_choice_is_said_to_be_one_with_what_would_settle_it():
     # On nine marks several effects draw nearly the same arrows.
     few = plan(3, 3)
     size = size_for("frame_flex", few, 3.0)
-    result = add_auto(Inputs(MAKER, board({"frame_flex": size}, few, seed=2)))
+    result = decide(Inputs(MAKER, board({"frame_flex": size}, few, seed=2)))
     assert result.diagnosis.verdict == "cannot_tell" and result.rivals and result.done
     assert result.reason.startswith("a choice: ") and "plumb next" in result.reason
     open_ones = {noun_of(name) for name in {*result.chosen}.union(*result.rivals)}
@@ -87,7 +87,7 @@ def test_a_choice_is_said_to_be_one_with_what_would_settle_it():
 def test_the_frame_alone_may_be_a_rival_and_no_choice_is_its_own(marks):
     # On both boards what was left of the choice was a rival, and adding ended in a traceback.
     stock = read_settings(DATA / "stock_bottom.ini")
-    result = add_auto(Inputs(stock, read_marks(DATA / marks, sheet=stock.sheet)))
+    result = decide(Inputs(stock, read_marks(DATA / marks, sheet=stock.sheet)))
     assert result.done and result.addition.effects_added == result.chosen
     named = {*result.chosen} - {*EVERY_MACHINE}
     assert named not in [{*rival} - {*EVERY_MACHINE} for rival in result.rivals]
@@ -114,7 +114,7 @@ def test_adding_ends_with_a_reason_on_any_board(seed):
         tape_sigma=[None, 0.3, 1.0][int(source.integers(3))],
         bump=float(source.choice([0.0, 0.0, 2.0])),
     )
-    result = add_auto(Inputs(settings, measured), patch=bool(seed % 2))
+    result = decide(Inputs(settings, measured), patch=bool(seed % 2))
     assert result.reason and result.diagnosis.sentence
     assert {*result.chosen} not in [{*rival} for rival in result.rivals]
     if result.addition:
@@ -127,16 +127,16 @@ def test_adding_ends_with_a_reason_on_any_board(seed):
 def test_nothing_is_fitted_to_a_slip_until_it_is_left_out():
     clean = board({}, WIDE, seed=7)
     slipped = moved(clean, 11, (0.0, 7.0))
-    result = add_auto(Inputs(MAKER, slipped))
+    result = decide(Inputs(MAKER, slipped))
     assert result.addition is None and not result.done
     assert clean.marks[11].name in result.reason and "--without" in result.reason
     assert set(result.slips) == {clean.marks[11].name}
-    again = add_auto(Inputs(MAKER, without_marks(slipped, [clean.marks[11].name])))
+    again = decide(Inputs(MAKER, without_marks(slipped, [clean.marks[11].name])))
     assert again.done and len(again.addition.after_fit.errors) == 24
 
 
 def test_what_is_not_in_the_library_is_left_alone():
-    result = add_auto(Inputs(MAKER, board({}, WIDE, seed=8, bump=3.0)))
+    result = decide(Inputs(MAKER, board({}, WIDE, seed=8, bump=3.0)))
     assert result.diagnosis.verdict == "not_in_library"
     assert not result.done and "plumb next" in result.reason
     addition = result.addition
@@ -146,14 +146,14 @@ def test_what_is_not_in_the_library_is_left_alone():
 
 def test_a_known_effect_is_not_left_out_because_another_is_unknown():
     size = size_for("chain_plane", WIDE, 6.0)
-    result = add_auto(Inputs(MAKER, board({"chain_plane": size}, WIDE, seed=12, bump=2.0)))
+    result = decide(Inputs(MAKER, board({"chain_plane": size}, WIDE, seed=12, bump=2.0)))
     assert result.diagnosis.verdict == "not_in_library" and result.done
     assert "chain_plane" in result.chosen
     assert result.addition.after.left_out_rms < 0.7 * result.addition.before.left_out_rms
 
 
 def test_a_tape_that_reads_long_is_fitted_along_and_its_remedy_told():
-    result = add_auto(
+    result = decide(
         Inputs(MAKER, board({"tape_scale": 8.0}, WIDE, seed=9, noise=0.2, tape_sigma=0.2))
     )
     assert "tape_scale" in {*result.chosen, *(name for rival in result.rivals for name in rival)}
@@ -164,7 +164,7 @@ def test_a_tape_that_reads_long_is_fitted_along_and_its_remedy_told():
 
 def test_published_marks_that_no_machine_explains_ask_for_no_size_that_none_has():
     stock = read_settings(SETTINGS)
-    result = add_auto(Inputs(stock, read_marks(MARKS, sheet=stock.sheet)))
+    result = decide(Inputs(stock, read_marks(MARKS, sheet=stock.sheet)))
     assert result.diagnosis.verdict == "not_in_library"
     assert result.addition.after.left_out_rms < 0.7 * result.addition.before.left_out_rms
     assert all(parameter.possible for parameter in result.addition.parameters)
@@ -172,7 +172,7 @@ def test_published_marks_that_no_machine_explains_ask_for_no_size_that_none_has(
 
 def test_a_stretch_below_nothing_is_added_as_nothing():
     stock = read_settings(EXAMPLE / "groundcontrol.ini")
-    result = add_auto(Inputs(stock, read_marks(NEGATIVE_STRETCH, sheet=stock.sheet)))
+    result = decide(Inputs(stock, read_marks(NEGATIVE_STRETCH, sheet=stock.sheet)))
     assert "chain_pitch" in result.chosen
     assert all(parameter.possible for parameter in result.addition.parameters)
     stretch = result.addition.settings.effect("chain_stretch", "compliance")
