@@ -195,8 +195,8 @@ def _headline(decision: Decision) -> str:
     if decision.rivals:
         share = odds_words(diagnosis.explanations[0].share)
         return f"Untested: {what}, right with odds of {share}. {fall}"
-    again = f"With {plainly(decision.chosen)} fitted again" if decision.chosen else "With the frame fitted"
-    return f"{f'With {what} added' if added else again}, {fall[0].lower()}{fall[1:]}"
+    again = f"{plainly(decision.chosen)} fitted again" if decision.chosen else "the frame fitted"
+    return f"With {f'{what} added' if added else again}, {fall[0].lower()}{fall[1:]}"
 
 
 def fall_sentence(addition: Addition) -> str:

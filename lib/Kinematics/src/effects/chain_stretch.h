@@ -40,7 +40,7 @@ struct ChainStretch : Effect<Real> {
   }
   static ReadingInfo reading(uint8_t) {
     const double pull = 98.1;    // [N] 10 kg
-    const double length = 3000;   // [mm]
+    const double length = 3000;  // [mm]
     return {"how much longer 3 m of chain become under 10 kg", "mm", 0.2, 1 / pull / length, 2};
   }
   static double usual(const Frame<Real>&, uint8_t) { return param(0).typical; }
