@@ -16,6 +16,7 @@ from pydantic import computed_field
 
 from plumb.cure.add import WEIGHTS, Addition, Note, add
 from plumb.cure.live_board import TooFewError
+from plumb.cure.machine_file import has_setting
 from plumb.diagnosis.answer import MOST_NAMED, Diagnosis, Verdict, odds_words
 from plumb.diagnosis.diagnosis import diagnose
 from plumb.diagnosis.expected_error import LeftOpen, RivalError, expected_error, rival_error
@@ -27,6 +28,14 @@ from plumb.text.errors import to_do
 from plumb.text.values import bare, worded
 
 STATES = ("read_again", "good", "impossible", "better", "measure_first", "unknown_cause")
+
+
+@dataclass(frozen=True)
+class NextStep:
+    """Where a page goes on."""
+
+    text: str
+    screen: str
 
 
 @dataclass(frozen=True)
@@ -123,9 +132,17 @@ class Decision:
         return expected_error(self.diagnosis.best, rivals).rms
 
     @property
-    def screen(self) -> str:
-        """Where a page goes on, if there are no numbers to be written."""
-        return {"read_again": "readings", "good": "verdict"}.get(self.state, "measure")
+    def step(self) -> NextStep:
+        """Where a page goes on."""
+        addition, slips = self.addition, self.diagnosis.outliers
+        if slips:
+            return NextStep(f"Go to {slips[0].called}", "readings")
+        if self.state == "better" and addition:
+            count = sum(has_setting(each.name) for each in addition.parameters)
+            return NextStep(f"Correct it: {count} number{'s' if count != 1 else ''}", "correct")
+        if self.state == "measure_first" and addition is None:
+            return NextStep("Choose marks all over the sheet", "measure")
+        return NextStep("Back to the verdict", "verdict")
 
 
 def decide(inputs: Inputs, *, patch: bool = False, diagnosis: Diagnosis | None = None) -> Decision:

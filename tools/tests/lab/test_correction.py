@@ -81,10 +81,8 @@ def test_nothing_accepted_is_not_written_and_an_older_page_neither(client, tmp_p
 def test_a_machine_that_is_as_good_as_its_marks_can_show_is_left_as_it_is(client):
     type_in(client, "marks.toml", (0.3, -0.4), (-0.5, 0.1), (0.2, 0.5), (-0.1, -0.3))
     made = shown(client)["correction"]
-    assert (made["nothing"], made["instead"]) == ("Nothing to change", "verdict")
-    assert made["reasons"] == [
-        "Your machine is as good as these marks can show: nothing to change."
-    ]
+    assert (made["nothing"], made["instead"]["screen"]) == ("Nothing to change", "verdict")
+    assert made["said"] == "Your machine is as good as these marks can show. Nothing to change."
     assert client.post("/api/correction", json=known(client)).status_code == 422
     verdict = awaited(client, "verdict", lambda answer: answer["verdict"])["verdict"]
     assert verdict["title"] == "As good as these marks can show"
@@ -96,7 +94,8 @@ def test_a_slip_is_not_fitted(client, tmp_path):
         form.read_text().replace("measured = [659.5, 110.5]", "measured = [659.5, 210.5]")
     )
     made = shown(client)["correction"]
-    assert made["instead"] == "readings" and made["numbers"] == []
+    assert made["instead"] == {"text": "Go to mark 2", "screen": "readings"}
+    assert made["numbers"] == []
     assert "look at the reading of 2" in made["reasons"][0]
     choose(client, accepted=["motor_gap"])
     assert client.post("/api/correction", json=known(client)).status_code == 422

@@ -12,7 +12,7 @@ from screens import (
     SIZES,
     SMALL_TARGETS,
     SMALL_TEXT,
-    SMALLEST_TARGET,
+    SMALLEST_TARGETS,
     SMALLEST_TEXT,
     WANTED,
     WIDER,
@@ -106,7 +106,7 @@ def faults(page):
             yield f"more than {MOST_WORDS} words: {said}"
     for what, script, least in (
         ("text", SMALL_TEXT, SMALLEST_TEXT),
-        ("target", SMALL_TARGETS, SMALLEST_TARGET),
+        ("target", SMALL_TARGETS, SMALLEST_TARGETS[page.size]),
     ):
         yield from (f"{what}: {each}" for each in page.evaluate(script, least))
 

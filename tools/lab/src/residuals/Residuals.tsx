@@ -24,19 +24,22 @@ interface ResidualsParts {
   /** Marks whose readings disagree: they scale nothing. */
   doubted: readonly number[];
   doubtedSpans: readonly number[];
+  /** What is shown until somebody chooses another state: where the model fails, or what is left of it. */
+  opensOn?: "frame" | "last";
 }
 
 const FRAME = 1; // the state of the fitted frame
 
 export function Residuals(parts: ResidualsParts) {
   const { marks, spans, states, ghosts, sigma, covariates, drawn, sheet } = parts;
-  const { doubted, doubtedSpans } = parts;
+  const { doubted, doubtedSpans, opensOn = "last" } = parts;
   const units = useProject().project.choices.units ?? "mm";
   const [chosen, show] = useState<number>();
   const [selected, select] = useState<number>();
-  // What an effect draws is compared with what the frame leaves, unless somebody chose another state.
-  const usual = drawn ? FRAME : states.length - 1;
-  const shown = Math.min(chosen ?? usual, states.length - 1);
+  const shown = Math.min(
+    chosen ?? (opensOn === "frame" || drawn ? FRAME : states.length),
+    states.length - 1,
+  );
   const state = states[shown];
   const drawnMarks = useMemo(() => {
     const all = marks.map(({ name, target, measured }, i) => ({

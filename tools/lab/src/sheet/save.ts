@@ -40,7 +40,7 @@ function textOf(drawing: SVGSVGElement, title: string): string {
   const sheet = `<rect y="${-TITLE_PX}" width="${width}" height="${height + TITLE_PX}" fill="${background}"/>`;
   copy.insertAdjacentHTML(
     "afterbegin",
-    `<title></title>${sheet}<text x="8" y="-8" font-size="15" font-family="sans-serif"></text>`,
+    `<title></title>${sheet}<text x="8" y="-8" font-size="12" font-family="sans-serif"></text>`,
   );
   for (const place of copy.querySelectorAll(":scope > title, :scope > text[y='-8']"))
     place.textContent = title;

@@ -19,13 +19,6 @@ import "./correct/correct.css";
 
 type Made = Schemas["CorrectionParts"];
 
-/** Where to go if no number is to be changed. */
-const WAYS: Record<string, string> = {
-  measure: "Choose marks",
-  readings: "Look at the readings",
-  verdict: "Back to the verdict",
-};
-
 export function Correct() {
   const { project } = useProject();
   const { answer, refused } = useAnswer<CorrectionAnswer>("correction");
@@ -46,7 +39,7 @@ export function Correct() {
   if (made.nothing) {
     return (
       <Screen title={made.nothing} say={made.said} why={<p>{made.reasons.join(" ")}</p>}>
-        <a href={`#/${made.instead}`}>{WAYS[made.instead]}</a>
+        {made.instead && <a href={`#/${made.instead.screen}`}>{made.instead.text}</a>}
         <GoBack writing={writing} />
       </Screen>
     );
@@ -96,11 +89,7 @@ function Question(parts: Parts) {
   return (
     <Screen
       title={isAsked ? "What would change?" : "Nothing would change"}
-      say={
-        isAsked
-          ? "Accept each number that you believe. The others stay as they are, and the rest is fitted again. Writing moves nothing; your old file stays."
-          : `${made.settings} fits these marks as it is.`
-      }
+      say={isAsked ? made.said : `${made.settings} fits these marks as it is.`}
       why={<Why made={made} />}
       command={answer.command}
       stage={
@@ -130,6 +119,12 @@ function Question(parts: Parts) {
         <ErrorFigure name="with what you accepted" state={made.accepted} units={units} />
         <ErrorFigure name="with all of it" state={made.whole} units={units} />
       </dl>
+      {isAsked && (
+        <p>
+          Accept each number that you believe; the rest is fitted again. Writing moves nothing, and
+          your old file stays.
+        </p>
+      )}
       <Numbers made={made} busy={!current} />
       {made.stops.length > 0 && <ByHand title="Do not write these numbers" said={made.stops} />}
       {made.cures.length > 0 && <ByHand title="By hand" said={made.cures} />}

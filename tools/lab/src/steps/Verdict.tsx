@@ -38,8 +38,11 @@ export function Verdict() {
     verdict ? "bench" : "",
     JSON.stringify(project.files),
   );
-  const [laid, lay] = useState<string>();
-  const card = verdict?.cards.find(({ title }) => title === laid);
+  // The likeliest cause lies under the arrows until somebody chooses another, or none.
+  const [chosen, lay] = useState<string | null>();
+  const likeliest = verdict?.marks.length ? verdict.cards[0] : undefined;
+  const card =
+    chosen === undefined ? likeliest : verdict?.cards.find(({ title }) => title === chosen);
   const drawn = useDrawn(card?.effects.map(({ name }) => name) ?? [], bench?.board ?? "");
   if (refused)
     return (
@@ -55,6 +58,8 @@ export function Verdict() {
     );
   }
   const sheet = project.machine?.sheet ?? [2440, 1220];
+  // The answer goes on here: something has to be measured.
+  const isOpen = verdict.step.screen === "verdict";
   return (
     <Screen
       title={verdict.title}
@@ -73,6 +78,7 @@ export function Verdict() {
             doubted={verdict.doubted}
             doubtedSpans={verdict.doubted_spans}
             drawn={drawn}
+            opensOn="frame"
             sheet={sheet}
           />
         )
@@ -81,9 +87,16 @@ export function Verdict() {
         isReport ? null : isNextWanted ? (
           <NextAct next={next} />
         ) : (
-          <button type="button" class="primary" onClick={findNext}>
-            Find the best next measurement
-          </button>
+          <>
+            {!isOpen && (
+              <a class="button primary" href={`#/${verdict.step.screen}`}>
+                {verdict.step.text}
+              </a>
+            )}
+            <button type="button" class={isOpen ? "primary" : ""} onClick={findNext}>
+              Find the best next measurement
+            </button>
+          </>
         )
       }
     >
@@ -109,14 +122,14 @@ export function Verdict() {
           <h2>Suspects</h2>
           {verdict.apart && <p>{verdict.apart}</p>}
           <div class="tiles">
-            {verdict.cards.map((card) => (
+            {verdict.cards.map((each) => (
               <SuspectCard
-                key={card.title}
-                card={card}
+                key={each.title}
+                card={each}
                 units={units}
-                isLaid={card.title === laid}
+                isLaid={each.title === card?.title}
                 {...(verdict.marks.length > 0
-                  ? { lay: () => lay(card.title === laid ? undefined : card.title) }
+                  ? { lay: () => lay(each.title === card?.title ? null : each.title) }
                   : {})}
               />
             ))}

@@ -10,7 +10,7 @@ from fastapi import APIRouter
 from pydantic import BaseModel, ConfigDict
 
 from plumb.cure.add import Addition, Parameter
-from plumb.cure.decision import Decision, decide
+from plumb.cure.decision import Decision, NextStep, decide
 from plumb.cure.live_board import BoardView, LiveBoard, refuse_other_origin
 from plumb.cure.machine_file import (
     Correction,
@@ -63,7 +63,7 @@ class CorrectionParts(BaseModel):
     reasons: list[str]  # why these effects, in sentences
     add: list[str]  # what plumb add is given for what is accepted
     nothing: str = ""  # a heading where no number is to be changed
-    instead: str = ""  # and the screen to go to then
+    instead: NextStep | None = None  # and where to go on then
     numbers: list[ChangedNumber] = []
     with_accepted: list[ChangedNumber] = []  # fitted with all others held as they are
     stops: list[str] = []  # why nobody should set a machine by the numbers
@@ -148,7 +148,7 @@ def correction_of(inputs: Inputs, decision: Decision, choices: Choices) -> Corre
             said=decision.headline,
             reasons=list(decision.said),
             nothing=_NOTHING[decision.state],
-            instead=decision.screen,
+            instead=decision.step,
             add=_auto_words(choices),
         )
     made = correct(

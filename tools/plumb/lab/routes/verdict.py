@@ -8,7 +8,7 @@ from fastapi import APIRouter, Depends, Request
 from pydantic import BaseModel
 
 from plumb import api
-from plumb.cure.decision import Decision, decide
+from plumb.cure.decision import Decision, NextStep, decide
 from plumb.cure.live_board import BoardView, Chosen, LiveBoard
 from plumb.diagnosis.answer import SHOWN, Diagnosis, Together, odds_words
 from plumb.diagnosis.diagnosis import diagnose
@@ -88,6 +88,7 @@ class Verdict(BaseModel):
     unseen: Unseen
     slips: list[str]
     notes: list[str]
+    step: NextStep
 
 
 class VerdictAnswer(BaseModel):
@@ -121,10 +122,10 @@ def show_verdict(project: TheProject, background: TheBackground) -> VerdictAnswe
         progress(0.1)
         diagnosis = diagnose(inputs)
         progress(0.6)
-        auto = decide(inputs, diagnosis=diagnosis)
+        decision = decide(inputs, diagnosis=diagnosis)
         progress(0.8)
         with shown_in(choices.units):
-            return verdict_of(inputs, diagnosis, auto)
+            return verdict_of(inputs, diagnosis, decision)
 
     answer = background.ask("verdict", f"{key}\n{choices.units}", work)
     return VerdictAnswer(
@@ -141,21 +142,21 @@ def board_and_known(project: Project, inputs: api.Inputs) -> list[str]:
     return [*board_words(project), *known_words(choices), *unit]
 
 
-def verdict_of(inputs: api.Inputs, diagnosis: Diagnosis, auto: Decision) -> Verdict:
+def verdict_of(inputs: api.Inputs, diagnosis: Diagnosis, decision: Decision) -> Verdict:
     """Return a diagnosis as the page shows it."""
     raw = api.compare(inputs)
     shown = list(diagnosis.explanations)[:MOST_CARDS]
     doubts = Doubts.of(diagnosis.outliers, raw)
     return Verdict(
-        title=_title(auto),
+        title=_title(decision),
         sentence=diagnosis.sentence,
         reach=diagnosis.left_open.sentence,
         marks=raw.marks,
         spans=spans_of(inputs.measurements),
-        states=_states(raw, auto, doubts),
+        states=_states(raw, decision, doubts),
         doubted=list(doubts.marks),
         doubted_spans=list(doubts.spans),
-        apart=auto.apart.sentence if auto.apart else "",
+        apart=decision.apart.sentence if decision.apart else "",
         sigma=diagnosis.noise.sigma,
         noise=diagnosis.noise.sentence,
         cards=[_card(diagnosis, i, each) for i, each in enumerate(shown)],
@@ -163,12 +164,13 @@ def verdict_of(inputs: api.Inputs, diagnosis: Diagnosis, auto: Decision) -> Verd
         unseen=unseen_by(diagnosis, SHOWN),
         slips=[slip.sentence for slip in diagnosis.outliers],
         notes=[*diagnosis.disagreements, *diagnosis.warnings],
+        step=decision.step,
     )
 
 
-def _title(auto: Decision) -> str:
+def _title(decision: Decision) -> str:
     """Return what the answer comes to, in a few words."""
-    diagnosis = auto.diagnosis
+    diagnosis = decision.diagnosis
     if diagnosis.outliers:
         return "A reading disagrees: look at it first"
     if diagnosis.disagreements:
@@ -187,13 +189,13 @@ def _title(auto: Decision) -> str:
     return "One suspect" if diagnosis.verdict == "one_suspect" else "Several things could be it"
 
 
-def _states(raw: Comparison, auto: Decision, doubts: Doubts) -> list[State]:
+def _states(raw: Comparison, decision: Decision, doubts: Doubts) -> list[State]:
     """Return what is left of the marks: as set, with the frame, with what is added."""
-    addition, noise = auto.addition, auto.diagnosis.noise
+    addition, noise = decision.addition, decision.diagnosis.noise
     states = [as_set(raw, noise.sigma, doubts=doubts)]
-    if auto.diagnosis.outliers:
+    if decision.diagnosis.outliers:
         return states
-    live = LiveBoard(auto.inputs, noise=noise)
+    live = LiveBoard(decision.inputs, noise=noise)
     fits = [("frame fitted", addition.before_fit if addition else live.fit(Chosen((), {})))]
     if addition and addition.effects_added:
         fits.append((f"+ {plainly(addition.effects_added)}", addition.after_fit))
