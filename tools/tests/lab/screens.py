@@ -26,7 +26,8 @@ SMALL_TEXT = """(smallest) => {
     if (!text || !parent.checkVisibility({ checkVisibilityCSS: true })) continue;
     const drawn = parent.closest("svg") && parent.getScreenCTM ? parent.getScreenCTM().d : 1;
     const size = parseFloat(getComputedStyle(parent).fontSize) * Math.abs(drawn);
-    if (size < smallest - (parent.closest("svg") ? 1 : 0) - 0.01) small.push(`${size.toFixed(1)} px: ${text.slice(0, 40)}`);
+    const least = smallest - (parent.closest("svg") ? 1 : 0);
+    if (size < least - 0.01) small.push(`${size.toFixed(1)} px: ${text.slice(0, 40)}`);
   }
   return [...new Set(small)];
 }"""
