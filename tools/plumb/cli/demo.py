@@ -1,35 +1,20 @@
-"""`tools/demo`: how the error of a machine falls; `--real`: of nine published marks, with all that
-is doubtful about them.
-"""
+"""`tools/demo`: an effect is hidden in a virtual machine, found and cured."""
 
 from __future__ import annotations
 
-import math
 import os
 import sys
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from plumb.cli.add import fall_of, heading_of, stair_title, stairs_of
-from plumb.cli.addition import COLUMNS
-from plumb.cli.calibrate import round_of
+from plumb.cli.add import heading_of, stair_title, stairs_of
 from plumb.cli.compare import panel_of
 from plumb.cli.main import Parser
 from plumb.cli.output import ended, refuse_early, write_outputs
 from plumb.cli.screen import bar, headline, sentences, table
-from plumb.cure.machine_file import (
-    GOAL,
-    MARKS,
-    SETTINGS,
-    Demonstration,
-    demonstrate,
-    record_of,
-    toml_of,
-)
-from plumb.firmware.client_files import client_files
+from plumb.cure.machine_file import toml_of
 from plumb.fit.compare import Comparison
-from plumb.fit.inputs import Inputs
 from plumb.grid.options import Grid
 from plumb.model.plain import plainly
 from plumb.pictures.drawing import draw
@@ -53,22 +38,13 @@ def _run(arguments: Sequence[str] | None) -> int:
     parsed = _parser().parse_args(arguments)
     _make(parsed.folder)
     refuse_early(parsed.picture)
-    if not parsed.real:
-        made = shown(parsed.folder, seed=parsed.seed, elf=parsed.mega)
-        files = made.files | ({parsed.picture: made.picture} if parsed.picture else {})
-        write_outputs(files, inputs=[])
-        print(loop_text(made.loop))
-        _say_written(files)
-        print(f"\n{reveal(made.loop)}")
-        return int(not made.fell)
-    demonstration = demonstrate()
-    files = _files(demonstration, parsed.folder, parsed.picture)
+    made = shown(parsed.folder, seed=parsed.seed, elf=parsed.mega)
+    files = made.files | ({parsed.picture: made.picture} if parsed.picture else {})
     write_outputs(files, inputs=[])
-    print(as_text(demonstration))
+    print(loop_text(made.loop))
     _say_written(files)
-    print(f"\n{_last_line(demonstration)}\n")
-    print(calibrated(demonstration.inputs))
-    return 0 if demonstration.reached else 1
+    print(f"\n{reveal(made.loop)}")
+    return int(not made.fell)
 
 
 def _make(folder: str) -> None:
@@ -95,9 +71,6 @@ def _parser() -> Parser:
     )
     parser.add_argument("--picture", metavar="FILE", help="a copy of the picture (.png)")
     parser.add_argument(
-        "--real", action="store_true", help="nine published marks, not the virtual machine"
-    )
-    parser.add_argument(
         "--seed", metavar="N", type=int, default=1, help="another machine, another effect [1]"
     )
     parser.add_argument(
@@ -109,146 +82,6 @@ def _parser() -> Parser:
         "that pio run has built",
     )
     return parser
-
-
-def _files(demonstration: Demonstration, folder: str, picture: str | None) -> dict[str, bytes]:
-    drawn = fall_of(demonstration.chosen)
-    source = f"{MARKS.parent.name}/{MARKS.name}"
-    record = record_of(demonstration.chosen, demonstration.inputs)
-    machine = toml_of(demonstration.chosen, source=source, record=record)
-    files = {
-        os.path.join(folder, f"{PICTURE}.png"): drawn,
-        os.path.join(folder, f"{PICTURE}.svg"): fall_of(demonstration.chosen, form="svg"),
-        os.path.join(folder, "machine.toml"): machine,
-    }
-    client = client_files(
-        demonstration.chosen.settings,
-        client="groundcontrol",
-        firmware="plumb",
-        original=str(SETTINGS),
-        lines=os.path.join(folder, "machine.nc"),
-    )
-    return files | client.files | ({picture: drawn} if picture else {})
-
-
-def as_text(demonstration: Demonstration) -> str:
-    """Return everything but the last line."""
-    chosen = demonstration.chosen
-    effects = ", ".join(chosen.effects_added)
-    return "\n\n".join(
-        [
-            _paragraph(
-                "Nine marks of a real machine (published by mibproj.info in May 2020; see "
-                f"tools/plumb/examples/{MARKS.parent.name}/SOURCE.md). Each row adds an effect. "
-                "Errors in mm."
-            ),
-            _steps_table(demonstration),
-            _paragraph(f"{COLUMNS} An effect is kept if both fall."),
-            f"Kept: {effects}.",
-            _parameters(demonstration),
-            "What is doubtful:",
-            sentences(_doubts(demonstration)),
-            *_beyond_settings(chosen.by_hand),
-        ]
-    )
-
-
-def _beyond_settings(turned: Sequence[str]) -> list[str]:
-    return ["What the settings files do not hold:", sentences(turned)] if turned else []
-
-
-def _paragraph(text: str) -> str:
-    return sentences([text], mark="")
-
-
-def _steps_table(demonstration: Demonstration) -> str:
-    raw = demonstration.chosen.raw
-    rows = [
-        [
-            "raw: the settings as they are",
-            *map(bare, (raw.rms, None, None, raw.worst)),
-            "start",
-        ],
-        ["  best shift and turn", *map(bare, (raw.shape_rms, None, None, None)), ""],
-    ]
-    for step in demonstration.steps:
-        quality = step.quality
-        values = (quality.fit_rms, quality.noise_rms, quality.left_out_rms, quality.worst)
-        rows.append([step.name, *map(bare, values), "kept" if step.kept else "NOT kept"])
-    return table(["error in mm", "RMS", "noise", "checked", "worst", ""], rows)
-
-
-def _parameters(demonstration: Demonstration) -> str:
-    rows = [
-        [
-            parameter.name,
-            f"{parameter.before:.6g}",
-            f"{parameter.value:.6g}" if parameter.prior_sigma else f"{parameter.value:.3g}",
-            parameter.unit,
-            "" if parameter.possible else "impossible",
-        ]
-        for parameter in demonstration.chosen.parameters
-    ]
-    return table(["number", "before", "after", "unit", ""], rows)
-
-
-def _doubts(demonstration: Demonstration) -> list[str]:
-    """Return what a reader must know before believing the fall."""
-    chosen, flipped = demonstration.chosen, demonstration.flipped
-    doubts = [
-        "The settings are assumed. The source does not say which were in force, so the published "
-        "defaults stand for them (no sag correction, no chain tolerance).",
-        "The sign of y is doubtful: the source's words and its numbers disagree. Assumed here: the "
-        "numbers as the page says to read them, from the top edge down. With the other sign the "
-        f"same effects end at {flipped.after.fit_rms:.2f} mm RMS (checked "
-        f"{flipped.after.left_out_rms:.2f}), "
-        f"{_impossible_pitch(demonstration)}",
-    ]
-    sag = next((p for p in chosen.parameters if p.name == "chain_sag.weight_ratio_squared"), None)
-    if sag and sag.value < 0:
-        doubts.append(
-            f"The fitted sag is NEGATIVE ({sag.value:.2g} {sag.unit}), and no chain sags upwards. "
-            "It counts from the assumed correction of zero; most likely the controller in force "
-            "had a sag correction larger than the sag. The marks cannot tell: only the "
-            "settings could."
-        )
-    gap = next(parameter for parameter in chosen.parameters if parameter.name == "motor_gap")
-    times = abs(gap.value - gap.before) / (gap.prior_sigma or math.nan)
-    doubts.append(
-        f"The gap between the motors moved by {gap.value - gap.before:+z.1f} mm from the assumed "
-        f"{gap.before:g}, {times:.0f} times what a tape may be wrong: another sign that the "
-        "assumed settings are not the real ones."
-    )
-    return doubts
-
-
-def _impossible_pitch(demonstration: Demonstration) -> str:
-    """Return what the other sign of y would say of the chains."""
-    strains = [p for p in demonstration.flipped.parameters if p.name.startswith("chain_pitch.")]
-    if not strains or any(strain.plausible for strain in strains):
-        return "and the numbers do not decide between the two."
-    left, right = (100 * abs(strain.value) for strain in strains)
-    return (
-        f"and both chains would have to be too short, by {left:.2f} and {right:.2f} %: chains are "
-        "made long and wear longer, which speaks for the sign assumed."
-    )
-
-
-def calibrated(inputs: Inputs) -> str:
-    """Return what plumb calibrate says of these marks, which knows nothing of the steps above."""
-    return sentences([f"plumb calibrate says of them: {round_of(inputs).sentence}"], mark="")
-
-
-def _last_line(demonstration: Demonstration) -> str:
-    raw, after = demonstration.chosen.raw, demonstration.chosen.after
-    if not demonstration.reached:
-        return (
-            f"The error fell only from {raw.rms:.1f} to {after.fit_rms:.2f} mm, not below {GOAL}."
-        )
-    return (
-        f"The error falls from {raw.rms:.1f} mm RMS ({raw.shape_rms:.1f} of it shape) to "
-        f"{after.fit_rms:.2f} mm, below {GOAL}."
-    )
 
 
 GRID = Grid(columns=5, rows=5)

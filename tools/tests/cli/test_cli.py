@@ -6,9 +6,9 @@ import sys
 import numpy as np
 import plumb.grid as grids
 import pytest
-from plumb.cure.machine_file import MARKS, SETTINGS
 from plumb.model.catalogue import effect_names
 from plumb.settings.toml import write_machine_toml
+from published_marks import MARKS, SETTINGS
 from synthetic import BELIEVED, TRUE, csv_of, grid, marks_on
 
 BOARD = [str(SETTINGS), str(MARKS)]

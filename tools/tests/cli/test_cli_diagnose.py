@@ -5,7 +5,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from plumb.cure.machine_file import MARKS, SETTINGS
+from published_marks import MARKS, SETTINGS
 from synthetic import BELIEVED, TRUE, csv_of, grid, marks_on
 
 

@@ -1,8 +1,8 @@
 """The command line refuses what cannot be used: one clear line, exit 2, nothing written."""
 
 import pytest
-from plumb.cure.machine_file import MARKS, SETTINGS
 from plumb.settings.toml import write_machine_toml
+from published_marks import MARKS, SETTINGS
 from synthetic import BELIEVED
 
 BOARD = [str(SETTINGS), str(MARKS)]

@@ -6,11 +6,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from plumb.cli.main import main
-from plumb.cure.machine_file import SETTINGS
 from plumb.firmware.settings import firmware_numbers, machine_of
 from plumb.model.predict import lengths, library
 from plumb.settings.toml import machine_toml
 from plumb.text.errors import InputError
+from published_marks import SETTINGS
 from synthetic import TRUE, grid
 
 FULL = replace(

@@ -1,62 +1,13 @@
-"""demo: the error of a real machine falls, and what is doubtful about it is said."""
-
-from dataclasses import replace
+"""demo: what is hidden in a virtual machine is named, and the error falls on a new sheet."""
 
 import pytest
-from plumb.cli.demo import as_text, main
-from plumb.cure.machine_file import GOAL, demonstrate
-from plumb.model.predict import known_effects
+from plumb.cli.demo import main
 from plumb.settings.files import read_settings
-
-
-@pytest.fixture(scope="module")
-def demonstration():
-    return demonstrate()
-
-
-def test_the_error_falls_step_by_step_below_the_goal(demonstration):
-    kept = [step.quality.fit_rms for step in demonstration.steps if step.kept]
-    assert kept == sorted(kept, reverse=True) and len(kept) == 3
-    assert demonstration.chosen.raw.rms > 7 and kept[-1] < GOAL and demonstration.reached
-
-
-def test_what_is_doubtful_is_said(demonstration):
-    said = " ".join(as_text(demonstration).split())
-    for words in ("settings are assumed", "sign of y is doubtful", "NEGATIVE", "NOT kept"):
-        assert words in said
-
-
-def test_the_command_ends_with_the_fall_and_what_calibrate_says(tmp_path, capsys):
-    picture = tmp_path / "copy.png"
-    assert main(["--real", "--folder", str(tmp_path / "demo"), "--picture", str(picture)]) == 0
-    said = capsys.readouterr().out
-    fall, verdict = said.split("\n\n")[-2:]
-    assert fall == "The error falls from 7.3 mm RMS (4.1 of it shape) to 0.64 mm, below 0.9."
-    words = " ".join(verdict.split())
-    # It knows nothing of what was chosen by hand, and finds most of it.
-    assert words.startswith("plumb calibrate says of them: Most of it is chains too long or too")
-    assert words.endswith("a pattern of 0.86 mm stays that no effect draws.")
-    assert (tmp_path / "demo" / "error-falls.png").read_bytes() == picture.read_bytes()
-    new = read_settings(tmp_path / "demo" / "machine.toml", known=known_effects())
-    assert set(new.effects) == {"chain_pitch", "chain_sag"}
-    client = read_settings(tmp_path / "demo" / "machine-groundcontrol.ini")
-    assert client.motor_gap == pytest.approx(new.motor_gap, abs=1e-4)
-    assert client.published.chain_sag_correction == 0
-    assert "$160=-" in (tmp_path / "demo" / "machine.nc").read_text()
-
-
-def test_the_command_fails_when_the_error_does_not_fall(
-    tmp_path, capsys, monkeypatch, demonstration
-):
-    worse = replace(demonstration, chosen=demonstration.flipped)
-    monkeypatch.setattr("plumb.cli.demo.demonstrate", lambda: worse)
-    assert main(["--real", "--folder", str(tmp_path)]) == 1
-    assert "not below 0.9" in capsys.readouterr().out.split("\n\n")[-2]
 
 
 def test_a_folder_that_cannot_be_made_is_refused_in_one_line(tmp_path, capsys):
     (tmp_path / "file").write_text("no folder")
-    assert main(["--real", "--folder", str(tmp_path / "file" / "demo")]) == 2
+    assert main(["--folder", str(tmp_path / "file" / "demo")]) == 2
     said = capsys.readouterr()
     assert said.out == "" and said.err.startswith("demo: ") and said.err.count("\n") == 1
 
@@ -66,3 +17,20 @@ def test_mega_alone_runs_the_program_that_was_built(tmp_path, monkeypatch, capsy
     assert main(["--folder", str(tmp_path), "--mega"]) == 2
     said = capsys.readouterr().err
     assert said == "demo: cannot read absent.elf; build it with pio run\n"
+
+
+@pytest.mark.slow
+def test_the_lab_names_what_is_hidden_and_says_so_last(tmp_path, capsys):
+    assert main(["--folder", str(tmp_path), "--seed", "1"]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert lines[-1] == "Hidden was sled_swing (right and up). The lab named it."
+    assert "sled_swing (right" not in "\n".join(lines[:-1])
+    rows = {line.split("  ")[0]: line.split() for line in lines}
+    before, promised, after = (
+        rows[name] for name in ("before", "promised", "measured on the new sheet")
+    )
+    assert float(after[-3]) < 0.2 * float(before[-3])
+    assert float(after[-2]) < 1.3 * float(promised[-2])
+    assert set(read_settings(tmp_path / "machine.toml").effects) >= {"sled_swing"}
+    assert (tmp_path / "marks-2.toml").read_text().count("\nmeasured = ") == 33
+    assert max(map(len, lines[: lines.index("Written:")])) <= 80

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pytest
 from plumb.cli.output import INTERRUPTED, ended
-from plumb.cure.machine_file import MARKS, SETTINGS
+from published_marks import MARKS, SETTINGS
 
 TOOLS = Path(__file__).resolve().parents[2]
 PLUMB = [sys.executable, "-m", "plumb.cli.main"]

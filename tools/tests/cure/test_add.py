@@ -4,11 +4,11 @@ from dataclasses import replace
 
 import pytest
 from plumb.cure.add import add
-from plumb.cure.machine_file import MARKS, SETTINGS
 from plumb.fit.inputs import Inputs
 from plumb.fit.problem import PRIORS, Checked, priors_with
 from plumb.marks.read import Measurements, read_marks
 from plumb.settings.files import read_settings
+from published_marks import MARKS, SETTINGS
 from synthetic import BELIEVED, EFFECTS, TRUE, grid, marks_on
 
 STOCK = read_settings(SETTINGS)

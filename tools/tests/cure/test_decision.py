@@ -12,13 +12,13 @@ from plumb.bench.boards import plan
 from plumb.bench.causes import BARE, MAKER, PUBLISHED
 from plumb.cli.main import main
 from plumb.cure.decision import decide
-from plumb.cure.machine_file import MARKS, SETTINGS
 from plumb.diagnosis import diagnose
 from plumb.fit.inputs import Inputs
 from plumb.marks.read import read_marks, without_marks
 from plumb.model.catalogue import EVERY_MACHINE, parameter_words
 from plumb.model.plain import noun_of
 from plumb.settings.files import read_settings
+from published_marks import MARKS, SETTINGS
 from synthetic import csv_of
 
 WIDE = plan(5, 5)

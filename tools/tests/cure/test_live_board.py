@@ -5,7 +5,7 @@ import pytest
 from plumb import api
 from plumb.cure.add import add
 from plumb.cure.live_board import Chosen, LiveBoard
-from plumb.cure.machine_file import MARKS, SETTINGS
+from published_marks import MARKS, SETTINGS
 
 
 @pytest.fixture(scope="module")

@@ -5,13 +5,13 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from plumb.cure.machine_file import MARKS, SETTINGS
 from plumb.fit.compare import best_pose, compare
 from plumb.fit.inputs import Inputs
 from plumb.marks.read import Mark, Measurements, read_marks
 from plumb.settings.files import read_settings
 from plumb.settings.ini import changed_ini, groundcontrol_changes
 from plumb.text.errors import InputError
+from published_marks import MARKS, SETTINGS
 from synthetic import BELIEVED, TRUE, distances_between, grid, marks_on
 
 DISTANCES = Path(__file__).parents[1] / "data" / "madgrizzle_2018-09-02.toml"

@@ -6,7 +6,7 @@ import re
 import numpy as np
 import pytest
 from plumb.cli.main import main
-from plumb.cure.machine_file import SETTINGS
+from published_marks import SETTINGS
 
 
 @pytest.mark.parametrize("extra", [[], ["--margin", "150"]])

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 from attacks import ATTACKS, Try, answered, status
-from plumb.cure.machine_file import SETTINGS
+from published_marks import SETTINGS
 from served_lab import serve
 
 PAGE = Path(__file__).resolve().parents[3] / "docs/decisions/0009-who-may-ask-the-lab.md"

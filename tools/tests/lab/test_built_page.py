@@ -11,7 +11,7 @@ from pathlib import Path
 import plumb
 from folder import got, with_settings
 from plumb.cli.main import COMMANDS, main
-from plumb.cure.machine_file import SETTINGS
+from published_marks import SETTINGS
 
 ROOT = Path(__file__).resolve().parents[3]
 PAGE = ROOT / "tools/plumb/lab/page"

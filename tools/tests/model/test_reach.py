@@ -8,7 +8,6 @@ import numpy as np
 import plumb.grid as grids
 import pytest
 from plumb.cli.reach import SIGNS, ReachAnswer
-from plumb.cure.machine_file import SETTINGS
 from plumb.grid import options
 from plumb.model.predict import (
     CANNOT_HANG,
@@ -23,6 +22,7 @@ from plumb.model.predict import (
 from plumb.model.predict import lengths as lengths_of
 from plumb.model.reach import survey_sheet, with_soft_chains
 from plumb.settings.toml import write_machine_toml
+from published_marks import SETTINGS
 from synthetic import BELIEVED, SHEET, TRUE
 
 SOFT, _ = with_soft_chains(BELIEVED)

@@ -15,9 +15,9 @@ from pathlib import Path
 from urllib.request import urlopen
 
 import pytest
-from plumb.cure.machine_file import MARKS, SETTINGS
 from plumb.settings.files import read_settings
 from plumb.settings.toml import machine_toml
+from published_marks import MARKS, SETTINGS
 
 ROOT = Path(__file__).resolve().parents[3]
 PIP = [sys.executable, "-m", "pip", "--disable-pip-version-check"]
