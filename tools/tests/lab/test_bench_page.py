@@ -64,7 +64,7 @@ def test_a_dot_lights_in_every_plot_and_on_the_sheet(bench):
     dots = plots.first.locator("path.dots.left").get_attribute("d")
     x, y = map(float, re.match(r"M(\S+) (\S+)h0", dots).groups())
     box = plots.first.bounding_box()
-    scale = box["width"] / 250
+    scale = box["width"] / 190
     plots.first.click(position={"x": x * scale, "y": y * scale})
     expect(bench.locator(".sheet circle.lit")).to_have_count(1)
     for i in range(shown):

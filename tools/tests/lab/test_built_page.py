@@ -42,7 +42,7 @@ def test_the_page_is_small_and_asks_no_other_site():
 
 SOURCE = Path(__file__).resolve().parents[2] / "lab/src"
 FRAME = {"screen"}  # of the shell: what is in it looks alike on all screens
-MOST_LINES = 1400  # of all styles: what looks alike is a component of the shell
+MOST_LINES = 1480
 COMMENT = re.compile(r"/\*.*?\*/", re.DOTALL)
 CLASS = re.compile(r"[a-z]*\.([\w-]+)")
 

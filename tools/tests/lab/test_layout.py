@@ -48,10 +48,8 @@ def test_the_first_thing_to_do_is_on_the_first_screen(measured, size, steps):
         page = measured(step)
         page.set_viewport_size(size)
         at_rest(page)
-        box = page.locator(FIRST[step]).first.bounding_box()
-        assert box["y"] + box["height"] <= page.locator(".way-on").bounding_box()["y"], step
+        assert page.locator(FIRST[step]).first.evaluate(HIDDEN) == [], step
         expect(page.get_by_role("heading", level=1)).to_be_in_viewport(ratio=1)
-        expect(page.locator(".way-on .after")).to_be_in_viewport(ratio=1)
 
 
 def test_the_error_stays_in_view_down_to_the_last_effect(measured):

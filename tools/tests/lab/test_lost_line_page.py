@@ -53,7 +53,7 @@ def test_the_bar_connects_at_any_port_whose_name_is_typed(page, lost):
     with page.expect_request("**/api/machine/board") as asked:
         bar(page).get_by_role("button", name="Connect", exact=True).click()
     assert asked.value.post_data_json == {"port": "/dev/ttyACM7"}
-    expect(bar(page)).to_contain_text("/dev/ttyACM7: the line is lost", timeout=PATIENCE)
+    expect(bar(page)).to_contain_text("Connect /dev/ttyACM7 again", timeout=PATIENCE)
 
 
 def test_what_is_refused_stands_at_its_button(page, lab):

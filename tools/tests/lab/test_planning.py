@@ -37,7 +37,7 @@ def test_marks_are_chosen_dragged_added_and_taken_away(lab, opened):
     page = opened
     page.goto(f"{lab.site}#/measure")
     page.locator(".sum", has_text="would show").wait_for(timeout=PATIENCE)
-    nine, sigmas = shows(page), page.locator(".heat table").text_content()
+    nine = shows(page)
     page.get_by_label(re.compile("Twenty-five marks")).check()
     at_rest(page)
     assert shows(page) > nine
@@ -66,8 +66,6 @@ def test_marks_are_chosen_dragged_added_and_taken_away(lab, opened):
     page.get_by_role("button", name="Add a mark in the middle").click()
     at_rest(page)
     assert choices(lab)["planned"][-1] == [0, 0]
-    at_rest(page)
-    assert page.locator(".heat table").text_content() != sigmas
 
 
 def test_the_recommended_plan_is_a_click_away(lab, opened):

@@ -77,7 +77,6 @@ def test_a_mark_is_named_by_mouse_finger_and_keys(verdict):
 
 def test_states_are_compared_by_keys_and_by_buttons(verdict):
     page = verdict
-    page.get_by_text("On the sheet the keys [ and ] compare").click()
     states = page.get_by_role("group", name="What is drawn").get_by_role("radio")
     last = states.count() - 1
     # Where the model fails is seen first: what the fitted frame leaves.

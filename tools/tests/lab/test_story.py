@@ -168,6 +168,6 @@ def test_from_an_empty_folder_to_a_machine_whose_error_has_fallen(lab, page):
     expect(page.get_by_text("took machine-2.toml back")).to_have_count(1)
     visit.go_to("Correct")
     visit.press("Go back to machine.toml")
-    expect(visit.page.get_by_text("as machine.toml says", exact=True)).to_be_visible(
+    expect(visit.page.get_by_text("as machine.toml says", exact=True).first).to_be_visible(
         timeout=PATIENCE
     )

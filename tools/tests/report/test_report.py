@@ -95,15 +95,16 @@ def test_all_that_can_be_pressed_does_something_and_leads_nowhere(made, opened, 
     page = opened(made(kind)[2])
     page.evaluate(AXE.read_text())
     assert page.evaluate("async () => (await axe.run(document)).violations.map(({id}) => id)") == []
-    assert page.locator("a, input:not([type=radio]), form, iframe").count() == 0
+    assert page.locator("a, input[type=text], form, iframe").count() == 0
     names = {name.strip() for name in page.locator("button:visible").all_inner_texts()}
-    assert names <= {"−", "+", "All", "Lay it over the marks", "Laid over the marks"}
+    assert names <= {"−", "+", "All"}
     # The likeliest cause lies over the marks; another takes its place.
-    if page.get_by_role("button", name="Laid over the marks").count():
+    suspects = page.get_by_role("checkbox", name="Over the marks")
+    if suspects.count():
         page.locator(".key.laid").wait_for()
         assert page.locator(".curve.left").count() > 0
-    for lay in page.get_by_role("button", name="Lay it over the marks").all()[:1]:
-        lay.click()
+    for suspect in suspects.all()[1:2]:
+        suspect.check()
         page.locator(".key.laid").wait_for()
 
 

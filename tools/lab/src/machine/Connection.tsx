@@ -136,6 +136,11 @@ function Connected({ machine }: { machine: Machine }) {
 
 function connectionWords(machine: Machine): string {
   if (machine.phase === "lost") return `The line to ${machine.name} is lost`;
-  if (machine.phase === "connecting") return `${subject(machine)} is being connected`;
-  return `${subject(machine)} is connected`;
+  if (machine.phase === "connecting") return `${nameOf(machine)} is being connected`;
+  return `${nameOf(machine)} is connected`;
+}
+
+/** With its port: the only place where that is said. */
+function nameOf(machine: Machine): string {
+  return machine.kind === "board" ? `The machine at ${machine.name}` : subject(machine);
 }

@@ -3,9 +3,9 @@
 import { pointIn } from "../sheet/useZoom";
 import { nearest, type Pair, ticks, tickText } from "../sheet/view";
 
-const WIDTH = 250;
-const HEIGHT = 170;
-const EDGE = { left: 42, right: 12, top: 10, bottom: 36 };
+const WIDTH = 190;
+const HEIGHT = 136;
+const EDGE = { left: 34, right: 8, top: 8, bottom: 34 };
 const REACH = 44; // [px of the drawing] a finger is no needle
 const MIDDLE_X = (EDGE.left + WIDTH - EDGE.right) / 2;
 
@@ -69,7 +69,7 @@ export function Plot(parts: PlotParts) {
           </g>
         ))}
         <line class="zero" x1={EDGE.left} x2={WIDTH - EDGE.right} y1={y(0)} y2={y(0)} />
-        {ticks(across[0], across[1], 4).map((tick) => (
+        {ticks(across[0], across[1], 3).map((tick) => (
           <text key={tick} x={x(tick)} y={HEIGHT - EDGE.bottom + 14} text-anchor="middle">
             {tickText(tick)}
           </text>

@@ -45,10 +45,10 @@ export function Plots(parts: PlotsParts) {
   const same = sorted.filter(isSame);
   return (
     <section class="plots" aria-labelledby="plots-title">
-      <h2 id="plots-title">
-        Where it fails: {state.title} [{units}]
-      </h2>
       <p class="keys row">
+        <b id="plots-title">
+          Where it fails: {state.title} [{units}]
+        </b>
         <span class="key left">left chain</span> <span class="key right">right chain</span>
         {drawn && <span class="key laid">{drawn.noun}, fitted</span>}
       </p>

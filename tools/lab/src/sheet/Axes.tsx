@@ -6,6 +6,7 @@ import { type Pair, rounded, ticks, tickText } from "./view";
 const INCH = 25.4;
 const APART = 70; // [px] between ticks
 const LINE = 22; // [px] of a line of the legend
+const ROW = 34; // [px] of a legend with buttons beside it
 const TICKS = 24; // [px] below the sheet
 
 /** From where the axes count, and which way: from the middle, or from the edges of the tape. */
@@ -68,7 +69,7 @@ const ROOMY = 560; // [px] in which the legend is a single line
 
 /** How high the legend is [px]. */
 export function legendHeight(wide: number, hasArrows: boolean): number {
-  return TICKS + (hasArrows && wide < ROOMY ? 2 : 1) * LINE;
+  return TICKS + (wide >= ROOMY ? ROW : hasArrows ? 2 * LINE : LINE);
 }
 
 interface LegendParts {
@@ -86,11 +87,12 @@ export function Legend({ units, factor, circle }: LegendParts) {
   const long = (most: number) => rounded(most / unit) * unit; // [mm]
   const bar = long(90 / px);
   const arrow = factor === undefined ? 0 : long(50 / px / factor);
-  const y = plot.bottom + TICKS + 0.5 * LINE;
   const end = plot.left + arrow * px * (factor ?? 0);
   const isNarrow = factor !== undefined && plot.right - plot.left + 60 < ROOMY;
+  const y = plot.bottom + TICKS + 0.5 * (isNarrow ? LINE : ROW);
   const below = y + (isNarrow ? LINE : 0);
-  const noise = isNarrow ? plot.left + 8 : plot.left + 310;
+  const noise = isNarrow ? plot.left + 8 : plot.left + 265;
+  const from = plot.left + (factor === undefined ? 0 : isNarrow ? 120 : 345);
   return (
     <g class="legend-of-sheet">
       {factor !== undefined && (
@@ -110,8 +112,8 @@ export function Legend({ units, factor, circle }: LegendParts) {
           </text>
         </>
       )}
-      <path class="bar" d={`M${plot.right - bar * px} ${below - 4}v8m0 -4h${bar * px}m0 -4v8`} />
-      <text x={plot.right - bar * px - 6} y={below + 5} text-anchor="end">
+      <path class="bar" d={`M${from} ${below - 4}v8m0 -4h${bar * px}m0 -4v8`} />
+      <text x={from + bar * px + 6} y={below + 5}>
         {lengthText(bar, units)} {units}
       </text>
     </g>

@@ -54,8 +54,9 @@ export function Sheet(parts: SheetParts) {
   const scale = useMemo(() => scaleOf(size, zoom.view, wide), [size[0], size[1], zoom.view, wide]);
   const [chosen, setFactor] = useState<number>();
   const state = states[shown];
+  const factors = useMemo(() => states.map((_, i) => usualFactor(parts, i)), [states, sigma]);
   const hasArrows = state?.errors.some((error) => error) ?? false;
-  const factor = hasArrows ? (chosen ?? usualFactor(parts, shown)) : undefined;
+  const factor = hasArrows ? (chosen ?? factors[shown]) : undefined;
   const pointing = usePointing(parts, scale, zoom, factor ?? 0, drawing);
   const { selected } = pointing;
   const frame = {
@@ -68,81 +69,82 @@ export function Sheet(parts: SheetParts) {
   const isWhole = zoom.view.times === 1;
   const title = `${document.title}: ${state?.title ?? label}`;
   return (
-    <figure class={acts ? "sheet acts" : "sheet"}>
+    <>
       {states.length > 1 && show && (
-        <States states={states} shown={shown} show={show} units={units} />
+        <States {...{ size, marks, states, shown, show, units }} factors={factors} />
       )}
-      <div class="board" {...(acts ? {} : { ...frame, onKeyDown: pointing.onKeyDown })}>
-        <svg
-          ref={drawing}
-          viewBox={`0 0 ${wide} ${high}`}
-          role={acts ? "group" : "img"}
-          aria-label={label}
-          {...(acts ? {} : pointing.pointer)}
-        >
-          <ScaleContext.Provider value={scale}>
-            <clipPath id={clip}>
-              <rect
-                x={isWhole ? 0 : plot.left}
-                y={isWhole ? 0 : plot.top}
-                width={isWhole ? wide : plot.right - plot.left}
-                height={plot.bottom + (isWhole ? 8 : -plot.top)}
-              />
-            </clipPath>
-            <Wood size={size} scale={scale} />
-            <Axes units={units} origin={parts.origin ?? MIDDLE} />
-            <g clip-path={`url(#${clip})`}>
-              {!acts && parts.children}
-              {!acts && (
-                <Marks
-                  marks={marks}
-                  state={state}
-                  ghosts={parts.ghosts?.errors}
-                  print={parts.print}
-                  factor={factor ?? 0}
-                  sigma={sigma}
-                  selected={selected}
-                />
-              )}
-              {acts && parts.children}
-            </g>
-            <Legend
-              units={units}
-              factor={factor}
-              circle={!hasArrows ? undefined : state?.promised ? "promised" : sigma && "noise"}
-            />
-          </ScaleContext.Provider>
-        </svg>
-        {!acts && (
-          <div
-            class={`card-of-mark ${cornerOf(scale, marks[selected ?? -1])} ${hasArrows ? "waits" : ""}`}
-            role="status"
+      <figure class={acts ? "sheet acts" : "sheet"}>
+        <div class="board" {...(acts ? {} : { ...frame, onKeyDown: pointing.onKeyDown })}>
+          <svg
+            ref={drawing}
+            viewBox={`0 0 ${wide} ${high}`}
+            role={acts ? "group" : "img"}
+            aria-label={label}
+            {...(acts ? {} : pointing.pointer)}
           >
-            {selected !== undefined && marks[selected] ? (
-              <MarkCard
-                mark={marks[selected]}
-                error={state?.errors[selected]}
-                chains={state?.chains?.[selected]}
+            <ScaleContext.Provider value={scale}>
+              <clipPath id={clip}>
+                <rect
+                  x={isWhole ? 0 : plot.left}
+                  y={isWhole ? 0 : plot.top}
+                  width={isWhole ? wide : plot.right - plot.left}
+                  height={plot.bottom + (isWhole ? 8 : -plot.top)}
+                />
+              </clipPath>
+              <Wood size={size} scale={scale} />
+              <Axes units={units} origin={parts.origin ?? MIDDLE} />
+              <g clip-path={`url(#${clip})`}>
+                {!acts && parts.children}
+                {!acts && (
+                  <Marks
+                    marks={marks}
+                    state={state}
+                    ghosts={parts.ghosts?.errors}
+                    print={parts.print}
+                    factor={factor ?? 0}
+                    sigma={sigma}
+                    selected={selected}
+                  />
+                )}
+                {acts && parts.children}
+              </g>
+              <Legend
                 units={units}
+                factor={factor}
+                circle={!hasArrows ? undefined : state?.promised ? "promised" : sigma && "noise"}
               />
-            ) : (
-              hasArrows && <span>Touch a mark: its numbers stand here.</span>
-            )}
-          </div>
-        )}
-      </div>
-      <Tools
-        zoom={zoom}
-        factor={factor}
-        setFactor={setFactor}
-        compares={states.length > 1}
-        save={(as) => {
-          if (as === "csv") saveCsv(table(marks, states, sigma), name);
-          else if (drawing.current)
-            (as === "svg" ? saveSvg : savePng)(drawing.current, name, title);
-        }}
-      />
-    </figure>
+            </ScaleContext.Provider>
+          </svg>
+          {!acts && (
+            <div
+              class={`card-of-mark ${cornerOf(scale, marks[selected ?? -1])} ${hasArrows ? "waits" : ""}`}
+              role="status"
+            >
+              {selected !== undefined && marks[selected] ? (
+                <MarkCard
+                  mark={marks[selected]}
+                  error={state?.errors[selected]}
+                  chains={state?.chains?.[selected]}
+                  units={units}
+                />
+              ) : (
+                hasArrows && <span>Touch a mark: its numbers stand here.</span>
+              )}
+            </div>
+          )}
+        </div>
+        <Tools
+          zoom={zoom}
+          factor={factor}
+          setFactor={setFactor}
+          save={(as) => {
+            if (as === "csv") saveCsv(table(marks, states, sigma), name);
+            else if (drawing.current)
+              (as === "svg" ? saveSvg : savePng)(drawing.current, name, title);
+          }}
+        />
+      </figure>
+    </>
   );
 }
 

@@ -9,11 +9,9 @@ interface ToolsParts {
   factor: number | undefined;
   setFactor: (factor: number | undefined) => void;
   save: (as: "csv" | "svg" | "png") => void;
-  /** Whether keys change the state. */
-  compares: boolean;
 }
 
-export function Tools({ zoom, factor, setFactor, save, compares }: ToolsParts) {
+export function Tools({ zoom, factor, setFactor, save }: ToolsParts) {
   const { view, enlarge } = zoom;
   return (
     <div class="tools row">
@@ -40,11 +38,6 @@ export function Tools({ zoom, factor, setFactor, save, compares }: ToolsParts) {
             ))}
           </select>
         </label>
-      )}
-      {compares && (
-        <span class="keys soft">
-          On the sheet the keys <kbd>[</kbd> and <kbd>]</kbd> compare
-        </span>
       )}
       <details>
         <summary class="button">Save</summary>

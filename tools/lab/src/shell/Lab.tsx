@@ -73,20 +73,27 @@ function Main({ step, shared, loaded }: { step: Step; shared: Shared; loaded: Lo
     document.title = `${step.title} · ${project.folder} · Plumb`;
     // Who follows a link with the keyboard or hears the page goes on at the new screen.
     if (!first.current) place.current?.focus({ preventScroll: true });
-    if (!first.current) scrollTo(0, 0);
+    if (!first.current) {
+      scrollTo(0, 0);
+      place.current?.scrollTo(0, 0);
+    }
     first.current = false;
   }, [step.title, project.folder]);
   const { Screen } = step;
   return (
     <main ref={place} id="screen" tabIndex={-1}>
-      {trouble && (
-        <p class="trouble" role="alert">
-          {trouble}
-        </p>
-      )}
-      <OtherTab />
+      <div class="above">
+        {trouble && (
+          <p class="trouble" role="alert">
+            {trouble}
+          </p>
+        )}
+        <OtherTab />
+        <fieldset class="editing" disabled={readOnly}>
+          <Held />
+        </fieldset>
+      </div>
       <fieldset class="editing" disabled={readOnly}>
-        <Held />
         {missing ? (
           <section class="screen">
             <h1>{step.title}</h1>

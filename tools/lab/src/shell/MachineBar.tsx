@@ -1,4 +1,5 @@
-// The machine's line, in view on all screens: where the sled is, what it does, Hold and Stop.
+// The machine, in view on all screens: where the sled is, what it does, Hold and Stop. In the head of a wide page, and
+// at the foot of a narrow one, near the thumb.
 import { useEffect, useState } from "preact/hooks";
 import { send } from "../api/client";
 import { namedLength } from "../controls/lengths";
@@ -35,55 +36,61 @@ export function MachineBar({ live }: { live: LiveMachine }) {
   const program = machine.program;
   const share = program?.outcome === "running" ? program.done / Math.max(1, program.total) : null;
   return (
-    <section ref={place} class={`machine-bar row ${tone(machine)}`} aria-label="The machine">
-      <p class={unseen ? "state old" : "state"}>
-        <strong role="status">{stateWords(machine)}</strong>
-        <strong>{countWords(machine)}</strong>
-        {machine.place && machine.knows_place && (
-          <span class="place soft">{placeWords(machine.place, project.choices.units ?? "mm")}</span>
-        )}
-      </p>
-      {works && (
-        <p class="presses row">
-          {!unseen && machine.holds && (
-            <button type="button" class={machine.waits_for ? "primary" : ""} onClick={goOn}>
-              Go on
-            </button>
+    <section ref={place} class={`machine-bar ${tone(machine)}`} aria-label="The machine">
+      <div class="line">
+        <p class={unseen ? "state old" : "state"}>
+          <strong role="status">{stateWords(machine)}</strong>
+          <strong>{countWords(machine)}</strong>
+          {machine.place && machine.knows_place && (
+            <span class="place soft">
+              {placeWords(machine.place, project.choices.units ?? "mm")}
+            </span>
           )}
-          {!unseen && !machine.holds && (
-            <button
-              type="button"
-              title="Also the key Escape"
-              onClick={() => void presses.press("hold")}
-            >
-              Hold
-            </button>
-          )}
-          <button type="button" class="stop" onClick={() => void presses.press("stop")}>
-            {unseen ? UNREACHABLE : "Stop"}
-          </button>
         </p>
-      )}
-      {machine.phase === "lost" && machine.kind === "board" && <Ports lost={machine.name} />}
-      {machine.phase === "lost" && <p class="said">{UNREACHABLE}.</p>}
-      {refusal}
-      <p class="pressed" role="status">
-        {press && pressWords(press)}
-      </p>
+        {works && (
+          <p class="presses row">
+            {!unseen && machine.holds && (
+              <button type="button" class={machine.waits_for ? "primary" : ""} onClick={goOn}>
+                Go on
+              </button>
+            )}
+            {!unseen && !machine.holds && (
+              <button
+                type="button"
+                title="Also the key Escape"
+                onClick={() => void presses.press("hold")}
+              >
+                Hold
+              </button>
+            )}
+            <button type="button" class="stop" onClick={() => void presses.press("stop")}>
+              {unseen ? UNREACHABLE : "Stop"}
+            </button>
+          </p>
+        )}
+      </div>
       {share !== null && !unseen && (
         <progress value={share} aria-label={`${program?.title} so far`}>
           {Math.round(share * 100)} %
         </progress>
       )}
-      {machine.waits_for && (
-        <p class="waits-for" role="alert">
-          Before you press Go on: {machine.waits_for}.
+      <div class="words row">
+        {machine.phase === "lost" && machine.kind === "board" && <Ports lost={machine.name} />}
+        {machine.phase === "lost" && <p class="said">{UNREACHABLE}.</p>}
+        {refusal}
+        <p class="pressed" role="status">
+          {press && pressWords(press)}
         </p>
-      )}
-      {machine.trouble && <p class="said">{machine.trouble}</p>}
-      {!machine.knows_place && (
-        <p class="said unplaced">Where the sled is, is not known until you set its chains.</p>
-      )}
+        {machine.waits_for && (
+          <p class="waits-for" role="alert">
+            Before you press Go on: {machine.waits_for}.
+          </p>
+        )}
+        {machine.trouble && <p class="said">{machine.trouble}</p>}
+        {!machine.knows_place && (
+          <p class="said unplaced">Where the sled is, is not known until you set its chains.</p>
+        )}
+      </div>
     </section>
   );
 }

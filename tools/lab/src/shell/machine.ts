@@ -47,7 +47,7 @@ export function isConnected({ kind, phase }: Machine): boolean {
 
 /** Its name at the beginning of a sentence. */
 export function subject(machine: Machine): string {
-  return machine.kind === "virtual" ? "The virtual machine" : machine.name;
+  return machine.kind === "virtual" ? "The virtual machine" : "The machine";
 }
 
 /** What the frame knows of the machine, and how it is stopped. */

@@ -18,7 +18,7 @@ import "./cut/cut.css";
 
 export type Grid = Schemas["GridAnswer"];
 
-const CUTS = "Stay at the machine. Hold waits where the sled is; Stop gives up. Both are below.";
+const CUTS = "Stay at the machine. Hold waits where the sled is; Stop gives up.";
 const CHOSEN =
   "Router off, hands and hoses away from the chains, the bit just above the wood. The sled moves over the whole sheet; the bit touches each mark 0.5 mm deep.";
 const PROPOSED =

@@ -5,7 +5,6 @@ import { useProject } from "../shell/project";
 import { Screen } from "../shell/Screen";
 import { Additions } from "./measure/Additions";
 import { EffectList } from "./measure/EffectList";
-import { HeatMap } from "./measure/HeatMap";
 import { Layouts } from "./measure/Layouts";
 import { MarksMap } from "./measure/MarksMap";
 import type { Layout, Place } from "./measure/plan";
@@ -79,7 +78,6 @@ export function Measure() {
         <>
           <Sum plan={plan} looking={looking} />
           <EffectList plan={plan} />
-          <HeatMap plan={plan} />
           <Additions plan={plan} layout={id} places={places} />
         </>
       )}
@@ -124,16 +122,9 @@ function Sum({ plan, looking }: { plan: Layout.Plan; looking: boolean }) {
 
 function Why() {
   return (
-    <>
-      <p>
-        Each effect pushes marks in a pattern of its own. Where two patterns look alike at your
-        marks, no arithmetic can tell which it was. Marks at other places, or a weight on the sled,
-        can.
-      </p>
-      <p>
-        The numbers are sigmas: how clearly the effect of the row stands out from reading errors,
-        from wrong settings, and from the effect of the column. From 3 on it is told in most cases.
-      </p>
-    </>
+    <p>
+      Each effect pushes marks in a pattern of its own. Where two patterns look alike at your marks,
+      no arithmetic can tell which it was. Marks at other places, or a weight on the sled, can.
+    </p>
   );
 }

@@ -119,21 +119,24 @@ export function Verdict() {
       </div>
       {verdict.cards.length > 0 && (
         <section aria-label="Suspects">
-          <h2>Suspects</h2>
+          <h2>
+            Suspects{" "}
+            {verdict.marks.length > 0 && (
+              <small>tick one: what it draws lies under the arrows</small>
+            )}
+          </h2>
           {verdict.apart && <p>{verdict.apart}</p>}
-          <div class="tiles">
-            {verdict.cards.map((each) => (
-              <SuspectCard
-                key={each.title}
-                card={each}
-                units={units}
-                isLaid={each.title === card?.title}
-                {...(verdict.marks.length > 0
-                  ? { lay: () => lay(each.title === card?.title ? null : each.title) }
-                  : {})}
-              />
-            ))}
-          </div>
+          {verdict.cards.map((each) => (
+            <SuspectCard
+              key={each.title}
+              card={each}
+              units={units}
+              isLaid={each.title === card?.title}
+              {...(verdict.marks.length > 0
+                ? { lay: () => lay(each.title === card?.title ? null : each.title) }
+                : {})}
+            />
+          ))}
           {verdict.more_cards > 0 && <p>{verdict.more_cards} more are less likely.</p>}
         </section>
       )}

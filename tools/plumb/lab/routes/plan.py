@@ -30,7 +30,7 @@ from plumb.marks.model import tape_sigma
 from plumb.model.plain import noun_of
 from plumb.model.predict import REACH_WORDS
 from plumb.model.reach import Give, Pull, Survey, conclusion_of, percent, survey_sheet
-from plumb.plan.preview import APART, PlanAddition, Preview, as_read, preview
+from plumb.plan.preview import PlanAddition, Preview, as_read, preview
 from plumb.settings.machine import MachineSettings
 from plumb.text.errors import InputError
 from plumb.text.values import shown_in, worded
@@ -74,7 +74,6 @@ class PlannedEffect(BaseModel):
     is_seen: bool  # proved in most cases, if it has its usual size
     is_distinct: bool  # in most cases it is taken for no other effect
     alike: list[str]  # nouns of effects it would be taken for
-    sigmas: list[float]  # beyond the frame and each effect of the list; its place in it: itself
 
 
 class PlanAnswer(BaseModel):
@@ -87,7 +86,6 @@ class PlanAnswer(BaseModel):
     effects: list[PlannedEffect]
     seen: int  # effects that would show in their usual size
     named: int  # effects that could be named in their usual size
-    apart: float  # sigmas by which two effects are distinguished
     trouble: str  # why the sled cannot take this way; empty if it can
     command: str
 
@@ -247,7 +245,6 @@ def preview_plan(request: PlanRequest, project: TheProject) -> PlanAnswer:
         effects=_effects(outlook),
         seen=outlook.seen,
         named=outlook.named,
-        apart=APART,
         trouble=_trouble(settings, request),
         command=made,
     )
@@ -311,7 +308,6 @@ def _effects(outlook: Preview) -> list[PlannedEffect]:
             is_seen=outline.is_seen,
             is_distinct=outline.is_distinct,
             alike=[noun_of(name) for name in outline.alike],
-            sigmas=[round(float(value), 1) for value in outlook.matrix[i]],
         )
         for i, outline in enumerate(outlook.outlines)
     ]

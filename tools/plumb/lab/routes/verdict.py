@@ -61,7 +61,8 @@ class Card(BaseModel):
 
     title: str
     effects: list[EffectAnswer]
-    odds: str
+    odds: str  # in words; empty where there are none
+    chance: float  # of being it all
     rms_after: float  # [mm]
     noise_after: float  # [mm] that noise alone would leave
     share: float  # of what the frame leaves unexplained
@@ -208,6 +209,7 @@ def _card(diagnosis: Diagnosis, index: int, together: Together) -> Card:
         title=diagnosis.called(together),
         effects=[_effect(diagnosis, name, together) for name in together.effects],
         odds="" if diagnosis.is_finding else odds_words(together.share),
+        chance=together.share,
         rms_after=together.rms_after,
         noise_after=together.noise_rms,
         share=together.explained_share(diagnosis.rms_before),

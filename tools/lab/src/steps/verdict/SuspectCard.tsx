@@ -1,4 +1,5 @@
-// A suspect: what it is, how large, how much it explains, what it looks like, what would settle it.
+// A suspect: its odds, how large it is, and whether what it draws lies over the marks; folded away, what settles it.
+import { Bar } from "../../controls/Bar";
 import { namedLength, type Unit } from "../../controls/lengths";
 import { SizeBar } from "./SizeBar";
 import type { Card } from "./words";
@@ -14,45 +15,56 @@ interface CardParts {
 
 export function SuspectCard({ card, units, isLaid, lay }: CardParts) {
   return (
-    <article class="card box" aria-label={card.title}>
-      <h3>{card.title}</h3>
-      {card.odds && <p class="soft">Odds {card.odds}</p>}
-      {lay && (
-        <button type="button" aria-pressed={isLaid} onClick={lay}>
-          {isLaid ? "Laid over the marks" : "Lay it over the marks"}
-        </button>
+    <article class="card" aria-label={card.title}>
+      <div class="head">
+        <h3>
+          {lay ? (
+            <label>
+              <input type="checkbox" checked={isLaid} onChange={lay} />
+              <span class="spoken">Over the marks: </span>
+              {capital(card.title)}
+            </label>
+          ) : (
+            capital(card.title)
+          )}
+        </h3>
+        <b class={card.possible ? "" : "wrong"}>{card.possible ? card.odds : "no"}</b>
+      </div>
+      {card.odds && card.possible && <Bar share={card.chance} colour="var(--after)" />}
+      {card.effects.flatMap(({ sizes }) =>
+        sizes.map((size) => <SizeBar key={size.said} size={size} />),
       )}
-      {card.effects.map((effect) => (
-        <div key={effect.name} class="cause">
-          <p>{capital(effect.summary)}.</p>
-          {effect.sizes.map((size) => (
-            <SizeBar key={size.said} size={size} />
-          ))}
-          <dl>
-            <dt>taken up by other numbers of the motors</dt>
-            <dd>{effect.taken_up}</dd>
-            <dt>to be sure</dt>
-            <dd>{effect.check || capital(effect.remedy)}</dd>
-          </dl>
-        </div>
-      ))}
-      <dl>
-        <dt>explains</dt>
-        <dd>
-          {Math.round(100 * card.share)} % of what the frame leaves; the error falls to{" "}
-          {namedLength(card.rms_after, units, 2)}, noise alone leaves{" "}
-          {namedLength(card.noise_after, units, 2)}
-        </dd>
-        {card.looks_like.length > 0 && (
-          <>
-            <dt>looks like</dt>
-            <dd>{card.looks_like.join("; ")}</dd>
-          </>
-        )}
-      </dl>
       {!card.possible && (
         <p class="wrong">No real machine has such sizes: look for another cause.</p>
       )}
+      <details>
+        <summary>What it is, and how to be sure</summary>
+        {card.effects.map((effect) => (
+          <div key={effect.name} class="cause">
+            <p>{capital(effect.summary)}.</p>
+            <dl>
+              <dt>taken up by other numbers of the motors</dt>
+              <dd>{effect.taken_up}</dd>
+              <dt>to be sure</dt>
+              <dd>{effect.check || capital(effect.remedy)}</dd>
+            </dl>
+          </div>
+        ))}
+        <dl>
+          <dt>explains</dt>
+          <dd>
+            {Math.round(100 * card.share)} % of what the frame leaves; the error falls to{" "}
+            {namedLength(card.rms_after, units, 2)}, noise alone leaves{" "}
+            {namedLength(card.noise_after, units, 2)}
+          </dd>
+          {card.looks_like.length > 0 && (
+            <>
+              <dt>looks like</dt>
+              <dd>{card.looks_like.join("; ")}</dd>
+            </>
+          )}
+        </dl>
+      </details>
     </article>
   );
 }
