@@ -1,4 +1,4 @@
-# The Grbl senders that tests drive, into .build/senders: CNCjs from npm, bCNC and two libraries from PyPI.
+# The Grbl senders that tests drive, into .build/senders: CNCjs from npm, bCNC from PyPI.
 # Sourced by tools/setup.
 
 senders_list=tools/tests/senders/programs
@@ -10,7 +10,7 @@ setup_senders() {
   wanted=$(fingerprint "$senders_list")
   if same_as "$senders_folder/note" "$wanted"; then return; fi
 
-  say "installs CNCjs, bCNC and two libraries, which tests drive"
+  say "installs CNCjs and bCNC, which tests drive"
   mkdir -p "$senders_folder"
   rm -f "$senders_folder/note" "$senders_folder/failure"
   cp "$senders_list/package.json" "$senders_list/package-lock.json" "$senders_folder"

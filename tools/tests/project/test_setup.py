@@ -169,6 +169,6 @@ def test_a_registry_that_cannot_be_reached_is_a_line_that_the_tests_repeat(
     assert (tmp_path / ".build/senders/failure").read_text() == f"{line}\n"
     assert not (tmp_path / ".build/senders/note").exists()
     assert senders(npm="true", pip="true") == [
-        "says: installs CNCjs, bCNC and two libraries, which tests drive"
+        "says: installs CNCjs and bCNC, which tests drive"
     ]
     assert not (tmp_path / ".build/senders/failure").exists()

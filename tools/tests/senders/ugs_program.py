@@ -56,7 +56,6 @@ class Ugs:
     """UGS with its buttons."""
 
     name = "UGS"
-    lacks = frozenset()
 
     def __init__(self, folder: Path):
         self._line: serial.Serial | None = None
