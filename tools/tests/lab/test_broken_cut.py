@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 
 import pytest
 from folder import got, until
-from journeys import SPEED, Person
+from garage_at_port import SPEED
 from lab_machine import PATIENCE, bar, start_virtual
 from playwright.sync_api import expect
 from plumb.lab.broken_cut import begin, go_on, how_far, rest_of
@@ -161,11 +161,11 @@ def test_no_mark_is_cut_twice_after_the_lab_died_in_a_cut(lab, page, garage):
 
 def test_a_cut_whose_line_was_lost_goes_on_once_the_machine_knows_its_chains(lab, page, garage):
     """Nothing is typed in that nobody measured; what the machine last knew is offered as that."""
-    person = Person(page, lab)
-    person.connect(garage.path)
-    person.go_to("Cut")
-    person.press("^Move the sled and cut 9 marks$")
     with lab.client() as client:
+        connect(client, garage)
+        got(client.post("/api/machine/settings"))
+        page.goto(f"{lab.url}#/cut")
+        page.get_by_role("button", name="Move the sled and cut 9 marks").click()
         until(client, lambda machine: garage.marks >= 3)
         garage.run_at(1)
         until(client, lambda machine: machine["moves"] and machine["place"][2] > 3)

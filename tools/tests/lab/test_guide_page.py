@@ -20,21 +20,20 @@ PHONE = {"width": 375, "height": 812}
 def first_day(page, lab, cable):
     """The first page with the machine at its port connected."""
     page.set_default_timeout(300_000)
-    path, _ = cable
     page.goto(lab.url)
     page.get_by_text("Another port").click()
-    page.get_by_label("Its name").fill(path)
+    page.get_by_label("Its name").fill(cable.path)
     page.get_by_role("button", name="Connect", exact=True).click()
     page.get_by_role("heading", name="Its first day, step by step").wait_for()
     return page
 
 
-def test_a_reversed_motor_is_found_on_the_first_page(first_day, lab, cable_machine):
+def test_a_reversed_motor_is_found_on_the_first_page(first_day, lab, cable):
     page = first_day
     page.get_by_role("button", name="Begin: Read the machine's numbers").click()
     page.get_by_text("The machine answers, and its numbers are in machine.toml.").wait_for()
     page.get_by_role("heading", name="This machine is open").wait_for()
-    cable_machine.set_wire("left", "motor_reversed", True)
+    cable.owner.machine.set_wire("left", "motor_reversed", True)
     page.get_by_role("button", name="Begin: Does each motor turn the right way?").click()
     page.get_by_text("The LEFT motor winds 20 mm of its chain in").wait_for()
     assert not page.get_by_role("button", name="Begin: What do you know").count()
@@ -43,7 +42,7 @@ def test_a_reversed_motor_is_found_on_the_first_page(first_day, lab, cable_machi
     page.get_by_role("button", name="the left chain got longer").click()
     page.get_by_text("The power wires of the left motor are swapped").wait_for()
     assert progress_in(lab.folder).done == ["read"]
-    cable_machine.set_wire("left", "motor_reversed", False)
+    cable.owner.machine.set_wire("left", "motor_reversed", False)
     page.get_by_role("button", name="Begin: Does each motor turn the right way?").click()
     for side in ("left", "right"):
         page.get_by_role("button", name=f"Wind 20 mm of the {side} chain in").click()

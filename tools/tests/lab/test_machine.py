@@ -70,7 +70,7 @@ def test_only_a_serial_port_is_opened(ask, port):
 
 
 def test_a_link_leads_to_its_port_and_to_nothing_else(ask, cable, tmp_path):
-    port, _ = cable
+    port = cable.path
     link, other = tmp_path / "maslow", tmp_path / "other"
     link.symlink_to(port)
     other.symlink_to("/etc/passwd")
@@ -236,13 +236,12 @@ def test_a_port_is_opened_again_when_the_machine_that_moved_has_stopped(monkeypa
 
 
 def test_a_cable_pulled_in_mid_cut_is_said(ask, cable):
-    path, pulled = cable
-    ask("POST", "machine/board", port=path)
+    ask("POST", "machine/board", port=cable.path)
     until(ask, lambda state: state["phase"] == "ready")
     lines = "".join(f"G1 X{x} F700\n" for x in range(5, 900, 5))
     ask("POST", "machine/program", title="job.nc", text=lines)
     until(ask, lambda state: state["program"]["done"] > 20)
-    pulled.set()
+    cable.pull_out()
     state = until(ask, lambda state: state["phase"] == "lost")
     assert state["program"]["outcome"] == "lost" and not state["knows_place"]
     assert "the line was lost" in state["trouble"] and "of 179 lines of job.nc" in state["trouble"]
