@@ -122,23 +122,6 @@ def client(tmp_path):
     return asked(tmp_path)
 
 
-def test_planned_cut_read_and_judged(client, tmp_path):
-    plan = got(client.get("/api/check"))
-    assert (plan["is_saved"], len(plan["places"]), plan["sentence"]) == (False, 2, "")
-    assert not (tmp_path / "check.toml").exists()
-    got(client.post("/api/check"))
-    assert 'cut_with = "machine.toml"' in (tmp_path / "check.toml").read_text()
-    assert "G1" in (tmp_path / "check.nc").read_text()
-    assert got(client.get("/api/check"))["places"] == plan["places"]
-    type_in(client, FORM, (0.3, 0.1), (-0.2, 0.4))
-    good = got(client.get("/api/check"))
-    assert good["holds"] and good["sentence"].startswith("Promised: within 1.")
-    assert "off from what was promised by 0." in good["sentence"]
-    type_in(client, FORM, (0.3, 0.1), (-4, 0.4))
-    bad = got(client.get("/api/check"))
-    assert not bad["holds"] and "at mark 2" in bad["sentence"]
-
-
 def test_check_marks_take_no_part_unless_somebody_says_so(client, tmp_path):
     client.post("/api/check")
     type_in(client, FORM, (0.3, 0.1), (-0.2, 0.4))

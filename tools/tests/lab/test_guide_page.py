@@ -36,6 +36,10 @@ def test_a_reversed_motor_is_found_on_the_first_page(first_day, lab, cable):
     cable.owner.machine.set_wire("left", "motor_reversed", True)
     page.get_by_role("button", name="Begin: Does each motor turn the right way?").click()
     page.get_by_text("The LEFT motor winds 20 mm of its chain in").wait_for()
+    page.set_viewport_size(PHONE)
+    press = page.get_by_role("button", name="Wind 20 mm of the left chain in")
+    assert press.bounding_box()["height"] >= 44
+    assert page.evaluate("document.documentElement.scrollWidth") <= PHONE["width"]
     assert not page.get_by_role("button", name="Begin: What do you know").count()
     page.reload()  # the question waits
     page.get_by_role("button", name="Wind 20 mm of the left chain in").click()
@@ -88,18 +92,6 @@ def test_an_answer_from_before_a_press_is_not_taken_for_the_state_after_it(first
         route.fulfill(response=answer)
     page.get_by_text("The machine answers, and its numbers are in machine.toml.").wait_for()
     page.get_by_role("button", name="Begin: Does each motor").wait_for()
-
-
-def test_the_guide_fits_a_phone(first_day):
-    first_day.set_viewport_size(PHONE)
-    first_day.get_by_role("button", name="Begin: Read the machine's numbers").click()
-    first_day.get_by_text("The machine answers").wait_for()
-    first_day.get_by_role("button", name="Begin: Does each motor").click()
-    press = first_day.get_by_role("button", name="Wind 20 mm of the left chain in")
-    press.wait_for()
-    assert press.bounding_box()["height"] >= 44
-    width = first_day.evaluate("document.documentElement.scrollWidth")
-    assert width <= PHONE["width"]
 
 
 @pytest.fixture

@@ -1,6 +1,7 @@
 """What one looks at stays in view, what one does scrolls next to it; a phone has one column."""
 
 import json
+import re
 from functools import partial
 
 import pytest
@@ -309,3 +310,7 @@ def test_the_next_measurement_comes_into_view_with_its_button(opened):
     page.get_by_role("button", name="Find the best next").click(timeout=PATIENCE)
     expect(page.get_by_role("heading", name="Next: ")).to_be_in_viewport(timeout=PATIENCE)
     none_out_of_view(page, {"verdict": "Type what you measured"})
+    take = page.get_by_role("button", name=re.compile("^Take: .* kg more"))
+    take.first.click(timeout=PATIENCE)
+    expect(page.get_by_role("heading", name=re.compile(r"^Cut \d+ more marks"))).to_be_visible()
+    expect(page.locator(".pauses li")).not_to_have_count(0)

@@ -168,7 +168,5 @@ def test_a_registry_that_cannot_be_reached_is_a_line_that_the_tests_repeat(
     assert senders(npm=npm, pip=pip)[-1] == f"stops: {line}"
     assert (tmp_path / ".build/senders/failure").read_text() == f"{line}\n"
     assert not (tmp_path / ".build/senders/note").exists()
-    assert senders(npm="true", pip="true") == [
-        "says: installs CNCjs and bCNC, which tests drive"
-    ]
+    assert senders(npm="true", pip="true") == ["says: installs CNCjs and bCNC, which tests drive"]
     assert not (tmp_path / ".build/senders/failure").exists()
