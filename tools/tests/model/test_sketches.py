@@ -117,11 +117,6 @@ def test_a_sketch_that_cannot_be_used_is_told_in_one_line(tmp_path, text, hint):
     assert hint in done.stderr and "bad.py" in done.stderr and done.stderr.count("\n") == 1
 
 
-def test_the_folder_that_is_named_must_be_there(tmp_path):
-    done = run(tmp_path, "effects", folder_of_user="nowhere")
-    assert done.returncode == 2 and "PLUMB_SKETCHES" in done.stderr
-
-
 def test_a_hose_that_pulls_the_sled_is_fitted_in_newtons(tmp_path):
     (tmp_path / "own").mkdir()
     shutil.copy(FOLDER / "_dust_hose.py", tmp_path / "own/dust_hose.py")

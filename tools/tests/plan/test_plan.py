@@ -156,35 +156,6 @@ def test_a_slip_is_read_again_and_nothing_else():
 
 
 @pytest.mark.slow
-def test_chances_come_true():
-    # What was promised and what came, over options of very different chances.
-    promised, came = [], []
-    for name, seed in (("chain_pitch", 302), ("chain_pitch", 305), ("tape_scale", 306)):
-        cut, diagnosis = nine(name, seed)
-        marks = cut.measurements
-        assert diagnosis.verdict == "cannot_tell"
-        for proposal in _one_of_each_kind(propose(diagnosis, Inputs(MAKER, marks))):
-            then = owner().with_marks(cut, proposal.option.visits).measurements
-            checks = owner().checked(cut, proposal.option.checks)
-            after = diagnose(Inputs(MAKER, then, checked=checks))
-            promised.append(proposal.chance)
-            came.append(after.verdict == "one_suspect" and after.suspects == (name,))
-    promised, came = np.array(promised), np.array(came)
-    assert len(came) >= 14
-    assert abs(promised.mean() - came.mean()) < 0.25
-    high = promised > 0.5
-    assert came[high].mean() > came[~high].mean() + 0.2
-
-
-def _one_of_each_kind(answer):
-    """The best proposal of each kind."""
-    best = {}
-    for proposal in answer.proposals:
-        best.setdefault(proposal.option.kind, proposal)
-    return best.values()
-
-
-@pytest.mark.slow
 def test_proposed_measurements_beat_many_blind_ones():
     # Few boards of the effect that nine marks leave most open; the page on next has the rates.
     left = {"next": 0, "blind": 0}

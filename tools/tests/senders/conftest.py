@@ -7,14 +7,13 @@ import pytest
 from bcnc_program import Bcnc
 from cncjs_program import Cncjs
 from grbl_board import Board
-from ugs_program import Ugs
 
 ROOT = Path(__file__).resolve().parents[3]
 sys.path.insert(0, str(ROOT / "tools/bench"))
 from board import built_firmware  # noqa: E402
 
-SENDERS = {each.name: each for each in (Cncjs, Bcnc, Ugs)}
-INSTALLED, FAILURE = (ROOT / ".build/senders" / name for name in ("note", "failure"))
+SENDERS = {each.name: each for each in (Cncjs, Bcnc)}
+INSTALLED = ROOT / ".build/senders/note"
 
 
 @pytest.fixture(scope="session", params=["host", "Mega"])
@@ -34,9 +33,8 @@ def board(brain):
 @pytest.fixture(params=list(SENDERS))
 def sender(request, tmp_path, board):
     """A sender that runs and is not yet connected; it ends before its port goes."""
-    if request.param != Ugs.name and not INSTALLED.is_file():
-        why = FAILURE.read_text() if FAILURE.is_file() else "not installed: run tools/setup senders"
-        pytest.fail(f"{request.param}: {why}", pytrace=False)
+    if not INSTALLED.is_file():
+        pytest.fail(f"{request.param}: not installed: run tools/setup senders", pytrace=False)
     program = SENDERS[request.param](tmp_path)
     yield program
     program.end()

@@ -119,11 +119,6 @@ class Client:
             pass
         return text
 
-    def measure(self, side: str) -> float:
-        """[mm] The length of a chain, as both clients read it."""
-        said = [text for text in self.ask(f"B10 {side}") if text.startswith("[Measure")]
-        return float(said[0][len("[Measure: ") : -1])
-
     def hear_for(self, seconds: float) -> None:
         """Hears so long a time of the machine."""
         for _ in range(round(seconds * PER_SECOND)):
@@ -269,50 +264,6 @@ def test_a_client_connects_streams_a_job_and_stops_it(client):
     assert y == pytest.approx(10, abs=0.1)
     client.ask("G0 X20 Y10 ")
     assert client.rest() == pytest.approx((20, 10), abs=0.05)
-    assert not any(text.startswith(("ALARM", "error")) for text in client.heard)
-
-
-def test_a_client_pauses_and_goes_on(client):
-    client.ask("G21 ")
-    client.say("G1 X10 F800 ")
-    client.say("M0 ")
-    client.hear_until("Maslow Paused")
-    assert len(client.waiting) == 1
-    client.hear_for(3)
-    assert len(client.waiting) == 1
-    client.press("~")
-    client.settle()
-    # A second ~ is answered too: GroundControl sends it whenever a window closes.
-    client.press("~")
-    client.settle()
-    client.ask("G0 X0 ")
-    # A tool that is not in the spindle pauses; the same tool does not.
-    client.say("T2 M6 ")
-    client.hear_until("Tool Change: Please insert tool 2")
-    client.hear_until("Maslow Paused")
-    client.press("~")
-    client.settle()
-    assert "Maslow Paused" not in client.ask("T2 M6 ")
-    assert client.rest()[0] == pytest.approx(0, abs=0.05)
-
-
-def test_a_client_measures_and_declares_chains(client):
-    client.ask("G21 ")
-    client.ask("G0 X0 Y0 ")
-    client.rest()
-    before = client.measure("L"), client.measure("R")
-    for text in CALIBRATION:
-        client.ask(text)
-    moved = client.measure("L") - before[0], client.measure("R") - before[1]
-    assert moved == pytest.approx((5, -5), abs=0.05)
-    client.ask("B15 ")
-    assert client.rest() == pytest.approx((0, 0), abs=0.05)
-    left, right = client.measure("L"), client.measure("R")
-    assert (left, right) == pytest.approx(before, abs=0.05)
-    assert f"Left: {left:.2f}mm" in client.ask(f"B06 L{left} R{right} ")
-    assert client.rest() == pytest.approx((0, 0), abs=0.05)
-    said = client.ask("B08 ")
-    assert "Message: The machine chains have been manually re-calibrated." in said
     assert not any(text.startswith(("ALARM", "error")) for text in client.heard)
 
 
