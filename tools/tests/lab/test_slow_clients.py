@@ -145,16 +145,6 @@ def test_a_live_line_is_opened_by_the_page_and_closed_at_an_oversized_message(la
 
 
 @pytest.mark.slow
-def test_a_flood_on_the_live_line_costs_no_memory_and_keeps_nobody_out(lab):
-    before = memory(lab)
-    with live(lab) as line:
-        for _ in range(2_000):
-            line.send("x" * 30_000)  # sixty megabytes
-        assert status(answered(lab, ASKING.bytes(lab))) == 200
-    assert memory(lab) - before < 20_000
-
-
-@pytest.mark.slow
 def test_a_hundred_live_lines_do_not_keep_the_owner_out(lab):
     refused = 0
     with ExitStack() as lines:

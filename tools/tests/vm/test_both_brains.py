@@ -1,10 +1,7 @@
 """The flashed program on the simulated Mega and the firmware for the host drive the same world."""
 
-from dataclasses import replace
-
 import numpy as np
-import pytest
-from plumb.bench.causes import MAKER, Hidden
+from plumb.bench.causes import Hidden
 from plumb.model.predict import lengths
 from plumb.vm.garage import EXTENDED, Garage
 from usual_machine import switched_on
@@ -48,13 +45,3 @@ def targets() -> np.ndarray:
     ends = np.array([(each["X"], each["Y"]) for each in words])
     chains, _ = lengths(Garage(Hidden()).settings, ends)
     return (chains - EXTENDED) / COUNT
-
-
-@pytest.mark.slow
-def test_the_flashed_program_drives_chains_off_the_bottom(elf):
-    garage = Garage(Hidden(), friction=0.0, settings=replace(MAKER, feed="bottom"))
-    machine = garage.machine(elf=elf)
-    sender = switched_on(machine, garage.settings)
-    sender.stream(["G0 X-40 Y30"])
-    sender.await_rest()
-    assert machine.sled == pytest.approx((-40, 30), abs=0.05)

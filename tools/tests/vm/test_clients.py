@@ -205,13 +205,6 @@ def terminal():
     terminal.close()
 
 
-@pytest.fixture(params=GREETINGS.values(), ids=GREETINGS)
-def client(request, terminal):
-    client = request.param(terminal)
-    yield client
-    client.line.close()
-
-
 def shape(line: str) -> str:
     """The line with its numbers of a machine in motion left open, but for their decimals."""
     if line.startswith("$"):
@@ -240,31 +233,6 @@ def test_a_client_gets_the_lines_that_were_recorded(name, terminal):
     )
     assert {*map(shape, reports)} == {*map(shape, old_reports)}
     assert len(reports) == pytest.approx(len(old_reports), abs=4)
-
-
-def test_a_client_connects_streams_a_job_and_stops_it(client):
-    versions = [text for text in client.heard if text.startswith("Firmware Version")]
-    assert [float(text.split()[-1]) for text in versions] == [1.28]
-    answered = client.answers
-    for text in JOB:
-        client.say(text)
-    client.settle()
-    place = client.rest()
-    assert client.answers - answered == len(JOB)
-    assert place == pytest.approx((20, 10), abs=0.05)
-    # Stop in a move: a single answer, what was sent is forgotten, and the place is known.
-    client.say("G1 X400 Y10 F600 ")
-    client.hear_for(1.5)
-    answered = client.answers
-    client.line.write(b"!")
-    client.waiting.clear()
-    x, y = client.rest()
-    assert client.answers - answered == 1
-    assert 22 < x < 80
-    assert y == pytest.approx(10, abs=0.1)
-    client.ask("G0 X20 Y10 ")
-    assert client.rest() == pytest.approx((20, 10), abs=0.05)
-    assert not any(text.startswith(("ALARM", "error")) for text in client.heard)
 
 
 def record() -> None:
