@@ -76,3 +76,10 @@ def csv_of(marks: Iterable[Mark]) -> str:
     rows = [(mark.name, *mark.target, *mark.measured) for mark in marks]
     head = "name,target_x_mm,target_y_mm,measured_x_mm,measured_y_mm"
     return "\n".join([head, *(",".join(map(str, row)) for row in rows)]) + "\n"
+
+
+def read_elsewhere(measurements, index, by):
+    """The measurements with one reading off by some millimetres."""
+    marks = list(measurements.marks)
+    marks[index] = replace(marks[index], measured=tuple(np.add(marks[index].measured, by)))
+    return replace(measurements, marks=tuple(marks))

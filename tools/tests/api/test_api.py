@@ -72,6 +72,7 @@ def test_the_package_loads_its_functions_when_they_are_used():
     assert done.stdout == "False True\n", done.stderr
 
 
+@pytest.mark.slow
 def test_a_type_checker_knows_the_functions(tmp_path):
     program = tmp_path / "program.py"
     program.write_text(

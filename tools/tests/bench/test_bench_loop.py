@@ -29,15 +29,6 @@ def visits_of(layout, **more):
     )
 
 
-def test_the_owner_reads_the_same_machine_on_the_same_sheet():
-    board, owner = board_and_owner()
-    again = owner.with_marks(board, visits_of(plan(3, 3))).measurements.marks
-    assert len(again) == 18
-    for first, second in zip(again[:9], again[9:], strict=True):
-        assert second.measured == pytest.approx(first.measured, abs=1e-6)
-        assert second.approach == first.approach
-
-
 def test_swapped_chains_take_their_pitch_along():
     board, owner = board_and_owner()
     marks = owner.with_marks(board, visits_of(plan(3, 3), swapped=True)).measurements.marks
@@ -54,14 +45,6 @@ def test_a_direct_check_finds_what_is_there():
     names["chain_stretch.compliance"] = MAKER.effect("chain_stretch", "compliance")
     for check in owner.checked(board, [Check(name, 1e-9) for name in names]):
         assert check.value == pytest.approx(names[check.name], abs=1e-8)
-
-
-def test_a_sled_that_cannot_hang_is_refused():
-    board, owner = board_and_owner()
-    visits = visits_of(plan(3, 3))
-    visits.chains[0] = 10.0
-    with pytest.raises(ValueError, match="cannot hang"):
-        owner.with_marks(board, visits)
 
 
 def test_what_is_proposed_is_measured_once_each_round():

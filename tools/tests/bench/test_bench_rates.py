@@ -132,12 +132,6 @@ def numbers(report):
 
 
 @pytest.mark.slow
-def test_the_same_seed_gives_the_same_rates_however_many_programs_run(alone):
-    wanted, report = alone
-    assert numbers(play(wanted, jobs=2)) == numbers(report)
-
-
-@pytest.mark.slow
 def test_a_cluster_of_two_workers_gives_the_same_rates(alone):
     from distributed import LocalCluster
 

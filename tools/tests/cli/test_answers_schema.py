@@ -7,6 +7,7 @@ from pathlib import Path
 import plumb.cli.read as read_command
 import pytest
 from jsonschema import Draft202012Validator as Validator
+from numbers_machine import NumbersMachine
 from plumb.cli.main import COMMANDS, build_parser, main
 from plumb.diary.file import append
 from plumb.vm.practice import Secret
@@ -76,28 +77,14 @@ TELEMETRY = (
 )
 
 
-class Board:
-    """A machine that reports, and lists two numbers."""
+class Board(NumbersMachine):
+    """A machine that reports, lists numbers, and tells how it is doing."""
 
     def __init__(self, _path):
-        self.waiting, self.time = b"", 0.0
+        super().__init__()
 
-    def write(self, characters):
-        if b"$$" in characters:
-            self.waiting = b"$0=2438.4\r\n$1=1219.2\r\nok\r\n"
-        elif b"B30" in characters:
-            self.waiting = TELEMETRY + b"ok\r\n"
-
-    def read(self):
-        self.time += 0.2
-        said, self.waiting = self.waiting, b""
-        return said + b"<Idle,MPos:1.00,-2.50,0.00,WPos:0.000,0.000,0.000>\r\n"
-
-    def seconds(self):
-        return self.time
-
-    def close(self):
-        pass
+    def answer(self, line):
+        return [TELEMETRY.decode().strip()] if line == "B30" else super().answer(line)
 
 
 @pytest.fixture(autouse=True)

@@ -59,6 +59,17 @@ def measure_on_target(form, *, off=0.0):
     Path(form).write_text(re.sub(r"^target = \[(.*)\]", filled, text, flags=re.MULTILINE))
 
 
+KNOWN = ("--sigma", "0.2", "--checked", "tape_scale.strain=0+-0.0001")
+
+
+def without_pitch():
+    """What is believed of a machine whose chains are longer than that, in first.toml."""
+    known = {name: sizes for name, sizes in EFFECTS.items() if name != "chain_pitch"}
+    believed = replace(BELIEVED, effects=known)
+    write_machine_toml("first.toml", believed)
+    return believed
+
+
 @pytest.mark.usefixtures("tried_in_full")
 def test_an_open_question_is_said_with_what_to_measure_and_nothing_is_written(run):
     before = set(Path().iterdir())
@@ -106,12 +117,9 @@ def test_the_printed_commands_lead_to_the_files_and_to_a_second_round(run):
 
 
 def test_a_hidden_effect_is_added_and_the_second_round_starts_from_the_new_machine(run, ask):
-    known = {name: sizes for name, sizes in EFFECTS.items() if name != "chain_pitch"}
-    believed = replace(BELIEVED, effects=known)
-    write_machine_toml("first.toml", believed)
+    believed = without_pitch()
     Path("a.csv").write_text(csv_of(marks_on(TRUE, believed, grid(7, 5), noise=0.2, seed=3)))
-    known = ("--sigma", "0.2", "--checked", "tape_scale.strain=0+-0.0001")
-    code, answer = ask("calibrate", "first.toml", "a.csv", *known, "-o", "second.toml")
+    code, answer = ask("calibrate", "first.toml", "a.csv", *KNOWN, "-o", "second.toml")
     assert code == 0 and answer["done"] and answer["written"] == ["second.toml"]
     assert set(answer["addition"]["effects_added"]) >= {"chain_pitch"}
     believed = read_settings("second.toml")
@@ -122,9 +130,7 @@ def test_a_hidden_effect_is_added_and_the_second_round_starts_from_the_new_machi
 
 
 def test_what_a_hand_must_do_about_a_turned_sheet_stands_beside_the_promise(run):
-    known = {name: sizes for name, sizes in EFFECTS.items() if name != "chain_pitch"}
-    believed = replace(BELIEVED, effects=known)
-    write_machine_toml("first.toml", believed)
+    believed = without_pitch()
     turn = 4.9 / 2438.4
     turned = [
         replace(
@@ -137,28 +143,24 @@ def test_what_a_hand_must_do_about_a_turned_sheet_stands_beside_the_promise(run)
         for mark in marks_on(TRUE, believed, grid(7, 5), noise=0.2, seed=3)
     ]
     Path("a.csv").write_text(csv_of(turned))
-    options = ("--sigma", "0.2", "--checked", "tape_scale.strain=0+-0.0001")
     for command in ("calibrate", "add --effect auto"):
         name, *more = command.split()
-        said = " ".join(run(name, "first.toml", "a.csv", *more, *options)[1].split())
+        said = " ".join(run(name, "first.toml", "a.csv", *more, *KNOWN)[1].split())
         assert re.search(r"lower the right end of the next sheet by 4\.\d+ mm", said), said
 
 
 def test_numbers_of_a_machine_without_a_client_go_there_before_new_marks_are_cut(run):
-    known = {name: sizes for name, sizes in EFFECTS.items() if name != "chain_pitch"}
-    believed = replace(BELIEVED, effects=known)
-    write_machine_toml("first.toml", believed)
+    believed = without_pitch()
     Path("a.csv").write_text(csv_of(marks_on(TRUE, believed, grid(7, 5), noise=0.2, seed=3)))
-    known = ("--sigma", "0.2", "--checked", "tape_scale.strain=0+-0.0001")
-    code, said, _ = run("calibrate", "first.toml", "a.csv", *known)
+    code, said, _ = run("calibrate", "first.toml", "a.csv", *KNOWN)
     assert code == 0 and [words[0] for words in printed(said)] == ["send", "grid", "calibrate"]
     assert printed(said)[0] == ["send", "machine.toml"] and "give --client" in said
-    code, said, _ = run("calibrate", "first.toml", "a.csv", *known, "--client", "none")
+    code, said, _ = run("calibrate", "first.toml", "a.csv", *KNOWN, "--client", "none")
     assert code == 0 and "Open machine-2.nc" in said and printed(said)[0][0] == "grid"
-    _, said, _ = run("add", "first.toml", "a.csv", *known, "--effect", "auto", "-o", "b.toml")
+    _, said, _ = run("add", "first.toml", "a.csv", *KNOWN, "--effect", "auto", "-o", "b.toml")
     assert printed(said) == [["send", "b.toml"]]
     published = ("--effect", "auto", "--firmware", "published", "-o", "c.toml")
-    _, said, _ = run("add", "first.toml", "a.csv", *known, *published)
+    _, said, _ = run("add", "first.toml", "a.csv", *KNOWN, *published)
     assert printed(said) == [] and "Give --client" in said
 
 

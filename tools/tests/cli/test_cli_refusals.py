@@ -9,12 +9,9 @@ BOARD = [str(SETTINGS), str(MARKS)]
 JOB = SETTINGS.parents[4] / "docs/example/pocket.nc"
 EFFECTS = ["--effect", "chain_pitch", "chain_sag"]
 BAD = [
-    ("unknown command", ["diagnoze"], "there is no command 'diagnoze'; did you mean diagnose?"),
     ("no marks", ["compare", SETTINGS], "MARKS"),
-    ("unknown option", ["effects", "--colour"], "there is no option --colour"),
     ("text for a number", ["compare", *BOARD, "--limit", "big"], "--limit"),
     ("a limit below zero", ["compare", *BOARD, "--limit=-1"], "--limit"),
-    ("unknown controller", ["compare", *BOARD, "--controller", "grbl"], "stock"),
     ("settings are missing", ["compare", "none.ini", MARKS], "none.ini: there is no such file"),
     ("marks are missing", ["compare", SETTINGS, "none.csv"], "none.csv: there is no such file"),
     ("marks as settings", ["compare", MARKS, MARKS], "holds marks, not settings"),

@@ -14,7 +14,6 @@ from plumb import _core
 from plumb.firmware.settings import every_setting, machine_of
 from plumb.model.predict import chain_lengths, lengths
 from plumb.settings.files import read_settings
-from project.page_commands import commands_on, run_in
 from synthetic import grid
 
 ROOT = Path(__file__).resolve().parents[3]
@@ -66,16 +65,6 @@ def expect_safe(machine, lines, new, *, old=OLD):
         assert apart(settings, numbers) < NEAR, when
 
 
-def test_what_readme_says_hangs_the_sled_as_it_was_fitted(tmp_path):
-    folder = tmp_path / "reader"
-    folder.mkdir()
-    shown = [each.command for each in commands_on((ROOT / "README.md").read_text())]
-    printed = run_in(folder, shown)
-    assert all(each.code <= 1 for each in printed), printed
-    new = dump_of(folder / "machine-groundcontrol.ini")
-    expect_safe(folder / "machine.toml", folder / "machine.nc", new)
-
-
 def test_files_for_two_firmwares_would_double_and_the_check_sees_it(run, tmp_path):
     ours, published = tmp_path / "ours.toml", tmp_path / "published.toml"
     assert run(*ADD, "-o", ours, "--client", "groundcontrol")[0] == 0
@@ -89,9 +78,11 @@ def test_files_for_two_firmwares_would_double_and_the_check_sees_it(run, tmp_pat
     assert apart(read_settings(ours), mixed) > 3
 
 
-def test_settings_writes_the_same_files_as_add(run, tmp_path):
+def test_what_is_written_hangs_the_sled_as_it_was_fitted_by_settings_as_by_add(run, tmp_path):
     machine = tmp_path / "machine.toml"
     assert run(*ADD, "-o", machine, "--client", "groundcontrol")[0] == 0
+    new = dump_of(tmp_path / "machine-groundcontrol.ini")
+    expect_safe(machine, tmp_path / "machine.nc", new)
     options = ("--to", "gcode", "--client", "groundcontrol", "--original", OLD)
     code, said, _ = run("settings", machine, *options, "-o", tmp_path / "again.nc")
     assert code == 0 and "in place of its groundcontrol.ini" in said

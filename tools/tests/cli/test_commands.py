@@ -12,31 +12,9 @@ import pytest
 from plumb.cli import main
 from plumb.cli.main import COMMANDS, GROUPS, build_parser
 
-FOLDER = Path(main.__file__).parent
 EXAMPLE = Path(__file__).resolve().parents[3] / "docs/example"
-# Files of the room that are no commands.
-SHARED = {
-    "start",
-    "__init__",
-    "addition",
-    "answers",
-    "as_fitted",
-    "arguments",
-    "demo",
-    "followed",
-    "home",
-    "inputs",
-    "main",
-    "output",
-    "screen",
-    "slip",
-}
 # What takes longer to load than the help of all commands may take.
 HEAVY = ("numpy", "scipy", "matplotlib")
-
-
-def test_each_file_is_a_command_or_shared():
-    assert {path.stem for path in FOLDER.glob("*.py")} == set(COMMANDS) | SHARED
 
 
 @pytest.mark.parametrize("name", COMMANDS)
@@ -73,12 +51,6 @@ def test_help_lists_the_commands_in_the_order_of_the_table():
     assert listed == [*COMMANDS]
     titles = [line[:-1] for line in lines if line.endswith(":") and not line.startswith("usage")]
     assert titles == [*GROUPS, "options"]
-
-
-def test_plumb_alone_shows_the_help(run, capsys):
-    with pytest.raises(SystemExit) as end:
-        run()
-    assert end.value.code == 0 and "first day:" in capsys.readouterr().out
 
 
 def test_help_of_all_and_refusals_of_commands_load_no_numerics():

@@ -54,24 +54,6 @@ def test_a_wrong_word_is_answered_by_the_nearest_right_one(words, said, run):
     assert said in complaint
 
 
-def test_ctrl_c_is_quiet_while_modules_load():
-    early = "import plumb.cli.start, os; os.kill(os.getpid(), 2); import time; time.sleep(9)"
-    late = (
-        "import sys, plumb.cli.start as door, plumb.cli.output as output; "
-        "output.refuse_stale = lambda: __import__('os').kill(__import__('os').getpid(), 2); "
-        "sys.exit(door.start())"
-    )
-    for code in (early, late):
-        with INTERRUPTIBLE([sys.executable, "-c", code], stderr=subprocess.PIPE) as process:
-            _, complaint = process.communicate()
-        assert (process.returncode, complaint) == (-signal.SIGINT, b"")
-
-
-def test_little_is_loaded_before_ctrl_c_is_quiet():
-    code = "import sys, plumb.cli.start; print({'typing', 're', 'argparse'} & {*sys.modules})"
-    assert subprocess.check_output([sys.executable, "-S", "-c", code], cwd=TOOLS) == b"set()\n"
-
-
 def test_the_command_is_quiet_before_it_looks_for_its_package(tmp_path):
     (tmp_path / "plumb/cli").mkdir(parents=True)
     (tmp_path / "plumb/__init__.py").write_text("import os, time; os.kill(os.getpid(), 2)\n")

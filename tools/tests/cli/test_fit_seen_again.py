@@ -10,7 +10,6 @@ from plumb.cli.main import main
 from plumb.grid.cut_with import KEYS
 from plumb.settings.files import read_settings
 from plumb.settings.ini import SOURCES
-from plumb.settings.toml import machine_toml
 
 EXAMPLE = Path(__file__).resolve().parents[3] / "docs/example"
 
@@ -98,19 +97,6 @@ def test_marks_of_unknown_settings_are_asked_about(fitted, ask, run):
     Path("chains.toml").write_text(chains)
     assert run("compare", "machine.toml", "chains.toml")[0] == 0
     assert run("compare", "groundcontrol.ini", "second.toml")[0] == 0
-
-
-def test_the_record_comes_back_bit_for_bit(fitted, tmp_path):
-    machine = read_settings("machine.toml")
-    text = machine_toml(machine)
-    Path("again.toml").write_text(text)
-    assert read_settings("again.toml").fitted == machine.fitted
-    record = machine.fitted
-    assert [board.marks for board in record.boards] == ["marks.toml"]
-    board = record.boards[0]
-    assert board.cut_with == read_settings("groundcontrol.ini")
-    assert board.cut_with.file == read_settings("groundcontrol.ini").file
-    assert record.effects == ("chain_pitch",) and round(record.rms, 2) == fitted
 
 
 @pytest.mark.parametrize(

@@ -23,9 +23,6 @@ def _no_screen(monkeypatch):
     "command",
     [
         ("grid", "--settings", INI, "--details"),
-        ("compare", INI, MARKS),
-        ("diagnose", INI, MARKS),
-        ("next", INI, MARKS),
         ("add", INI, MARKS, "--effect", "auto", "--patch"),
         ("add", INI, MARKS, "--effect", "sprocket_runout", "frame_flex"),
         ("effects",),

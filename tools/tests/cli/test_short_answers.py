@@ -77,7 +77,7 @@ def verdict_of(lines):
 
 
 @pytest.mark.parametrize(("board", "command"), EACH)
-def test_an_answer_fits_a_screen_and_ends_with_its_verdict(board, command, run):
+def test_an_answer_fits_a_screen_ends_with_its_verdict_and_details_say_more(board, command, run):
     lines = answer(run, board, command)
     plain = [ESCAPE.sub("", line) for line in lines]
     assert len(plain) <= SCREEN and max(map(len, plain)) <= 80, "\n".join(plain)
@@ -91,15 +91,10 @@ def test_an_answer_fits_a_screen_and_ends_with_its_verdict(board, command, run):
     assert not NOT_A_MAKERS.search(said), NOT_A_MAKERS.search(said)
     names = "|".join(map(re.escape, [*effect_names(), *parameter_words()]))
     assert not re.search(rf"\((?:{names})\)", said)
-
-
-@pytest.mark.parametrize(("board", "command"), EACH)
-def test_details_say_more_and_end_alike(board, command, run):
-    short, long = (answer(run, board, (*command, *more)) for more in ((), ("--details",)))
-    assert len(long) > len(short)
-    assert verdict_of(long)[1][-1] == verdict_of(short)[1][-1] or command[0] == "calibrate"
-    names = "|".join(effect_names())
-    assert not re.search(rf"\((?:{names})\)", "\n".join(long))
+    long = answer(run, board, (*command, "--details"))
+    assert len(long) > len(lines)
+    assert verdict_of(long)[1][-1] == behind[-1] or command[0] == "calibrate"
+    assert not re.search(rf"\((?:{'|'.join(effect_names())})\)", "\n".join(long))
 
 
 @pytest.mark.parametrize(

@@ -27,15 +27,3 @@ def test_places_and_lengths_of_a_command_are_the_same_in_inches():
     assert length('1/32"') == pytest.approx(0.79375)
     hole, shown = touch("-36in,10in:-35 7/8in,254")
     assert hole == pytest.approx((-914.4, 254)) and shown == pytest.approx((-911.225, 254))
-
-
-@pytest.mark.parametrize("typed", ["0", "-1in", "3/4", "nan", "abc"])
-def test_what_is_no_length_above_zero_is_refused_with_an_example(typed):
-    with pytest.raises(argparse.ArgumentTypeError, match="is not a length above zero, like 100"):
-        length(typed)
-
-
-@pytest.mark.parametrize("typed", ["4in", "1,2,3", "3/4,1", "nan,0"])
-def test_what_is_no_place_is_refused_with_an_example(typed):
-    with pytest.raises(argparse.ArgumentTypeError, match="is not X,Y, like 100,-50"):
-        place(typed)

@@ -26,15 +26,6 @@ def test_places_from_the_corner_are_shown_from_the_corner(run):
     assert "from the sheet's top left corner, x right, y down" in " ".join(said.split())
 
 
-@pytest.mark.parametrize("command", ["compare", "calibrate"])
-def test_inches_on_request(command, run):
-    said = " ".join(run(command, INI, MARKS, "--units", "inch", "--details")[1].split())
-    assert "The marks lie 0.351 inch RMS" in said and "The worst is mark 3: 0.481 inch" in said
-    assert "by x +0.079, y +0.315 inch" in said
-    if command == "compare":
-        assert "1 3.94 3.94 3.86 4.17 -0.078 +0.236" in said and "All in inch" in said
-
-
 def test_what_was_typed_in_inches_is_shown_in_inches_unless_mm_are_asked_for(run, tmp_path):
     marks = tmp_path / "marks.toml"
     places = [(5, 5), (48, 24), (90, 40)]

@@ -48,6 +48,9 @@ def test_a_command_that_went_says_what_does_it_now(run, name):
         ((EXAMPLE / "machine.toml").read_bytes(), "holds settings of a machine; give a program"),
         (b'<?xml version="1.0"?>\n<svg/>', "holds a drawing or a page, not a program; let a CAM"),
         (b"  0\nSECTION\n  2\nHEADER\n", "holds a drawing (DXF), not a program; let a CAM"),
+        (b'{"Maslow Settings": [{"key": "bedWidth"}]}', "holds settings of WebControl"),
+        (b'{"a": 1}', "holds JSON, not a program"),
+        (b"\nhello world\n", "line 2: is no G-code (a number is missing behind H)"),
         (b"# A page\n", "line 1: is no G-code (this begins no word: #)"),
     ],
 )

@@ -33,30 +33,6 @@ def measured(inputs, sent, offsets):
     return Measurements(marks, rounds=(Round(cut_with=inputs.settings),))
 
 
-def test_places_are_on_the_sheet_and_far_from_marks_that_were_fitted(inputs, sent):
-    width, height = inputs.settings.sheet
-    known = inputs.measurements.targets
-    assert len(sent) == 2
-    assert np.all(np.abs(sent) < [width / 2, height / 2])
-    gaps = np.linalg.norm(sent[:, np.newaxis] - known, axis=2).min(axis=1)
-    assert gaps.min() > 200
-    assert np.linalg.norm(sent[0] - sent[1]) > 200
-
-
-def test_marks_where_they_should_be_hold(inputs, sent):
-    result = check_marks(inputs, measured(inputs, sent, [[0.3, -0.2], [0.0, 0.4]]))
-    assert result.holds
-    assert [mark.is_within for mark in result.marks] == [True, True]
-    assert [mark.off for mark in result.marks] == pytest.approx([0.36, 0.4], abs=0.02)
-
-
-@pytest.mark.parametrize("offset", [[3.0, 0.0], [0.0, -3.0]])
-def test_a_mark_far_off_is_named(inputs, sent, offset):
-    result = check_marks(inputs, measured(inputs, sent, [[0, 0], offset]))
-    assert not result.holds
-    assert [mark.is_within for mark in result.marks] == [True, False]
-
-
 def test_99_of_100_honest_checks_hold(inputs, sent):
     random = np.random.default_rng(7)
     base = check_marks(inputs, measured(inputs, sent, [[0, 0], [0, 0]]))

@@ -36,16 +36,3 @@ def test_a_size_held_where_the_fit_put_it_leaves_the_same_errors(inputs, effect)
     np.testing.assert_allclose(held.errors, free.errors, atol=1e-4)
     assert not any(name.startswith(effect) for name in sizes(held))
     assert held.spent < free.spent - 0.5
-
-
-def test_a_size_held_by_hand_stays_and_the_rest_makes_the_best_of_it(inputs):
-    held = {"chain_pitch.left": 0.002}
-    result = add(inputs, effects=["chain_pitch"], held=held)
-    assert result.settings.effects["chain_pitch"]["left"] == 0.002
-    assert "chain_pitch.right" in sizes(result.after_fit)
-    assert result.after.fit_rms > add(inputs, effects=["chain_pitch"]).after.fit_rms
-
-
-def test_a_size_that_no_setting_holds_can_be_held_too(inputs):
-    result = add(inputs, effects=["tape_scale"], held={"tape_scale.strain": 0.003})
-    assert result.after_fit.lab_effects == {"tape_scale": {"strain": 0.003}}

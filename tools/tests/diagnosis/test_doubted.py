@@ -7,17 +7,11 @@ import pytest
 from plumb.diagnosis.readings import doubted_readings
 from plumb.fit.inputs import Inputs
 from plumb.marks.read import Mark, Measurements
-from synthetic import BELIEVED, distances_between, grid, marks_on
+from synthetic import BELIEVED, distances_between, grid, marks_on, read_elsewhere
 
 
 def board(columns=5, rows=3):
     return Measurements(marks_on(BELIEVED, BELIEVED, grid(columns, rows), noise=0.3))
-
-
-def read_elsewhere(measurements, index, offset):
-    marks = list(measurements.marks)
-    marks[index] = replace(marks[index], measured=tuple(np.add(marks[index].measured, offset)))
-    return replace(measurements, marks=tuple(marks))
 
 
 def doubts(measurements, **how):

@@ -13,7 +13,6 @@ from plumb.diagnosis.evidence import (
     Noises,
     accounts_of,
     fitted,
-    log_orthant,
     outlier_weights,
 )
 from plumb.diagnosis.explanation import explain, measured_board
@@ -112,17 +111,6 @@ def test_settings_that_have_a_pitch_have_no_usual_drift(known):
     marks = cut(Hidden(((causes_of("sled_swing")[0], 2.0),)), plan(3, 3), seed=4).measurements
     board = measured_board(Inputs(settings, marks))
     assert not size_priors(board, board.columns(["chain_pitch"])).pitch.any()
-
-
-def test_signs_that_rule_an_account_out_cost_as_much_as_they_should():
-    """What presses hard against its edge is taken first: it moves the others most."""
-    spread = np.array([1.0, 0.4, 0.7])
-    alike = np.array([[1.0, -0.8, 0.3], [-0.8, 1.0, -0.1], [0.3, -0.1, 1.0]])
-    covariance = alike * np.outer(spread, spread)
-    for mean in ([0.5, -2.0, 0.2], [-3.0, 0.1, 0.5], [2.0, -1.5, -1.0]):
-        normal = scipy.stats.multivariate_normal(-np.array(mean), covariance, seed=1)
-        mass = log_orthant(np.array(mean)[:, np.newaxis], covariance[:, :, np.newaxis])
-        assert mass[0] == pytest.approx(np.log(normal.cdf(np.zeros(3))), abs=0.4)
 
 
 def test_the_evidence_of_a_reading_that_is_off_is_that_of_a_shift_of_its_rows():

@@ -9,22 +9,16 @@ from plumb.bench.causes import MAKER, Hidden, causes_of
 from plumb.diagnosis import diagnose
 from plumb.fit.inputs import Inputs
 from plumb.marks.read import Measurements, Round
+from synthetic import read_elsewhere
 
 PITCH, STRETCH = causes_of("chain_pitch")[1], causes_of("chain_stretch")[0]
 TWO = Hidden(((PITCH, 1.5), (STRETCH, 1.5)))
 
 
-def with_slip(measurements, index, by):
-    """The measurements with one reading off by some millimetres."""
-    marks = list(measurements.marks)
-    marks[index] = replace(marks[index], measured=tuple(np.add(marks[index].measured, by)))
-    return replace(measurements, marks=tuple(marks))
-
-
 @pytest.mark.parametrize("length", [5.0, 10.0, 30.0])
 def test_two_hidden_effects_hide_no_slip(length):
     board = cut(TWO, plan(5, 5), seed=11, noise=0.4, tape_sigma=0.4)
-    slipped = with_slip(board.measurements, 6, (0.6 * length, 0.8 * length))
+    slipped = read_elsewhere(board.measurements, 6, (0.6 * length, 0.8 * length))
     diagnosis = diagnose(Inputs(MAKER, slipped))
     assert diagnosis.verdict == "slip"
     assert [slip.name for slip in diagnosis.outliers] == [slipped.marks[6].name]
@@ -42,7 +36,7 @@ def test_a_bump_of_several_marks_is_no_slip():
 
 def test_what_a_later_round_confirms_is_the_machine():
     board = cut(Hidden(), plan(5, 5), seed=2, noise=0.4, tape_sigma=0.4)
-    slipped = with_slip(board.measurements, 7, (5.0, 0.0))
+    slipped = read_elsewhere(board.measurements, 7, (5.0, 0.0))
     assert diagnose(Inputs(MAKER, slipped)).verdict == "slip"
     seen = tuple(np.add(slipped.marks[7].measured, (0.3, -0.2)))
     again = replace(slipped.marks[7], measured=seen, round=1)

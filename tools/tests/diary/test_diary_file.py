@@ -1,6 +1,5 @@
 """The diary's file: entries are only added, a cut line is noticed, and writers wait."""
 
-import os
 import subprocess
 import sys
 from datetime import UTC, datetime
@@ -93,22 +92,6 @@ def test_two_writers_lose_nothing(tmp_path):
         mine = [entry.content["i"] for entry in diary.entries if entry.content["of"] == name]
         assert mine == list(range(25))
     assert diary.spoilt == ()
-
-
-def test_a_writer_waits_until_the_other_has_finished(tmp_path):
-    import fcntl
-
-    append(tmp_path, "fit", {"number": 0})
-    handle = os.open(tmp_path / NAME, os.O_RDWR | os.O_APPEND)
-    fcntl.flock(handle, fcntl.LOCK_EX)
-    program = "import sys; from plumb.diary.file import append; append(sys.argv[1], 'fit', {})"
-    writer = subprocess.Popen([sys.executable, "-c", program, tmp_path])
-    with pytest.raises(subprocess.TimeoutExpired):
-        writer.wait(timeout=1.5)
-    assert len(read_diary(tmp_path).entries) == 1
-    os.close(handle)
-    assert writer.wait(timeout=120) == 0
-    assert len(read_diary(tmp_path).entries) == 2
 
 
 def test_a_folder_that_takes_no_file_is_named(tmp_path):

@@ -52,22 +52,6 @@ def machine(tmp_path_factory):
     return settings, read_diary(folder)
 
 
-@pytest.mark.slow
-def test_an_unchanged_machine_is_within_its_interval_ninety_nine_times_of_a_hundred(tmp_path):
-    source, holds, sizes = np.random.default_rng(5), [], []
-    for seed in range(1, 41):
-        folder = tmp_path / str(seed)
-        folder.mkdir()
-        settings = fitted_to(seed, folder)
-        for _ in range(5):
-            noise = NOISE * source.standard_normal(AT.shape)
-            checked = recheck(read_diary(folder), settings, touched(settings, noise=noise))
-            holds.append(checked.holds)
-            sizes.append(checked.chi_square)
-    # Neither too wide nor too narrow: chi-square of four numbers has the mean 4.
-    assert np.mean(holds) >= 0.965 and 3.2 < np.mean(sizes) < 4.8
-
-
 @pytest.mark.parametrize("turn", [0.004, -0.004])
 def test_a_turned_sheet_is_no_change_of_the_machine(tmp_path, turn):
     settings = fitted_to(1, tmp_path, turn=turn)

@@ -9,7 +9,7 @@ from plumb.fit.compare import compare
 from plumb.fit.covariates import covariates
 from plumb.fit.inputs import Inputs
 from plumb.fit.observations import observe
-from plumb.marks.read import Distance, Mark, Measurements
+from plumb.marks.read import Mark, Measurements
 from plumb.model.predict import lengths, values_of
 from synthetic import BELIEVED, TRUE, grid, marks_on
 
@@ -52,14 +52,6 @@ def test_it_is_what_compare_says():
     view = chain_view(values_of(BELIEVED), {}, observe(BELIEVED, marks), BELIEVED)
     assert view.chains == pytest.approx(np.array(said))
     assert view.errors == pytest.approx(np.array([mark.error for mark in compared]))
-
-
-def test_distances_alone_have_no_chain_view():
-    marks = (Mark("A", (0.0, 0.0)), Mark("B", (500.0, 0.0)))
-    rows = observe(BELIEVED, Measurements(marks, (Distance(("A", "B"), 500.0),)))
-    view = chain_view(values_of(BELIEVED), {}, rows, BELIEVED)
-    assert view.chains.shape == (0, 2)
-    assert known(rows)["tension"].values.shape == (2, 2)
 
 
 def test_a_straight_chain_closes_the_triangle():

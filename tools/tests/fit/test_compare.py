@@ -44,14 +44,6 @@ def test_the_error_is_measured_less_predicted():
     assert comparison.shape_rms is None and comparison.shift is None
 
 
-def test_a_residual_is_the_chain_that_was_missing():
-    # Measured right of its target: the left chain was longer, the right chain shorter.
-    comparison = compare(Inputs(BELIEVED, Measurements((Mark("1", (0.0, 0.0), (1.0, 0.0)),))))
-    (mark,) = comparison.marks
-    assert mark.left_chain_residual == pytest.approx(0.81, abs=0.03)
-    assert mark.right_chain_residual == pytest.approx(-0.81, abs=0.03)
-
-
 def test_the_shape_forgets_shift_and_turn_and_nothing_else():
     places = grid(4, 3)
     cosine, sine = np.cos(0.1), np.sin(0.1)

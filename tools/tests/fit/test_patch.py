@@ -10,11 +10,9 @@ from plumb.bench.causes import MAKER
 from plumb.cure.add import add
 from plumb.cure.decision import decide
 from plumb.fit.compare import compare
-from plumb.fit.covariates import PATCH, SIZES
+from plumb.fit.covariates import PATCH
 from plumb.fit.inputs import Inputs
 from plumb.model.catalogue import effect_names, parameter_names
-from plumb.settings.files import read_settings
-from plumb.settings.toml import machine_toml
 from plumb.text.errors import InputError
 
 WIDE = plan(7, 5)
@@ -78,18 +76,3 @@ def test_it_is_never_a_suspect_and_never_named_as_an_effect():
     assert PATCH not in effect_names() and len(parameter_names(PATCH)) == 18
     with pytest.raises(InputError, match="--patch"):
         add(Inputs(MAKER, board({}, plan(5, 5), seed=1)), effects=[PATCH])
-
-
-def test_it_goes_into_the_machine_and_comes_back(tmp_path):
-    strange = board({}, plan(5, 5), seed=8, bump=3.0)
-    fitted = add(Inputs(MAKER, strange, sigma=0.5), effects=(), patch=True)
-    path = tmp_path / "machine.toml"
-    path.write_text(machine_toml(fitted.settings))
-    again = read_settings(
-        path,
-        known={PATCH: [n.partition(".")[2] for n in parameter_names(PATCH)]}
-        | {name: list(sizes) for name, sizes in fitted.settings.effects.items()},
-    )
-    for name, value in fitted.settings.effects[PATCH].items():
-        assert again.effect(PATCH, name) == pytest.approx(value, rel=1e-6)
-        assert abs(value) < 4 * max(SIZES)

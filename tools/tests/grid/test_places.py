@@ -35,12 +35,6 @@ def test_places_that_cannot_be_are_refused(words, hint, capsys):
     assert code == 2 and said == "" and hint in complaint
 
 
-def test_places_are_no_preset(capsys):
-    with pytest.raises(SystemExit, match="2"):
-        main(["--places=0,0", "--preset", "nine"])
-    assert "--preset: not allowed with argument --places" in capsys.readouterr().err
-
-
 def test_a_form_waits_for_sides_diagonals_and_halves(tmp_path, capsys):
     form, cut = tmp_path / "form.toml", tmp_path / "cut.nc"
     words = ["--preset", "distances", "--marks", str(form), "--output", str(cut)]

@@ -188,20 +188,6 @@ def test_a_part_comes_out_as_expected(file, corner):
         assert abs(part.width_error.mm) < 0.35
 
 
-def test_more_marks_leave_less_open():
-    settings = read_settings(SETTINGS)
-    inputs = example_inputs(settings)
-    few = replace(
-        inputs, measurements=replace(inputs.measurements, marks=inputs.measurements.marks[:8])
-    )
-    part = check_job(settings, square(0, 0, 300)).parts
-    within = [
-        with_errors(Believed.of(each), settings, part)[0].width_error.within
-        for each in (few, inputs)
-    ]
-    assert within[1] < within[0]
-
-
 def test_the_outline_goes_round_everything_above_the_sheet():
     checked = check_job(MAKER, ["G0 Z8", "G0 X10", *square(100, 50, 40), "G0 X0 Y0"])
     program = outline_of(checked.done.moves, checked.samples, name="a (b).nc").splitlines()

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from plumb.bench.causes import MAKER
+from plumb.firmware.telemetry import telemetry_in
 from plumb.job.dry_run import Run, pieces
 from scipy.spatial import cKDTree
 from workshop import NAMES, PROGRAMS, Workshop, lines_of, run_dry
@@ -14,6 +15,8 @@ APART = 0.35  # [mm] between the cut and the way of the dry run; steps of 0.1 mm
 def test_time_and_cut_are_those_of_the_virtual_machine(name):
     workshop = Workshop()
     took = workshop.cut(lines_of(name))
+    telemetry = telemetry_in("\n".join(workshop.sender.ask("B30")))
+    assert (telemetry.slips, telemetry.last_slip) == ((0, 0), None), "no chain seems to slip"
     done = run_dry(lines_of(name))
     assert done.seconds == pytest.approx(took, rel=0.005)
     assert done.halted_at is None and not done.refused

@@ -131,16 +131,3 @@ def test_a_lost_position_is_back_with_the_bit_in_the_hole(seed):
     status = workshop.sender.status
     shown = np.array(status.place[:2]) - missed
     assert home_fit(MAKER, marks["right"], tuple(shown)).fits
-
-
-def test_a_chain_that_slipped_after_that_does_not_fit():
-    workshop = Workshop(5)
-    mark = new_home_mark(MAKER, "right", RIGHT)
-    workshop.send(*hole_program(mark))
-    hole = marks_on(workshop.machine.cuts())[0]
-    workshop.machine.slip("left", 6.35)
-    missed = workshop.place_at(*RIGHT) - hole
-    fit = home_fit(MAKER, mark, tuple(np.array(RIGHT) - missed))
-    assert not fit.fits
-    # The machine believes in a link less of the left chain than there is.
-    assert fit.chains == pytest.approx((6.35, 0.0), abs=0.7)

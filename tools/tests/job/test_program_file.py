@@ -1,17 +1,14 @@
 """Files that hold no program are refused before any line is sent, each with a fitting line."""
 
-import json
 from pathlib import Path
 
 import plumb.cli.send as send_command
 import pytest
 from plumb.cli.main import main
 from plumb.job.dry_run import refuse_what_is_no_program
-from plumb.text.errors import InputError
 
 ROOT = Path(__file__).parents[3]
 EXAMPLE = ROOT / "docs/example"
-WEBCONTROL = json.dumps({"Maslow Settings": [{"key": "bedWidth", "value": 2438.4}]}, indent=1)
 NUMBERS = "numbers are sent from a machine.toml"
 CODE = "give a program of G-code"
 
@@ -43,22 +40,6 @@ def test_what_holds_no_program_is_refused_before_the_line_is_opened(name, said, 
     path = EXAMPLE / name
     assert main(["send", "--port", "USB", str(path)]) == 2
     assert capsys.readouterr().err == f"plumb: {path}: {said}\n"
-
-
-@pytest.mark.parametrize(
-    ("text", "said"),
-    [
-        (WEBCONTROL, f"holds settings of WebControl, not a program; {NUMBERS}"),
-        ('{"a": 1}', "holds JSON, not a program"),
-        ("; marks\n[global]\nnumpositions = 9\n", "holds marks, not a program"),
-        ("(a list)\n# Jobs\n", r"line 2: is no G-code \(this begins no word: #\)"),
-        ("\nhello world\n", r"line 2: is no G-code \(a number is missing behind H\)"),
-        ("comport = COM3\n", r"line 1: is no G-code \(there is no such code: O\)"),
-    ],
-)
-def test_a_text_that_is_no_program_says_what_it_is(text, said):
-    with pytest.raises(InputError, match=f"^job: .*{said}|^job, {said}"):
-        refuse_what_is_no_program("job", text)
 
 
 @pytest.mark.parametrize("text", ["%\nG21\n", "G5 X1\n", "G1 X1\n", "B05\n", "$$\n", "; nothing\n"])

@@ -1,17 +1,13 @@
 """A lab that is served, and a browser that looks at it."""
 
-import threading
 from contextlib import contextmanager, suppress
 from urllib.parse import urljoin
 
 import pytest
 from asked_again import asked_again  # noqa: F401
 from folder import with_settings
-from journeys import Garage
+from garage_at_port import Garage
 from playwright.sync_api import Error, expect
-from plumb.vm.garage import hide, random_garage
-from plumb.vm.owner import VirtualOwner
-from plumb.vm.pseudo_terminal import Pace, PseudoTerminal
 from served_lab import SharedLab
 
 BUSY_MS = 120_000  # of a busy computer
@@ -94,34 +90,16 @@ def fresh_page(browser):
 
 
 @pytest.fixture
-def cable_machine():
-    """The virtual machine of the cable."""
-    owner = VirtualOwner(random_garage(hide([], millimetres=3, seed=1), 1))
-    owner.switch_on()
-    owner.machine.advance(10_000)
-    return owner.machine
-
-
-@pytest.fixture
-def cable(cable_machine):
-    """A virtual machine at a serial port, whose cable can be pulled."""
-    terminal, pace, pulled = PseudoTerminal(cable_machine), Pace(20), threading.Event()
-
-    def serve():
-        while not pulled.is_set():
-            terminal.pass_time(pace.due())
-        terminal.close()
-
-    thread = threading.Thread(target=serve)
-    thread.start()
-    yield terminal.path, pulled
-    pulled.set()
-    thread.join()
+def cable():
+    """A virtual machine at a serial port, whose cable can be pulled; it hurries at rest too."""
+    garage = Garage(20, at_rest=20)
+    yield garage
+    garage.pull_out()
 
 
 @pytest.fixture
 def garage():
-    """A machine at a serial port, with an effect hidden in it, its sheet and a tape."""
+    """A machine at a serial port, and its sheet."""
     garage = Garage()
     yield garage
     garage.pull_out()

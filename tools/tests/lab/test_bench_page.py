@@ -8,11 +8,8 @@ import tomllib
 
 import plumb.lab.rounds
 import pytest
-from folder import EXAMPLE, asked, finished, got, with_marks
+from folder import EXAMPLE, got, with_marks
 from playwright.sync_api import expect
-from plumb.cure.decision import decide
-from plumb.lab.project import Project
-from plumb.lab.rounds import inputs_of
 from plumb.marks.read import read_marks
 from screens import at_rest, measured_machine
 
@@ -160,15 +157,3 @@ def test_a_distance_in_doubt_is_ringed_and_makes_no_other_line_thinner(lab, page
     expect(page.locator(".taped-errors tr.doubted")).to_contain_text("3 and 4")
     widths = [float(each.get_attribute("stroke-width")) for each in page.locator(LINES).all()]
     assert sorted(widths)[-1] == 12 and sorted(widths)[6] > 4
-
-
-def test_verdict_and_bench_ask_the_same_fit(tmp_path):
-    """Of distances alone; of marks, test_same_numbers.py knows."""
-    taped(tmp_path)
-    with asked(tmp_path) as client:
-        _, *fitted = finished(client, "verdict")["verdict"]["states"]
-        chosen = [[], list(decide(inputs_of(Project(tmp_path))).chosen)]
-        for state, effects in zip(fitted, chosen, strict=False):
-            fit = got(client.post("/api/bench/fit", json={"effects": effects}))
-            for figure in ("fit_rms", "noise_rms"):
-                assert fit[figure] == pytest.approx(state[figure], abs=1e-4), effects

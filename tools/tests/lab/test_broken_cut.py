@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 
 import pytest
 from folder import got, until
-from journeys import SPEED, Person
+from garage_at_port import SPEED
 from lab_machine import PATIENCE, bar, start_virtual
 from playwright.sync_api import expect
 from plumb.lab.broken_cut import begin, go_on, how_far, rest_of
@@ -113,7 +113,7 @@ def test_check_marks_that_broke_off_are_asked_for_too(lab, page):
     expect(page.get_by_text("The machine may have cut marks 1 and 2 too.")).to_be_visible()
 
 
-def test_a_stopped_cut_goes_on_from_the_next_mark(lab, page):
+def test_hold_waits_and_a_stopped_cut_goes_on_from_the_next_mark(lab, page):
     start_virtual(page, lab, speed=10)
     page.goto(f"{lab.site}#/cut")
     page.get_by_role("button", name="Move the sled and cut 9 marks").click()
@@ -121,6 +121,14 @@ def test_a_stopped_cut_goes_on_from_the_next_mark(lab, page):
         timeout=PATIENCE
     )
     with lab.client() as client:  # on its way to the next mark
+        got(client.post("/api/machine/speed", json={"speed": 1}))  # so that it still cuts then
+        page.keyboard.press("Escape")
+        go_on = bar(page).get_by_role("button", name="Go on")
+        go_on.wait_for(timeout=PATIENCE)
+        got(client.post("/api/machine/speed", json={"speed": 10}))
+        until(client, lambda machine: machine["holds"] and not machine["moves"])
+        expect(bar(page)).to_contain_text("holds")
+        go_on.click()
         until(client, lambda machine: machine["moves"] and machine["place"][2] > 3)
     bar(page).get_by_role("button", name="Stop").click()
     expect(page.get_by_text(re.compile("Cut [2-5] of 9 marks, then it broke off"))).to_be_visible()
@@ -161,11 +169,11 @@ def test_no_mark_is_cut_twice_after_the_lab_died_in_a_cut(lab, page, garage):
 
 def test_a_cut_whose_line_was_lost_goes_on_once_the_machine_knows_its_chains(lab, page, garage):
     """Nothing is typed in that nobody measured; what the machine last knew is offered as that."""
-    person = Person(page, lab)
-    person.connect(garage.path)
-    person.go_to("Cut")
-    person.press("^Move the sled and cut 9 marks$")
     with lab.client() as client:
+        connect(client, garage)
+        got(client.post("/api/machine/settings"))
+        page.goto(f"{lab.url}#/cut")
+        page.get_by_role("button", name="Move the sled and cut 9 marks").click()
         until(client, lambda machine: garage.marks >= 3)
         garage.run_at(1)
         until(client, lambda machine: machine["moves"] and machine["place"][2] > 3)
@@ -217,33 +225,3 @@ def go_on_from(page, marks, there):
     expect(go_on).to_have_text(f"Go on: move the sled and cut from mark {marks[there]['name']}")
     go_on.click()
     expect(page.get_by_text("All marks are cut.")).to_be_visible(timeout=PATIENCE)
-
-
-def set_speed(lab, speed):
-    """Let the lab's virtual machine run this many times as fast as a real machine."""
-    got(lab.client().post("/api/machine/speed", json={"speed": speed}))
-
-
-def test_hold_waits_and_stop_gives_up_and_cutting_again_is_read_rightly(lab, page):
-    start_virtual(page, lab, speed=10)
-    page.goto(f"{lab.site}#/cut")
-    cut = page.get_by_role("button", name="Move the sled and cut 9 marks")
-    cut.click()
-    bar(page).get_by_text(re.compile(r"runs grid.nc: \d+ of")).wait_for(timeout=PATIENCE)
-    set_speed(lab, 1)  # so that it still cuts when a busy page presses Hold
-    page.keyboard.press("Escape")
-    go_on = bar(page).get_by_role("button", name="Go on")
-    go_on.wait_for(timeout=PATIENCE)
-    set_speed(lab, 10)
-    with lab.client() as client:  # the last move comes to its end
-        until(client, lambda machine: machine["holds"] and not machine["moves"])
-    expect(bar(page)).to_contain_text("holds")
-    go_on.click()
-    bar(page).get_by_role("button", name="Stop").click()
-    page.get_by_text("then it broke off").wait_for(timeout=PATIENCE)
-    set_speed(lab, 1000)
-    cut.click()  # which waits until it is enabled
-    page.get_by_text("All marks are cut.").wait_for(timeout=PATIENCE)
-    page.get_by_role("button", name="Let a tape read the 9 marks").click()
-    page.get_by_role("link", name="7 Verdict").wait_for()
-    assert (lab.folder / "marks.toml").read_text().count("\nmeasured = [") == 9

@@ -18,11 +18,11 @@ PATIENCE = 300_000  # [ms] of a busy computer
 JUDGED = ".judged"
 
 
-def with_fitted_machine(lab):
-    """The lab's folder with the example's machine after a correction."""
+def fitted_machine(folder):
+    """A folder with the example's machine after a correction."""
     for name in ("machine.toml", "marks.toml", "groundcontrol.ini"):
-        shutil.copy(EXAMPLE / name, lab.folder)
-    (lab.folder / "lab.json").write_text('{"settings": "machine.toml", "marks": ["marks.toml"]}')
+        shutil.copy(EXAMPLE / name, folder)
+    return chosen(folder)
 
 
 def type_off(page, mark, x, y):
@@ -39,7 +39,7 @@ def where(page):
 
 
 def test_two_check_marks_hold_then_miss_and_others_are_planned(lab, page):
-    with_fitted_machine(lab)
+    fitted_machine(lab.folder)
     page.goto(f"{lab.url}#/check")
     page.get_by_role("button", name="Write check.nc and its form").click(timeout=PATIENCE)
     page.get_by_label("Mark 2 from the left, mm").wait_for(timeout=PATIENCE)
@@ -116,27 +116,7 @@ FORM = "check.toml"
 
 @pytest.fixture
 def client(tmp_path):
-    for name in ("machine.toml", "marks.toml", "groundcontrol.ini"):
-        shutil.copy(EXAMPLE / name, tmp_path)
-    (tmp_path / "lab.json").write_text('{"settings": "machine.toml", "marks": ["marks.toml"]}')
-    return asked(tmp_path)
-
-
-def test_planned_cut_read_and_judged(client, tmp_path):
-    plan = got(client.get("/api/check"))
-    assert (plan["is_saved"], len(plan["places"]), plan["sentence"]) == (False, 2, "")
-    assert not (tmp_path / "check.toml").exists()
-    got(client.post("/api/check"))
-    assert 'cut_with = "machine.toml"' in (tmp_path / "check.toml").read_text()
-    assert "G1" in (tmp_path / "check.nc").read_text()
-    assert got(client.get("/api/check"))["places"] == plan["places"]
-    type_in(client, FORM, (0.3, 0.1), (-0.2, 0.4))
-    good = got(client.get("/api/check"))
-    assert good["holds"] and good["sentence"].startswith("Promised: within 1.")
-    assert "off from what was promised by 0." in good["sentence"]
-    type_in(client, FORM, (0.3, 0.1), (-4, 0.4))
-    bad = got(client.get("/api/check"))
-    assert not bad["holds"] and "at mark 2" in bad["sentence"]
+    return fitted_machine(tmp_path)
 
 
 def test_check_marks_take_no_part_unless_somebody_says_so(client, tmp_path):
@@ -173,13 +153,6 @@ TURN = 9.996939502150416e-06  # [rad] of the example's sheet, as its machine.tom
 WIDTH = 2438.4  # [mm]
 
 
-@pytest.fixture
-def sheets(tmp_path):
-    for name in ("machine.toml", "marks.toml", "groundcontrol.ini"):
-        shutil.copy(EXAMPLE / name, tmp_path)
-    return chosen(tmp_path)
-
-
 def chosen(folder, **more):
     choices = {"settings": "machine.toml", "marks": ["marks.toml"], **more}
     (folder / "lab.json").write_text(json.dumps(choices))
@@ -201,33 +174,33 @@ def another_sheet(folder, *, shift=0.0, turn=0.0):
     (folder / "marks-2.toml").write_text(moved.replace(head, f"{head}new_sheet = true\n"))
 
 
-def test_the_form_of_another_sheet_says_so(sheets, tmp_path):
-    got(sheets.post("/api/grid"))
+def test_the_form_of_another_sheet_says_so(client, tmp_path):
+    got(client.post("/api/grid"))
     assert "new_sheet" not in (tmp_path / "marks-2.toml").read_text()
     chosen(tmp_path, new_sheet=True)
-    assert not got(sheets.get("/api/grid"))["is_saved"]
-    got(sheets.post("/api/grid"))
+    assert not got(client.get("/api/grid"))["is_saved"]
+    got(client.post("/api/grid"))
     form = read_form(tmp_path / "marks-2.toml", sheet=(WIDTH, 1219.2), known=known_effects())
     assert form.measurements.rounds[0].new_sheet
     assert (
-        got(sheets.get("/api/grid"))["is_saved"]
-        and got(sheets.get("/api/grid"))["last_form"] == "marks.toml"
+        got(client.get("/api/grid"))["is_saved"]
+        and got(client.get("/api/grid"))["last_form"] == "marks.toml"
     )
 
 
-def test_the_next_sheet_is_turned_back_once(sheets, tmp_path):
-    assert got(sheets.get("/api/grid"))["sheet_rise"] == pytest.approx(math.tan(TURN) * WIDTH)
+def test_the_next_sheet_is_turned_back_once(client, tmp_path):
+    assert got(client.get("/api/grid"))["sheet_rise"] == pytest.approx(math.tan(TURN) * WIDTH)
     another_sheet(tmp_path)
     chosen(tmp_path, marks=["marks.toml", "marks-2.toml"])
-    assert got(sheets.get("/api/grid"))["sheet_rise"] == 0
+    assert got(client.get("/api/grid"))["sheet_rise"] == 0
     chosen(tmp_path, settings="groundcontrol.ini")
-    assert got(sheets.get("/api/grid"))["sheet_rise"] == 0
+    assert got(client.get("/api/grid"))["sheet_rise"] == 0
 
 
-def test_check_marks_go_by_the_sheet_that_they_are_on(sheets, tmp_path):
-    sheets.post("/api/check")
-    type_in(sheets, "check.toml", (0.3, 0))
-    before = sheets.get("/api/check").json()
+def test_check_marks_go_by_the_sheet_that_they_are_on(client, tmp_path):
+    client.post("/api/check")
+    type_in(client, "check.toml", (0.3, 0))
+    before = client.get("/api/check").json()
     assert before["holds"]
     assert [each["form"] for each in before["rounds"]] == ["marks.toml", "check.toml"]
     first, check = (each["off_target"] for each in before["rounds"])
@@ -235,6 +208,6 @@ def test_check_marks_go_by_the_sheet_that_they_are_on(sheets, tmp_path):
     assert [each["is_check"] for each in before["rounds"]] == [False, True]
     another_sheet(tmp_path, shift=12)
     chosen(tmp_path, marks=["marks.toml", "marks-2.toml"])
-    after = sheets.get("/api/check").json()
+    after = client.get("/api/check").json()
     assert after["marks"] == before["marks"] and after["holds"]
     assert len(after["rounds"]) == 3 and after["rounds"][1]["off_target"] > 12

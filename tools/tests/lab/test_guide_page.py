@@ -20,30 +20,33 @@ PHONE = {"width": 375, "height": 812}
 def first_day(page, lab, cable):
     """The first page with the machine at its port connected."""
     page.set_default_timeout(300_000)
-    path, _ = cable
     page.goto(lab.url)
     page.get_by_text("Another port").click()
-    page.get_by_label("Its name").fill(path)
+    page.get_by_label("Its name").fill(cable.path)
     page.get_by_role("button", name="Connect", exact=True).click()
     page.get_by_role("heading", name="Its first day, step by step").wait_for()
     return page
 
 
-def test_a_reversed_motor_is_found_on_the_first_page(first_day, lab, cable_machine):
+def test_a_reversed_motor_is_found_on_the_first_page(first_day, lab, cable):
     page = first_day
     page.get_by_role("button", name="Begin: Read the machine's numbers").click()
     page.get_by_text("The machine answers, and its numbers are in machine.toml.").wait_for()
     page.get_by_role("heading", name="This machine is open").wait_for()
-    cable_machine.set_wire("left", "motor_reversed", True)
+    cable.owner.machine.set_wire("left", "motor_reversed", True)
     page.get_by_role("button", name="Begin: Does each motor turn the right way?").click()
     page.get_by_text("The LEFT motor winds 20 mm of its chain in").wait_for()
+    page.set_viewport_size(PHONE)
+    press = page.get_by_role("button", name="Wind 20 mm of the left chain in")
+    assert press.bounding_box()["height"] >= 44
+    assert page.evaluate("document.documentElement.scrollWidth") <= PHONE["width"]
     assert not page.get_by_role("button", name="Begin: What do you know").count()
     page.reload()  # the question waits
     page.get_by_role("button", name="Wind 20 mm of the left chain in").click()
     page.get_by_role("button", name="the left chain got longer").click()
     page.get_by_text("The power wires of the left motor are swapped").wait_for()
     assert progress_in(lab.folder).done == ["read"]
-    cable_machine.set_wire("left", "motor_reversed", False)
+    cable.owner.machine.set_wire("left", "motor_reversed", False)
     page.get_by_role("button", name="Begin: Does each motor turn the right way?").click()
     for side in ("left", "right"):
         page.get_by_role("button", name=f"Wind 20 mm of the {side} chain in").click()
@@ -89,18 +92,6 @@ def test_an_answer_from_before_a_press_is_not_taken_for_the_state_after_it(first
         route.fulfill(response=answer)
     page.get_by_text("The machine answers, and its numbers are in machine.toml.").wait_for()
     page.get_by_role("button", name="Begin: Does each motor").wait_for()
-
-
-def test_the_guide_fits_a_phone(first_day):
-    first_day.set_viewport_size(PHONE)
-    first_day.get_by_role("button", name="Begin: Read the machine's numbers").click()
-    first_day.get_by_text("The machine answers").wait_for()
-    first_day.get_by_role("button", name="Begin: Does each motor").click()
-    press = first_day.get_by_role("button", name="Wind 20 mm of the left chain in")
-    press.wait_for()
-    assert press.bounding_box()["height"] >= 44
-    width = first_day.evaluate("document.documentElement.scrollWidth")
-    assert width <= PHONE["width"]
 
 
 @pytest.fixture

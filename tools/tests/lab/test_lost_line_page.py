@@ -16,13 +16,13 @@ NEAR = 160  # CSS pixels between a button and what is said of it
 @pytest.fixture
 def lost(lab, page, cable):
     """The page of a machine whose cable was pulled; at which port it was."""
-    path, pulled = cable
+    path = cable.path
     page.goto(lab.url)
     got(lab.client().post("/api/machine/board", json={"port": path}))
     connected = page.get_by_role("heading", name=f"{path} is connected")
     expect(connected).to_be_visible(timeout=PATIENCE)
     expect(bar(page)).to_contain_text("stands", timeout=PATIENCE)
-    pulled.set()
+    cable.pull_out()
     expect(bar(page)).to_contain_text("the line is lost", timeout=PATIENCE)
     expect(bar(page)).to_contain_text(f"{UNREACHABLE}.", timeout=PATIENCE)
     return path

@@ -12,10 +12,10 @@ from types import SimpleNamespace
 import pytest
 from attacks import Try, answered, status
 from folder import asked, got
+from line.line_board import SlowBoard
 from plumb.lab import machine_line
 from plumb.lab.machine_line import MachineLine
 from plumb.line import worker
-from plumb.line.port import LostError
 from plumb.line.sender import STOP
 from plumb.line.worker import LineWorker
 from websockets.sync.client import connect
@@ -70,7 +70,7 @@ def test_only_a_serial_port_is_opened(ask, port):
 
 
 def test_a_link_leads_to_its_port_and_to_nothing_else(ask, cable, tmp_path):
-    port, _ = cable
+    port = cable.path
     link, other = tmp_path / "maslow", tmp_path / "other"
     link.symlink_to(port)
     other.symlink_to("/etc/passwd")
@@ -148,30 +148,12 @@ def test_the_live_line_says_that_the_sled_moves_holds_and_stops(lab, ask):
 
 @pytest.mark.parametrize("port", ["/dev/ttyACM0", "/dev/ttyACM1"])
 def test_a_line_that_was_lost_in_mid_cut_does_not_know_the_place_when_it_is_back(monkeypatch, port):
-    class Gone:
-        def __init__(self, path):
-            self.left, self.said, self.cuts = 200, b"", False
+    def board(path):
+        board = SlowBoard()
+        board.at[60] = lambda: setattr(board, "is_pulled", True)
+        return board
 
-        def read(self):
-            self.left -= self.cuts
-            time.sleep(0.001)
-            if not self.left:
-                raise LostError("lost")
-            said, self.said = self.said, b""
-            return said + b"<Idle,MPos:%d.00,0.00,0.00,WPos:0,0,0>\r\n" % self.left
-
-        def write(self, characters):
-            if characters == b"$$\n":
-                self.said = b"ok\r\n"
-            self.cuts = self.cuts or characters.startswith(b"G1")
-
-        def seconds(self):
-            return time.monotonic()
-
-        def close(self):
-            pass
-
-    monkeypatch.setattr(machine_line, "SerialPort", Gone)
+    monkeypatch.setattr(machine_line, "SerialPort", board)
     line = machine_line.MachineLine()
     line.connect_board("/dev/ttyACM0")
     wait_for(line, "ready")
@@ -190,32 +172,19 @@ def test_a_line_that_was_lost_in_mid_cut_does_not_know_the_place_when_it_is_back
 def test_a_port_is_opened_again_when_the_machine_that_moved_has_stopped(monkeypatch):
     moves, stands, openings = Event(), Event(), []
 
-    class Moving:
+    class Moving(SlowBoard):
         """A board that says nothing from its stop until it stands."""
 
         def __init__(self, path):
             assert path not in openings, "the port is busy"
             openings.append(path)
-            self.time, self.path, self.is_stopped = 0.0, path, False
-            self.said = b""
+            super().__init__()
+            self.path, self.at[1] = path, moves.set
 
         def read(self):
-            if self.is_stopped:
+            if self.written.endswith(STOP):
                 stands.wait(30)
-            time.sleep(0.001)
-            self.time += 0.2
-            said, self.said = self.said, b""
-            return said + b"<Idle,MPos:0.00,0.00,0.00,WPos:0,0,0>\r\n"
-
-        def write(self, characters):
-            if characters == b"$$\n":
-                self.said = b"ok\r\n"
-                return
-            moves.set()
-            self.is_stopped = characters == STOP
-
-        def seconds(self):
-            return self.time
+            return super().read()
 
         def close(self):
             openings.remove(self.path)
@@ -225,7 +194,7 @@ def test_a_port_is_opened_again_when_the_machine_that_moved_has_stopped(monkeypa
     line = machine_line.MachineLine()
     line.connect_board("/dev/ttyACM0")
     wait_for(line, "ready")
-    line.worker.send("job.nc", ["G1 X1"])
+    line.worker.send("job.nc", ["G1 X1"] * 100)
     assert moves.wait(PATIENCE)
     line.disconnect()
     line.connect_board("/dev/ttyACM0")
@@ -236,13 +205,12 @@ def test_a_port_is_opened_again_when_the_machine_that_moved_has_stopped(monkeypa
 
 
 def test_a_cable_pulled_in_mid_cut_is_said(ask, cable):
-    path, pulled = cable
-    ask("POST", "machine/board", port=path)
+    ask("POST", "machine/board", port=cable.path)
     until(ask, lambda state: state["phase"] == "ready")
     lines = "".join(f"G1 X{x} F700\n" for x in range(5, 900, 5))
     ask("POST", "machine/program", title="job.nc", text=lines)
     until(ask, lambda state: state["program"]["done"] > 20)
-    pulled.set()
+    cable.pull_out()
     state = until(ask, lambda state: state["phase"] == "lost")
     assert state["program"]["outcome"] == "lost" and not state["knows_place"]
     assert "the line was lost" in state["trouble"] and "of 179 lines of job.nc" in state["trouble"]
@@ -250,27 +218,6 @@ def test_a_cable_pulled_in_mid_cut_is_said(ask, cable):
 
 
 BUSY_S = 120  # of a busy computer
-
-
-class Reporting:
-    """A board that reports until a test silences it, as long as that wants."""
-
-    is_silent = False
-    time = step = 0.0  # [s] of its clock, and what each look adds
-
-    def read(self):
-        time.sleep(0.001)
-        return b"" if self.is_silent else b"ok\r\n<Idle,MPos:0.00,0.00,0.00,WPos:0,0,0>\r\n"
-
-    def write(self, characters):
-        pass
-
-    def seconds(self):
-        self.time += self.step
-        return self.time
-
-    def close(self):
-        pass
 
 
 def once(true):
@@ -281,14 +228,15 @@ def once(true):
 
 
 def test_a_silent_board_grows_older(monkeypatch):
-    board, ahead = Reporting(), SimpleNamespace(seconds=0.0)
+    board, ahead = SlowBoard(), SimpleNamespace(seconds=0.0)
     line = LineWorker(lambda: board)
     once(lambda: line.state.phase == "ready")
+    clock, board.seconds = board.seconds, lambda: 0.0
     monkeypatch.setattr(worker, "monotonic", lambda: time.monotonic() + ahead.seconds)
     once(lambda: line.silence < 1.0)
     board.is_silent, ahead.seconds = True, 4.0
     assert 4.0 <= line.silence < BUSY_S
-    board.is_silent, board.step = False, 0.1
+    board.is_silent, board.seconds = False, clock
     line.close()  # once the machine has kept its place
     once(lambda: line.silence == 0.0)  # no report is due
 

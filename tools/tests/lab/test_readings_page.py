@@ -341,24 +341,6 @@ def test_a_reading_a_distance_and_the_tape_are_saved_together(lab, form, late):
     assert form.get_by_role("alert").count() == 0
 
 
-def test_what_another_tab_saved_in_between_is_not_replaced(lab, form, late):
-    add(form, *FEW[0])
-    await_question(form, late)
-    (lab.folder / "marks.toml").write_text(example_form(read=9))
-    late.pop().continue_()
-    form.get_by_role("alert").get_by_text("marks.toml has changed in the meantime").wait_for()
-    assert len(read(lab).readings) == 9 and not read(lab).distances
-    assert form.locator(".distances form input").input_value() == FEW[0][2]
-    form.get_by_text("9 of 23 marks are read").wait_for()
-    at_rest(form)
-    assert form.get_by_role("alert").get_by_text("in the meantime").is_visible(), "it stays"
-    form.get_by_role("button", name="Add the distance").click()
-    let_go(form, late, 1)
-    expect(form.get_by_role("alert")).to_have_count(0)
-    expect(form.locator(".distances li")).to_have_count(1)
-    assert len(read(lab).readings) == 9
-
-
 @pytest.fixture
 def open_machine(lab, page):
     """Opens a screen of a machine with readings, some of which are to come."""

@@ -1,14 +1,9 @@
-"""Every screen, at each width and in each scheme: accessible, readable, no wider than the page.
-
-Pictures of them lie in .build/lab/screenshots.
-"""
+"""Every screen, wide and narrow, light and dark: accessible, readable, no wider than the page."""
 
 import pytest
 from screens import (
     MOST_WORDS,
-    PICTURES,
     REACHABLE,
-    SCHEMES,
     SIZES,
     SMALL_TARGETS,
     SMALL_TEXT,
@@ -61,25 +56,14 @@ def shown(browser, lab, request):
     page.goto(lab.url)
     page.locator("nav").wait_for()
     page.size, page.color_scheme = size, scheme
-    page.picture = lambda name, whole=True: page.screenshot(
-        path=PICTURES / f"{name}-{size}-{scheme}.png", full_page=whole
-    )
     yield page
     context.close()
 
 
-def ways(state, *first):
-    """A state in each width and each scheme; those that come first are in the fast run."""
-    each = [
-        pytest.param(
-            (state, size, scheme),
-            id=f"{size}-{scheme}",
-            marks=() if f"{size}-{scheme}" in first else pytest.mark.slow,
-        )
-        for size in SIZES
-        for scheme in SCHEMES
-    ]
-    return pytest.mark.parametrize("shown", each, indirect=True)
+def ways(state, *each):
+    """A state in some widths and schemes."""
+    shown = [(state, *way.split("-")) for way in each]
+    return pytest.mark.parametrize("shown", shown, indirect=True, ids=each)
 
 
 def by_keyboard(page):
@@ -116,7 +100,6 @@ def test_every_screen_is_accessible_and_fits(shown):
     findings, names = [], []
     for name in walk(shown):
         names.append(name)
-        shown.picture(name)
         findings += [f"{name}: {each}" for each in faults(shown)]
         if shown.color_scheme == "light" and shown.size == "desktop":
             findings += [f"{name}: {each}" for each in by_keyboard(shown)]
@@ -134,30 +117,28 @@ def test_the_machine_in_mid_cut_is_in_view_on_every_screen(shown):
         assert "runs grid.nc" in bar.inner_text()
         for press in ("Hold", "Stop"):
             assert bar.get_by_role("button", name=press).is_visible()
-        page.picture(f"{place}-in-mid-cut", whole=False)
         findings += [f"{place}: {each}" for each in faults(page)]
     assert findings == [], "\n".join(findings)
 
 
-def faults_at(page, places, when):
-    """The faults of some screens, each with its picture."""
+def faults_at(page, places):
+    """The faults of some screens."""
     for place in places:
         page.evaluate("(place) => { location.hash = `#/${place}` }", place)
         at_rest(page)
-        page.picture(f"{place}-{when}")
         yield from (f"{place}: {each}" for each in faults(page))
 
 
 @ways("corrected", "desktop-dark")
 def test_screens_after_a_correction(shown):
-    findings = list(faults_at(shown, WHEN_FITTED, "when-fitted"))
+    findings = list(faults_at(shown, WHEN_FITTED))
     assert shown.locator(".course.moved").count() == 1
     assert findings == [], "\n".join(findings)
 
 
 @ways("empty", "phone-dark")
 def test_screens_at_the_first_visit(shown):
-    findings = list(faults_at(shown, AT_FIRST, "at-first"))
+    findings = list(faults_at(shown, AT_FIRST))
     assert findings == [], "\n".join(findings)
 
 

@@ -115,20 +115,6 @@ def test_a_body_that_never_comes_is_refused(lab):
         assert is_closed(line)
 
 
-@pytest.mark.slow
-def test_hundreds_of_silent_connections_do_not_keep_the_owner_out(lab):
-    lines = [line_to(lab) for _ in range(300)]
-    for line in lines[::2]:
-        try:
-            line.sendall(b"GET / HT")
-        except OSError:
-            continue  # it was ended for a newer connection
-    for _ in range(5):
-        assert status(answered(lab, ASKING.bytes(lab))) == 200
-    for line in lines:
-        line.close()
-
-
 def test_the_page_and_a_silent_connection_do_not_disturb_each_other(lab):
     """A browser opens connections before it needs them: those are ended late, and quietly."""
     with line_to(lab) as early:
@@ -156,16 +142,6 @@ def test_a_live_line_is_opened_by_the_page_and_closed_at_an_oversized_message(la
             while True:
                 line.recv(timeout=BUSY_S)
     assert closed.value.rcvd.code == 1009
-
-
-@pytest.mark.slow
-def test_a_flood_on_the_live_line_costs_no_memory_and_keeps_nobody_out(lab):
-    before = memory(lab)
-    with live(lab) as line:
-        for _ in range(2_000):
-            line.send("x" * 30_000)  # sixty megabytes
-        assert status(answered(lab, ASKING.bytes(lab))) == 200
-    assert memory(lab) - before < 20_000
 
 
 @pytest.mark.slow

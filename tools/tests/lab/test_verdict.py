@@ -4,9 +4,8 @@ import time
 
 import numpy as np
 import pytest
-from folder import EXAMPLE, PATIENCE, example_form, finished, with_marks
+from folder import PATIENCE, example_form, finished, with_marks
 from plumb import api
-from plumb.cli.main import main
 from plumb.diagnosis.answer import verdict_sentence
 from plumb.fit.observations import rms
 from plumb.text.errors import read_on_page
@@ -82,23 +81,3 @@ def test_too_few_marks_are_refused_in_a_line(client, tmp_path):
         answer = client.get("/api/verdict")
     assert answer.status_code == 422
     assert "too few" in answer.json()["error"]
-
-
-def in_a_row(folder):
-    """The example's settings with twelve marks in one row."""
-    (folder / "groundcontrol.ini").write_bytes((EXAMPLE / "groundcontrol.ini").read_bytes())
-    lines = ['frame = "machine"', "tape_sigma_mm = 0.5"]
-    for i in range(12):
-        x = -1100 + 200 * i
-        read = [x + 0.001 * x + 0.3 * (-1) ** i, 1.2 + 1e-6 * x * x]
-        lines += ["[[mark]]", f'name = "{i + 1}"', f"target = [{x}, 0]", f"measured = {read}"]
-    (folder / "marks.toml").write_text("\n".join([*lines, ""]))
-    return [str(folder / name) for name in ("groundcontrol.ini", "marks.toml")]
-
-
-@pytest.mark.parametrize("words", [["diagnose"], ["calibrate"], ["add", "--effect", "chain_pitch"]])
-def test_marks_in_one_row_are_said_not_to_reach_over_the_sheet(tmp_path, capsys, words):
-    command, *more = words
-    main([command, *in_a_row(tmp_path), *more])
-    said = " ".join(capsys.readouterr().out.split())
-    assert "These marks do not reach over the sheet" in said

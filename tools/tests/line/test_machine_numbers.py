@@ -2,20 +2,7 @@
 
 import pytest
 from plumb.line.memory import kept_before
-from plumb.settings.machine import MachineSettings
 from plumb.text.errors import InputError
-
-
-def settings(controller):
-    return MachineSettings(
-        motor_gap=2978.4,
-        motor_height=1072.6,
-        rotation_radius=140.0,
-        sheet_width=2438.4,
-        sheet_height=1219.2,
-        feed="top",
-        controller=controller,
-    )
 
 
 def test_the_newest_numbers_come_back(tmp_path):

@@ -161,30 +161,6 @@ def test_what_is_wrong_with_a_machine_is_heard_from_its_greeting():
     assert said == ["ALARM: Position Lost."]
 
 
-def test_at_the_end_the_machine_must_have_kept_its_position():
-    places = [0.0, 0.0, 1.0, 2.0, 3.0] + [3.0] * 100
-    board = Board()
-    reports = (f"<Idle,MPos:{x},0.00,0.00,WPos:0,0,0>\r\n".encode() for x in places)
-
-    def read():
-        board.time += 0.2
-        return next(reports)
-
-    board.read = read
-    sender = Sender(board)
-    sender.await_start()
-    sender.await_rest()
-    assert board.time == pytest.approx(5 * 0.2 + 4.0, abs=0.21)
-
-
-def test_a_machine_that_stands_is_not_waited_for():
-    board = Board()
-    sender = Sender(board)
-    sender.await_start()
-    sender.await_rest()
-    assert board.time < 1.1
-
-
 def reported(x):
     return f"<Idle,MPos:{x:.2f},0.00,0.00,WPos:0,0,0>\r\n".encode()
 

@@ -39,24 +39,13 @@ def spoilt(tmp_path, old, new, name="marks.ini"):
     [
         ("numpositions = 9\n", "", "numpositions is missing"),
         ("numpositions = 9", "numpositions = nine", "is not a count"),
-        ("numpositions = 9", "numpositions = 0", "is not a count"),
-        ("numpositions = 9", "numpositions = -9", "is not a count"),
         ("numpositions = 9", "numpositions = 8", "x8: is beyond numpositions = 8"),
         ("numpositions = 9", "numpositions = 10", "tx9 is missing"),
         ("x4 = 1216\n", "", "x4 is missing in .actual_positions."),
         ("tx4 = 1219.2\n", "xt4 = 1219.2\n", "tx4 is missing in .target_positions."),
         ("y1 = 45", "y1 = 45 mm", "y1: '45 mm' is not a number"),
         ("y1 = 45", "y1 =", "y1: a number is missing"),
-        ("y1 = 45", "y1 = nan", "y1: 'nan' is not a usable number"),
-        ("y1 = 45", "y1 = 1e999", "y1: inf is not a usable number"),
         ("y1 = 45", "x1 = 45", "already on line"),
-        ("y1 = 45", "y1 = 1174.2", "y runs the other way"),
-        (
-            "x8 = 2368\ny8 = 1158",
-            "x8 = 93.2\ny8 = 45.6",
-            "mark 8: measured 2534 mm.*looks like inches",
-        ),
-        ("x8 = 2368", "x8 = 1368", "mark 8: measured 1001 mm away .*check the frame"),
         ("tx8 = 2369.2", "tx8 = 3369.2", "mark 8: target .* is off the 2438 x 1219 mm sheet"),
     ],
 )
@@ -66,15 +55,3 @@ def test_bad_files_are_refused_with_the_place(tmp_path, old, new, hint):
         read_marks(path, sheet=SHEET)
     assert str(caught.value).startswith(str(path))
     assert "\n" not in str(caught.value)
-
-
-def test_inches_are_recognised(tmp_path):
-    lines = []
-    for line in EXAMPLE.read_text().splitlines():
-        key, sign, value = line.partition(" = ")
-        inches = sign and key != "numpositions"
-        lines.append(f"{key} = {float(value) / 25.4:.4f}" if inches else line)
-    path = tmp_path / "marks.ini"
-    path.write_text("\n".join(lines))
-    with pytest.raises(InputError, match="looks like inches"):
-        read_marks(path, sheet=SHEET)

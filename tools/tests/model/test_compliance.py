@@ -29,23 +29,6 @@ FLEXIBLE = {
     (1150, -550): (0.399591, -0.065752, 0.038704),
     (-700, -300): (0.036479, 0.005626, 0.027049),
 }
-# Motors 3600 mm apart, chains off the bottom, a sled of 120 N, the left chain 0.2 % long.
-WIDE = {
-    (0, 550): (0.004887, 0.0, 0.059599),
-    (1150, 0): (0.023619, -0.012209, 0.014095),
-    (1150, -550): (0.055068, -0.018062, 0.015373),
-    (-700, -300): (0.014323, 0.006219, 0.014948),
-}
-# Published for the same default machine, computed independently: [mm/N] xx, yy.
-PUBLISHED = {
-    (0, 550): (0.005, 0.036),
-    (0, 0): (0.008, 0.015),
-    (0, -550): (0.015, 0.013),
-    (1150, 550): (0.025, 0.013),
-    (1150, 0): (0.12, 0.017),
-    (1150, -550): (0.39, 0.023),
-    (1200, -600): (0.69, 0.027),
-}
 
 
 def machine(weight=97.9, **changes):
@@ -67,30 +50,14 @@ def giving(settings, points):
     [
         (machine(), DEFAULT),
         (machine(effects={"frame_flex": {"inward": 0.007, "downward": 0.02}}), FLEXIBLE),
-        (
-            machine(
-                120.0,
-                motor_gap=3600.0,
-                feed="bottom",
-                effects={"chain_pitch": {"left": 0.002, "right": 0.0}},
-            ),
-            WIDE,
-        ),
     ],
-    ids=["default", "flexible", "wide"],
+    ids=["default", "flexible"],
 )
 def test_it_is_that_of_the_judge_within_a_percent(settings, judged):
     compliances = giving(settings, list(judged))
     for matrix, (xx, xy, yy) in zip(compliances, judged.values(), strict=True):
         expected = np.array([[xx, xy], [xy, yy]])
         assert matrix == pytest.approx(expected, abs=0.01 * np.abs(expected).max())
-
-
-def test_it_is_near_the_published_figures():
-    compliances = giving(machine(), list(PUBLISHED))
-    for matrix, expected in zip(compliances, PUBLISHED.values(), strict=True):
-        # They have two digits, and chains that stretch to first order only.
-        assert np.diag(matrix) == pytest.approx(expected, rel=0.08, abs=0.0012)
 
 
 def test_where_no_sled_can_hang_nothing_gives():

@@ -78,16 +78,6 @@ def test_published_sag_figures(gap, added):
     assert difference[0, 0] == pytest.approx(added, abs=0.001)
 
 
-def test_tolerance_divides_the_whole_straight_part():
-    plain = replace(OWNER, rotation_radius=0.0)
-    longer = replace(OWNER, published=PublishedSettings(0.0, 0.2, 0.0))
-    straight = math.sqrt(1801.3**2 + 1078.0**2 - RADIUS**2)
-    expected = chain_lengths(plain, [(0, 0)])[0, 0] - straight * (1 - 1 / 1.002) - 139.1
-    lengths = chain_lengths(longer, [(0, 0)])[0]
-    assert lengths[0] == pytest.approx(expected, abs=1e-9)
-    assert lengths[1] == pytest.approx(chain_lengths(OWNER, [(0, 0)])[0, 1], abs=1e-12)
-
-
 HOLEY = replace(
     OWNER,
     controller="holey",

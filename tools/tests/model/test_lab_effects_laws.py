@@ -9,7 +9,7 @@ from plumb.fit.observations import observe
 from plumb.fit.sighting import LAB_NAMES, SHEET_ROTATION, sighted
 from plumb.marks.read import Distance, Measurements
 from plumb.model.catalogue import parameter_names, parameter_words
-from plumb.model.lab_effects import EDGES, LAB_EFFECTS, SLED, TAPE, Seen
+from plumb.model.lab_effects import EDGES, LAB_EFFECTS, SLED, TAPE
 from plumb.model.predict import NAMES, frame_words, known_effects, library, values_of
 from synthetic import BELIEVED, TRUE, grid, marks_on
 
@@ -76,26 +76,6 @@ class TestEach:
     def test_zero_has_a_slope(self, effect):
         at_zero = seen({}, names=effect.parameter_names).read.slopes
         assert (np.abs(at_zero).max(axis=(0, 1)) > 0).all()
-
-    def test_its_own_slopes_are_those_of_finite_differences(self, effect):
-        rows = np.arange(12.0).reshape(6, 2) * 100
-        giving = np.random.default_rng(1).uniform(0, 0.1, (6, 2, 2))
-        look = Seen(rows, np.tile([0.6, 0.8], (6, 1)), giving)
-        start = np.array([parameter.typical for parameter in effect.parameters])
-        change = effect.change(start, look)
-        for i, parameter in enumerate(effect.parameters):
-            step = np.eye(len(start))[i] * parameter.typical
-            ends = [effect.change(start + sign * step, look).moved for sign in (1, -1)]
-            difference = (ends[0] - ends[1]) / (2 * parameter.typical)
-            assert change.by_parameter[:, :, i] == pytest.approx(difference, abs=1e-9)
-        for i in range(2):
-            step = np.eye(2)[i]
-            ends = [
-                effect.change(start, replace(look, places=rows + sign * step)).moved
-                for sign in (1, -1)
-            ]
-            difference = (ends[0] - ends[1]) / 2
-            assert change.by_place[:, :, i] == pytest.approx(difference, abs=1e-9)
 
 
 @pytest.mark.parametrize("name", EVERY)

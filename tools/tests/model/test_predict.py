@@ -15,7 +15,6 @@ from plumb.model.predict import (
     lengths,
     library,
     parameter_names,
-    places,
     places_with_slopes,
     values_of,
 )
@@ -30,12 +29,6 @@ SIZES |= {f"{e['name']}.{p['name']}": abs(p["typical"]) for e in library() for p
 def test_every_parameter_of_the_library_has_its_place_among_the_values():
     names = {name for effect in known_effects() for name in parameter_names(effect)}
     assert names == {name for name in NAMES if "." in name}
-
-
-def test_places_undo_lengths():
-    where, outcome = places(TRUE, CHAINS)
-    assert (outcome == FOUND).all()
-    assert where == pytest.approx(grid(5, 3), abs=5e-5)
 
 
 @pytest.mark.parametrize("feed", ["top", "bottom"])

@@ -100,14 +100,11 @@ def test_a_sketch_is_marked_and_never_written_as_a_setting(stretched):
     ("text", "hint"),
     [
         ("SKETCH = 1", "no SKETCH"),
-        ("this is no Python", "invalid syntax"),
         (TWIN.replace('name="twin"', 'name="chain_sag"'), "there is an effect chain_sag already"),
         (TWIN.replace("- strands.length\n", "\n"), "extra() must give zeros"),
-        (TWIN.replace("- strands.length\n", "- strands.length[:, :1].sum()\n"), "must give zeros"),
         (TWIN.replace(", extra=extra", ""), "needs extra(), the chain it adds, or push()"),
-        (TWIN.replace("strands.tension)", "strands.pull)"), "pull"),
     ],
-    ids=["empty", "syntax", "taken", "at zero", "shape", "no hook", "word"],
+    ids=["empty", "taken", "at zero", "no hook"],
 )
 def test_a_sketch_that_cannot_be_used_is_told_in_one_line(tmp_path, text, hint):
     (tmp_path / "own").mkdir()
@@ -115,11 +112,6 @@ def test_a_sketch_that_cannot_be_used_is_told_in_one_line(tmp_path, text, hint):
     done = run(tmp_path, "effects")
     assert done.returncode == 2 and done.stdout == ""
     assert hint in done.stderr and "bad.py" in done.stderr and done.stderr.count("\n") == 1
-
-
-def test_the_folder_that_is_named_must_be_there(tmp_path):
-    done = run(tmp_path, "effects", folder_of_user="nowhere")
-    assert done.returncode == 2 and "PLUMB_SKETCHES" in done.stderr
 
 
 def test_a_hose_that_pulls_the_sled_is_fitted_in_newtons(tmp_path):

@@ -7,7 +7,6 @@ import tomllib
 import plumb.grid as marks_grid
 import pytest
 from matplotlib.patches import Rectangle
-from plumb.grid.pattern import SPANS
 from plumb.pictures.grid_paper import content_of
 from plumb.pictures.measuring_sheet import PAPER, measuring_sheet, pages_of
 
@@ -19,7 +18,6 @@ GRIDS = {
     "benchmark": marks_grid.PRESETS["benchmark"]._asdict(),
     "two pages": {"columns": 9, "rows": 7},
     "dense": {"columns": 15, "rows": 9, "margin": 60},
-    "crowded": {"columns": 31, "rows": 31, "repeats": False},
     "four": {"columns": 2, "rows": 2, "repeats": False},
 }
 
@@ -92,18 +90,6 @@ def test_the_rows_are_those_of_the_form_in_its_order(run, tmp_path):
         tuple(round(number, 1) for number in mark["target"]) for mark in marks
     ]
     assert [reading.note for reading in rows].count("again") == 8
-
-
-def test_the_benchmark_has_a_box_for_each_span():
-    rows = content(**GRIDS["benchmark"]).readings
-    assert len(rows) == sum(len(spans) for spans in SPANS.values()) == 16
-    assert [row.planned for row in rows[:7]] == [("1905",)] * 3 + [("900",)] * 3 + [("100",)]
-
-
-def test_the_owner_reads_what_it_was_cut_with_and_where_to_type():
-    words = " ".join(text for text, *_ in extents(pages_of(content())[0]))
-    for expected in ("groundcontrol.ini", "marks.toml", "23 marks", "left edge", "Date", "kg"):
-        assert expected in words
 
 
 def test_the_same_grid_gives_the_same_pages(run, tmp_path):

@@ -10,7 +10,7 @@ from plumb.diagnosis.every_machine import asked_for, clean_of
 from plumb.diagnosis.evidence import Noises, accounts_of, fitted
 from plumb.diagnosis.linear import LinearBoard, Metric
 from plumb.diagnosis.posterior import listing
-from plumb.diagnosis.priors import SizePriors, turned
+from plumb.diagnosis.priors import turned
 from plumb.marks.read import Measurements
 from plumb.plan.case import Check, Planned
 from plumb.plan.options import many_marks
@@ -151,37 +151,6 @@ def is_settled(board, accounts, clean, acting, shown):
     several = [*together]
     named = listing(several, weights)
     return len(named) == 1 and _is_right([several[named[0][0]]], acting, shown)
-
-
-def sizes_of(count):
-    """Priors under which nothing is usual."""
-    zeros, ones = np.zeros(count), np.ones(count)
-    return SizePriors(zeros, zeros, ones, ones, -np.inf * ones, zeros)
-
-
-def test_the_marks_show_what_the_frame_and_others_do_not_draw():
-    """By the definition: chi-square of noise-free readings, fitted without the effect."""
-    source = np.random.default_rng(8)
-    frame, effects = source.standard_normal((30, 3)), source.standard_normal((30, 4))
-    effects[:, 3] = effects[:, 2] + 0.05 * source.standard_normal(30)  # nearly the same
-    columns = {"a": np.array([0]), "b": np.array([1, 2]), "c": np.array([3])}
-    linear = LinearBoard(30, frame, effects, np.zeros((30, 1)), columns, sizes_of(4))
-    sizes = source.standard_normal((4, 40)) * np.geomspace(0.3, 30, 40)
-    sizes[0, ::3] = sizes[3, 1::3] = 0.0
-    sizes[1:3, ::4] = 0.0
-    shown = _shown(linear, 0.8, sizes)
-    for name, mine in columns.items():
-        for i, draw in enumerate(sizes.T):
-            others = [k for k in np.flatnonzero(draw) if k not in mine]
-            # The frame is held by priors of one standard deviation each.
-            known = np.vstack(
-                [np.hstack([frame, effects[:, others]]) / 0.8, np.eye(3 + len(others))]
-            )
-            known[33:] = 0.0
-            read = np.r_[effects[:, mine] @ draw[mine] / 0.8, np.zeros(3 + len(others))]
-            left = read - known @ np.linalg.lstsq(known, read, rcond=None)[0]
-            assert shown[name][i] == (left @ left >= 9 + 2 * len(mine)), (name, i)
-    assert all(0 < each.sum() < 40 for each in shown.values())
 
 
 def test_where_nothing_is_proved_each_effect_is_looked_for():

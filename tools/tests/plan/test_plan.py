@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from hidden_boards import board, board_cut, size_for
 from plumb.bench.boards import plan
-from plumb.bench.causes import MAKER, SLED
-from plumb.bench.judged_board import BoardOwner, followed
+from plumb.bench.causes import MAKER
+from plumb.bench.judged_board import BoardOwner
 from plumb.diagnosis import diagnose
 from plumb.fit.inputs import Inputs
 from plumb.model.catalogue import effect_names
@@ -15,18 +15,11 @@ from plumb.model.predict import FOUND, lengths
 from plumb.plan import propose
 from plumb.plan.case import case_of
 from plumb.plan.options import ROOM_FOR_A_SECOND, many_marks, options
-from plumb.plan.planned_visits import sent, usable
+from plumb.plan.planned_visits import usable
 from plumb.plan.separation import ENOUGH, Chooser
 
 NINE = plan(3, 3)
 NOISE = 0.5
-
-
-def visits_of(layout):
-    """A plan of the judge as visits."""
-    return sent(
-        MAKER, layout.targets, controller="plumb", sled_weight=SLED, approaches=layout.approaches
-    )
 
 
 def owner():
@@ -153,49 +146,3 @@ def test_a_slip_is_read_again_and_nothing_else():
     option = answer.proposals[0].option
     assert option.visits.names == (slipped[7].name,)
     assert option.do[0].startswith(f"Read {slipped[7].name} again")
-
-
-@pytest.mark.slow
-def test_chances_come_true():
-    # What was promised and what came, over options of very different chances.
-    promised, came = [], []
-    for name, seed in (("chain_pitch", 302), ("chain_pitch", 305), ("tape_scale", 306)):
-        cut, diagnosis = nine(name, seed)
-        marks = cut.measurements
-        assert diagnosis.verdict == "cannot_tell"
-        for proposal in _one_of_each_kind(propose(diagnosis, Inputs(MAKER, marks))):
-            then = owner().with_marks(cut, proposal.option.visits).measurements
-            checks = owner().checked(cut, proposal.option.checks)
-            after = diagnose(Inputs(MAKER, then, checked=checks))
-            promised.append(proposal.chance)
-            came.append(after.verdict == "one_suspect" and after.suspects == (name,))
-    promised, came = np.array(promised), np.array(came)
-    assert len(came) >= 14
-    assert abs(promised.mean() - came.mean()) < 0.25
-    high = promised > 0.5
-    assert came[high].mean() > came[~high].mean() + 0.2
-
-
-def _one_of_each_kind(answer):
-    """The best proposal of each kind."""
-    best = {}
-    for proposal in answer.proposals:
-        best.setdefault(proposal.option.kind, proposal)
-    return best.values()
-
-
-@pytest.mark.slow
-def test_proposed_measurements_beat_many_blind_ones():
-    # Few boards of the effect that nine marks leave most open; the page on next has the rates.
-    left = {"next": 0, "blind": 0}
-    for seed in (200, 204, 205):
-        cut, _ = nine("chain_pitch", seed)
-        asked = followed(cut, MAKER, owner(), rounds=2)
-        assert asked.diagnosis.suspects[:1] == ("chain_pitch",) and asked.readings <= 20
-        more = owner().with_marks(cut, visits_of(plan(5, 4))).measurements
-        for key, diagnosis in (
-            ("next", asked.diagnosis),
-            ("blind", diagnose(Inputs(MAKER, more))),
-        ):
-            left[key] += len(diagnosis.explanations) or len(effect_names())
-    assert left["next"] < left["blind"]

@@ -1,8 +1,5 @@
 """Proposals in sentences: what to hope of them, and what they cost."""
 
-from dataclasses import replace
-
-import numpy as np
 import pytest
 from plumb.model.plain import noun_of
 from plumb.plan.options import Option
@@ -15,7 +12,6 @@ from plumb.plan.proposal import (
     SETTLE,
     Proposal,
     RoomThen,
-    _best_first,
     headline_of,
     percent,
     promise_of,
@@ -91,14 +87,3 @@ def test_a_step_names_each_cause_that_it_tries_once_in_one_sentence():
     assert steps_of(proposal(parts=pairs[2:3]))[1:] == [f"It shows whether {lean} acts."]
     assert steps_of(proposal(parts=pairs[3:]))[1:] == [f"It shows whether {sag} acts."]
     assert steps_of(proposal(parts=(("chain_sag", "chain_sag"),)))[1:] == []
-
-
-def test_a_single_suspect_is_checked_before_marks_are_cut():
-    check = replace(CUT, kind="check", minutes=60.0)
-    marks = [proposal(CONFIRM, 0.2), proposal(CONFIRM, 0.9)]
-    direct = Proposal(check, CONFIRM, 0.1, None)
-    assert _best_first([*marks, direct]) == (direct, marks[1], marks[0])
-    direct = replace(direct, question=SETTLE)
-    several = [replace(each, question=SETTLE) for each in marks]
-    assert _best_first([*several, direct]) == (several[1], several[0], direct)
-    assert np.isfinite(direct.rate)

@@ -6,8 +6,6 @@ from plumb.diagnosis import diagnose
 from plumb.fit.compare import compare
 from plumb.fit.inputs import Inputs
 from plumb.marks.read import Mark, Measurements
-from plumb.model.reach import _extreme as extreme
-from plumb.model.reach import survey_sheet
 from plumb.plan import propose
 from synthetic import BELIEVED, grid
 
@@ -44,11 +42,3 @@ def test_rounding_changes_no_answer():
     for what, order in usual.items():
         assert otherwise[what] == order, what
     assert len(usual["proposals"]) > 3
-
-
-def test_of_places_that_mirror_each_other_the_first_is_named():
-    places = np.array([(-1.0, 0.0), (1.0, 0.0)])
-    tension = np.array([(50.0, 9.0), (9.0, 50.0 * (1 + 1e-13))])
-    assert (extreme(places, tension).place, extreme(places, tension).side) == ((-1, 0), "left")
-    reached = survey_sheet(BELIEVED)
-    assert reached.tightest.place[0] < 0 and reached.slackest.place[0] < 0

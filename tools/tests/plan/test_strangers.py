@@ -10,19 +10,12 @@ from plumb.diagnosis.outliers import Outlier
 from plumb.plan.options import MARK, READING, ROUND
 from plumb.plan.planned_visits import BELOW, check_places, grid, usable
 from plumb.plan.proposal import BESIDE, READ_AGAIN, SURE, for_slips, near_the_worst
-from synthetic import distances_between, marks_on
+from synthetic import distances_between, marks_on, read_elsewhere
 from synthetic import grid as targets_of
 
 
 def slip(name, *offset):
     return Outlier(name, offset, (SIGMA,) * len(offset), (0.0,) * len(offset), offset, "")
-
-
-def with_offset(measurements, index, offset):
-    """The same marks, of which one is read elsewhere."""
-    marks = list(measurements.marks)
-    marks[index] = replace(marks[index], measured=tuple(np.add(marks[index].measured, offset)))
-    return replace(measurements, marks=tuple(marks))
 
 
 def test_a_second_reading_shows_a_slip_as_often_as_noise_allows():
@@ -35,7 +28,7 @@ def test_a_second_reading_shows_a_slip_as_often_as_noise_allows():
 
 
 def test_marks_around_the_worst_place_lie_inwards_of_it():
-    case = case_on(with_offset(nine(), 8, (6.0, 0.0)), "chain_pitch")
+    case = case_on(read_elsewhere(nine(), 8, (6.0, 0.0)), "chain_pitch")
     again, near = near_the_worst(case)
     worst, second = list(dict.fromkeys(again.visits.names))
     assert worst == "8" and len(again.visits) == 2 * READ_AGAIN

@@ -1,7 +1,5 @@
 """Planned visits as a program that cuts them, and as a form that waits for their readings."""
 
-import dataclasses
-
 import numpy as np
 import pytest
 from plumb.marks.form import read_form
@@ -13,18 +11,6 @@ from plumb.plan.planned_visits import (
     sent,
 )
 from synthetic import BELIEVED
-
-
-def test_the_program_waits_for_another_weight():
-    targets = np.array([(-300.0, 100.0), (0.0, 100.0), (300.0, 100.0), (300.0, -100.0)])
-    visits = sent(BELIEVED, targets, controller="plumb", sled_weight=97.9)
-    weights = np.array([97.9, 97.9 + 5 * 9.81, 97.9 + 5 * 9.81, 97.9])
-    text = program(dataclasses.replace(visits, sled_weights=weights), usual_weight=97.9)
-    before = [part.count("G1 Z-0.5") for part in text.split("M0")[:-1]]
-    assert before == [1, 2] and text.index("let 5.0 kg more hang") < text.index("M0")
-    assert "take off what hangs on the sled" in text.split("M0")[1]
-    # From the usual side: from below.
-    assert "G0 X-300.000 Y60.000\nG1 X-300.000 Y100.000" in text
 
 
 def test_the_program_waits_before_the_first_mark_and_at_the_end_until_all_is_as_it_was():

@@ -15,7 +15,6 @@ import socket
 import subprocess
 import sys
 import tempfile
-import threading
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -85,7 +84,6 @@ def answer(line: socket.socket) -> None:
     _, files, _, _ = socket.recv_fds(line, 1, 3)
     asked = b"".join(iter(lambda: line.recv(65536), b""))
     words, folder, environment = json.loads(asked)
-    threading.Thread(target=end_with_client, args=(line,), daemon=True).start()
     for number, file in enumerate(files):
         os.dup2(file, number)
     os.chdir(folder)
@@ -103,14 +101,6 @@ def answer(line: socket.socket) -> None:
     sys.stderr.flush()
     line.sendall(str(code).encode())
     os._exit(code)
-
-
-def end_with_client(line: socket.socket) -> None:
-    """End this program when the client is gone: nobody else would end a command that it began."""
-    client = select.poll()
-    client.register(line, 0)  # only that the other end is closed
-    client.poll()
-    os._exit(1)
 
 
 if __name__ == "__main__":

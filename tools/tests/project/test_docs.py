@@ -96,28 +96,3 @@ def test_every_command_has_a_page_that_shows_it_and_names_its_help(command: str)
     blocks = "".join(re.findall(r"```console\n(.*?)```", page, re.DOTALL))
     assert re.search(rf"^\$ .*\bplumb {command} (?!--help)", blocks, re.MULTILINE)
     assert f"`plumb {command} --help`" in page
-
-
-@pytest.mark.parametrize(
-    ("text", "faults"),
-    [
-        ("[here](a.md)", []),
-        ("[here](b.md)", ["docs/page.md:1: b.md"]),
-        ("[here](a.md#the-head)", []),
-        ("[here](a.md#the-tail)", ["docs/page.md:1: a.md#the-tail"]),
-        ("[here](#below)\n# Below", []),
-        ("[away](https://example.org/x)", []),
-        ("```\n[no link](b.md)\n```", []),
-        ("```\n```\n[a link](b.md)", ["docs/page.md:3: b.md"]),
-    ],
-)
-def test_a_link_that_leads_nowhere_is_named(tmp_path: Path, text: str, faults: list[str]) -> None:
-    plant(tmp_path, text)
-    assert list(broken_links(tmp_path)) == faults
-
-
-def plant(root: Path, text: str) -> None:
-    """A tree with two pages; the second holds the text."""
-    (root / "docs").mkdir()
-    (root / "docs/a.md").write_text("# The head\n", encoding="utf-8")
-    (root / "docs/page.md").write_text(text, encoding="utf-8")

@@ -172,6 +172,7 @@ def test_effects_refuse_a_header_without_its_line(tmp_path, registry, expected):
     assert code == 1 and out.startswith(f"{header}:") and expected in out
 
 
+@pytest.mark.slow
 def test_annotations_refuse_what_has_no_type_or_no_reason(tmp_path):
     """All in a single tree: each run of mypy takes a second and more."""
     texts = {

@@ -120,10 +120,3 @@ def test_each_promise_names_a_test_that_exists():
     rows = [row for rows in tables().values() for row in rows]
     missing = [f"{promise}: {each}" for promise, cell in rows for each in missing_tests(cell)]
     assert missing == []
-
-
-def test_what_is_missing_is_named():
-    cell = "[a.nc](absent.nc), [stop.nc](../test/dialogues/stop.nc) `no such words`"
-    assert list(missing_tests(cell)) == ["absent.nc", "../test/dialogues/stop.nc: no such words"]
-    assert list(missing_tests("words alone")) == ["no test is named"]
-    assert not held_by("Stop", "Stopped within") and held_by("Stop", "Stop, then")

@@ -58,8 +58,6 @@ def plumb(wheel, tmp_path_factory):
     machine = replace(read_settings(SETTINGS), controller="plumb")
     (empty / "machine.toml").write_text(machine_toml(machine))
     (empty / "job.nc").write_text("G0 Z2\nG0 X50\nG1 Z-1 F60\nG1 X90 F500\nG0 Z2\n")
-    (empty / "points.csv").write_text("0,0\n")
-    (empty / "chains.csv").write_text("1700,1700\n")
     # Without -S the project's installation would answer to the name plumb.
     packages = os.pathsep.join([str(installed), sysconfig.get_path("purelib")])
 
@@ -75,38 +73,18 @@ def plumb(wheel, tmp_path_factory):
 
 
 MEASURED = ("groundcontrol.ini", "marks.ini")
+# What needs files of the package or its compiled parts.
 COMMANDS = {
-    "grid": ("--settings", "groundcontrol.ini", "--details"),
     "calibrate": MEASURED,
     "check": ("job.nc", "groundcontrol.ini"),
-    "compare": MEASURED,
-    "diagnose": MEASURED,
-    "next": MEASURED,
     "add": (*MEASURED, "--effect", "chain_pitch", "-o", "fitted.toml"),
     "effects": (),
     "bench": ("--kinds", "none", "--marks", "9", "--boards", "1"),
     "report": (*MEASURED, "-o", "report.html"),
-    "inverse": ("groundcontrol.ini", "--points", "points.csv"),
-    "forward": ("groundcontrol.ini", "--lengths", "chains.csv"),
-    "resume": ("job.nc", "groundcontrol.ini", "--line", "4"),
     "settings": ("machine.toml",),
-    "reach": ("groundcontrol.ini",),
-    "recover": ("machine.toml", "--touch=-900,250:-895,253"),
     "vm": ("--seconds", "1"),
     "practice": ("start", "game", "--seconds", "1"),
 }
-# What needs a file or a board that an empty folder lacks, and what its refusal names.
-LACKING = {
-    "send": ("marks.nc", "--port", "none"),
-    "read": ("--port", "none"),
-    "flash": ("none.hex", "--port", "none"),
-}
-
-
-def every_command_is_tried(plumb):
-    shown = plumb("--help").stdout
-    names = re.findall(r"^  ([a-z]+)\b", shown, re.MULTILINE)
-    assert set(names) == {*COMMANDS, *LACKING, "lab"}, shown
 
 
 # One after the other in a single program: to load the numerics takes longer than any of them.
@@ -124,16 +102,11 @@ json.dump(ended, sys.stdout)
 """
 
 
-def every_command_runs_or_says_what_it_lacks(plumb):
-    done = plumb(json.dumps({**COMMANDS, **LACKING}), program=["-c", EACH])
+def every_command_runs(plumb):
+    done = plumb(json.dumps(COMMANDS), program=["-c", EACH])
     assert done.returncode == 0, done.stderr
-    ended = json.loads(done.stdout)
-    for name in COMMANDS:
-        code, said, complaint = ended[name]
+    for name, (code, said, complaint) in json.loads(done.stdout).items():
         assert code in (0, 1) and said, f"{name}: {code}: {complaint}"
-    for name in LACKING:
-        code, _, complaint = ended[name]
-        assert code == 2 and re.match(r"plumb: (marks\.nc|none|none\.hex): ", complaint), name
 
 
 def the_lab_is_served_with_its_page(plumb):
@@ -155,12 +128,12 @@ def the_lab_is_served_with_its_page(plumb):
         assert served.wait(20) == 0
 
 
+@pytest.mark.slow
 def test_a_wheel_works_in_an_empty_folder(wheel, plumb):
     """In a single test: another worker would build the wheel once more."""
     with zipfile.ZipFile(wheel) as archive:
         assert {"plumb/cli/answers.schema.json", "plumb/py.typed"} <= {*archive.namelist()}
         name = next(n for n in archive.namelist() if n.endswith("METADATA"))
         assert "Requires-Python: >=3.11" in archive.read(name).decode()
-    every_command_is_tried(plumb)
-    every_command_runs_or_says_what_it_lacks(plumb)
+    every_command_runs(plumb)
     the_lab_is_served_with_its_page(plumb)

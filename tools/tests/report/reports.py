@@ -7,7 +7,6 @@ import json
 from contextlib import redirect_stderr, redirect_stdout
 from pathlib import Path
 
-import numpy as np
 from plumb.cli.main import main
 from plumb.settings.toml import write_machine_toml
 from synthetic import BELIEVED, TRUE, distances_between, grid, marks_on
@@ -56,16 +55,6 @@ def board(folder: Path, marks, *, name="marks.toml", settings=BELIEVED, **head) 
 def nine(**how):
     """Nine marks of a machine that sags and stretches more than its settings know."""
     return marks_on(TRUE, BELIEVED, grid(3, 3), **{"noise": 0.3, **how})
-
-
-def strange():
-    """Marks that no effect of the library makes: a bump in a quarter of the sheet."""
-    marks = []
-    for mark in marks_on(BELIEVED, BELIEVED, grid(7, 5), noise=0.2):
-        x, y = mark.measured
-        lift = 9.0 * np.exp(-((x - 500) ** 2 + (y - 200) ** 2) / 2 / 300.0**2)
-        marks.append(mark.__class__(mark.name, mark.target, (x + lift, y - lift)))
-    return marks
 
 
 def spans(folder: Path) -> tuple[Path, Path]:

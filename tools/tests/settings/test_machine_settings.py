@@ -19,22 +19,6 @@ STOCK = MachineSettings(
 )
 
 
-def test_derived_numbers():
-    assert STOCK.motor_offset == pytest.approx(468.4)
-    assert STOCK.sheet == (2438.4, 1219.2)
-    assert STOCK.sprocket_radius == pytest.approx(10.106339, abs=1e-6)
-    assert list(STOCK.frame) == [
-        "motor_gap",
-        "motor_height",
-        "motor_center_x",
-        "rotation_radius",
-        "sprocket_radius",
-        "sled_weight",
-        "chain_weight",
-    ]
-    assert STOCK.effect("chain_sag", "weight_ratio_squared") == 0.0
-
-
 def test_stock_corrections_become_effects():
     stock = replace(
         STOCK, published=PublishedSettings(27.4, left_tolerance=0.1, right_tolerance=0.3)

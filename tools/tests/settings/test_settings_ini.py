@@ -78,24 +78,13 @@ def test_a_sled_weight_of_zero_is_a_switch_and_no_weight(tmp_path):
         ("motorspacingx = 2978.4", "motorspacingx = 117.26", "motorspacingx: 117.26 .*inches"),
         ("motorspacingx = 2978.4", "motorspacingx = 2978,4", "motorspacingx: .*decimal comma"),
         ("motorspacingx = 2978.4", "motorspacingx = ", "motorspacingx: a number is missing"),
-        (
-            "motorspacingx = 2978.4",
-            "motorspacingx = 10 ft",
-            "motorspacingx: '10 ft' is not a number",
-        ),
         ("motorspacingx = 2978.4", "motorspacingx = nan", "motorspacingx: 'nan'"),
-        ("motorspacingx = 2978.4", "motorspacingx = inf", "motorspacingx: 'inf'"),
-        ("motorspacingx = 2978.4", "motorspacingx = -2978.4", "motorspacingx: -2978.4 mm is out"),
         ("motorspacingx = 2978.4", "motorspacingx = 29784", "motorspacingx: 29784 mm is out"),
         ("motorspacingx = 2978.4", "motorspacingx = 1\nmotorSpacingX = 2", "already on line"),
         ("motorspacingx = 2978.4", "motorspacingx 2978.4", "line 6: is not key = value"),
-        ("bedwidth = 2438.4", "bedwidth = 96", "bedwidth: 96 mm .*inches"),
-        ("bedheight = 1219.2", "bedheight = 48", "bedheight: 48 mm .*inches"),
         ("motoroffsety = 463", "motoroffsety = 18.2", "motoroffsety: 18.2 mm above .*inches"),
         ("motoroffsety = 463", "motoroffsety = -463", "motoroffsety: -463 mm above .*is possible"),
-        ("rotationradius = 139.1", "rotationradius = 5.48", "rotationradius: 5.48 mm .*inches"),
         ("chainpitch = 6.35", "chainpitch = 0.25", "chainPitch .*inches"),
-        ("chainlength = 3360", "chainlength = 132", "chainlength: 132 mm .*inches"),
         ("leftchaintolerance = 0", "leftchaintolerance = 50", "leftchaintolerance: 50 percent"),
         ("leftchaintolerance = 0", "leftchaintolerence = 0.3", "did you mean leftChainTolerance"),
         ("rotationradius = 139.1", "rotatonradius = 139.1", "rotationRadius is missing .*line 40"),
@@ -122,13 +111,9 @@ def test_bad_files_are_refused_with_the_place(tmp_path, old, new, hint):
 @pytest.mark.parametrize(
     ("name", "text", "hint"),
     [
-        ("a.ini", "", "empty"),
         ("a.ini", "[global]\nnumpositions = 9\n", "holds marks"),
         ("a.ini", "[other]\na = 1\n", "has no section .Maslow Settings"),
         ("webcontrol.json", '{"Maslow Settings": []}', "kinematicsType is missing"),
-        ("marks.csv", "target_x_mm,target_y_mm\n", "none of the known forms"),
-        ("a.toml", "hello", "not valid TOML"),
-        ("a.ini", "hello", "is not key = value"),
     ],
 )
 def test_other_files_are_refused(tmp_path, name, text, hint):

@@ -119,11 +119,6 @@ class Client:
             pass
         return text
 
-    def measure(self, side: str) -> float:
-        """[mm] The length of a chain, as both clients read it."""
-        said = [text for text in self.ask(f"B10 {side}") if text.startswith("[Measure")]
-        return float(said[0][len("[Measure: ") : -1])
-
     def hear_for(self, seconds: float) -> None:
         """Hears so long a time of the machine."""
         for _ in range(round(seconds * PER_SECOND)):
@@ -210,13 +205,6 @@ def terminal():
     terminal.close()
 
 
-@pytest.fixture(params=GREETINGS.values(), ids=GREETINGS)
-def client(request, terminal):
-    client = request.param(terminal)
-    yield client
-    client.line.close()
-
-
 def shape(line: str) -> str:
     """The line with its numbers of a machine in motion left open, but for their decimals."""
     if line.startswith("$"):
@@ -245,75 +233,6 @@ def test_a_client_gets_the_lines_that_were_recorded(name, terminal):
     )
     assert {*map(shape, reports)} == {*map(shape, old_reports)}
     assert len(reports) == pytest.approx(len(old_reports), abs=4)
-
-
-def test_a_client_connects_streams_a_job_and_stops_it(client):
-    versions = [text for text in client.heard if text.startswith("Firmware Version")]
-    assert [float(text.split()[-1]) for text in versions] == [1.28]
-    answered = client.answers
-    for text in JOB:
-        client.say(text)
-    client.settle()
-    place = client.rest()
-    assert client.answers - answered == len(JOB)
-    assert place == pytest.approx((20, 10), abs=0.05)
-    # Stop in a move: a single answer, what was sent is forgotten, and the place is known.
-    client.say("G1 X400 Y10 F600 ")
-    client.hear_for(1.5)
-    answered = client.answers
-    client.line.write(b"!")
-    client.waiting.clear()
-    x, y = client.rest()
-    assert client.answers - answered == 1
-    assert 22 < x < 80
-    assert y == pytest.approx(10, abs=0.1)
-    client.ask("G0 X20 Y10 ")
-    assert client.rest() == pytest.approx((20, 10), abs=0.05)
-    assert not any(text.startswith(("ALARM", "error")) for text in client.heard)
-
-
-def test_a_client_pauses_and_goes_on(client):
-    client.ask("G21 ")
-    client.say("G1 X10 F800 ")
-    client.say("M0 ")
-    client.hear_until("Maslow Paused")
-    assert len(client.waiting) == 1
-    client.hear_for(3)
-    assert len(client.waiting) == 1
-    client.press("~")
-    client.settle()
-    # A second ~ is answered too: GroundControl sends it whenever a window closes.
-    client.press("~")
-    client.settle()
-    client.ask("G0 X0 ")
-    # A tool that is not in the spindle pauses; the same tool does not.
-    client.say("T2 M6 ")
-    client.hear_until("Tool Change: Please insert tool 2")
-    client.hear_until("Maslow Paused")
-    client.press("~")
-    client.settle()
-    assert "Maslow Paused" not in client.ask("T2 M6 ")
-    assert client.rest()[0] == pytest.approx(0, abs=0.05)
-
-
-def test_a_client_measures_and_declares_chains(client):
-    client.ask("G21 ")
-    client.ask("G0 X0 Y0 ")
-    client.rest()
-    before = client.measure("L"), client.measure("R")
-    for text in CALIBRATION:
-        client.ask(text)
-    moved = client.measure("L") - before[0], client.measure("R") - before[1]
-    assert moved == pytest.approx((5, -5), abs=0.05)
-    client.ask("B15 ")
-    assert client.rest() == pytest.approx((0, 0), abs=0.05)
-    left, right = client.measure("L"), client.measure("R")
-    assert (left, right) == pytest.approx(before, abs=0.05)
-    assert f"Left: {left:.2f}mm" in client.ask(f"B06 L{left} R{right} ")
-    assert client.rest() == pytest.approx((0, 0), abs=0.05)
-    said = client.ask("B08 ")
-    assert "Message: The machine chains have been manually re-calibrated." in said
-    assert not any(text.startswith(("ALARM", "error")) for text in client.heard)
 
 
 def record() -> None:

@@ -23,20 +23,6 @@ def hiding(effect: str, millimetres: float = 3.0) -> Hidden:
     return Hidden(((cause, size_for(cause, plan(5, 5), millimetres)),))
 
 
-@pytest.mark.slow
-def test_long_chains_are_told_from_a_wrong_tape_and_the_error_falls():
-    owner = VirtualOwner(random_garage(hiding("chain_pitch"), 1), noise=NOISE)
-    heard = []
-    loop = closed_loop(owner, grid=GRID, said=heard.append)
-    assert loop.auto.chosen == ("chain_pitch",)
-    assert loop.before.rms > 4
-    # The sheet is laid again, so its place is not part of the promise.
-    assert loop.after.shape_rms < 1.5 * NOISE * np.sqrt(2)
-    assert loop.left < 0.2 * loop.before.rms
-    assert loop.done
-    assert "on another sheet" in heard[-1]
-
-
 @pytest.mark.parametrize("feed", ["top", "bottom"])
 def test_a_machine_without_a_fault_cuts_where_it_should(tmp_path, feed):
     garage = Garage(Hidden(), friction=0.0, settings=replace(MAKER, feed=feed))

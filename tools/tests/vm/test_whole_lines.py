@@ -2,15 +2,7 @@
 however busy the computer is."""
 
 import serial
-from plumb.vm.pseudo_terminal import LONGEST_PAUSE, PseudoTerminal, WholeLines
-
-
-def test_the_begin_of_a_line_waits_for_its_end():
-    lines = WholeLines()
-    assert lines.take(b"ok\r\n$30=0 (z", 3) == b"ok\r\n"
-    assert lines.take(b" axis)", 3) == b""
-    assert lines.take(b"\r", 3) == b""
-    assert lines.take(b"\n$31", 3) == b"$30=0 (z axis)\r\n"
+from plumb.vm.pseudo_terminal import LONGEST_PAUSE, PseudoTerminal
 
 
 class SlowSpeaker:
