@@ -18,9 +18,10 @@ SLIDERS = {"feed": "Feed", "rapids": "Rapid", "spindle": "Spindle"}
 
 
 class Bcnc:
-    """bCNC with its buttons; none lets a jog go."""
+    """bCNC with its buttons."""
 
     name = "bCNC"
+    lacks = frozenset({"cancel a jog"})
 
     def __init__(self, folder: Path):
         self._log = (folder / "bcnc.log").open("w")
@@ -68,6 +69,9 @@ class Bcnc:
 
     def jog(self, way: str, feed: float) -> None:
         self._ask("sendGCode", f"$J=G91 {way} F100000")
+
+    def cancel_jog(self) -> None:
+        raise NotImplementedError
 
     def run(self, lines: list[str]) -> None:
         self._ask("run_lines", lines)

@@ -7,6 +7,7 @@ import socket
 import subprocess
 import threading
 import urllib.request
+from collections.abc import Sequence
 from pathlib import Path
 
 from grbl_board import until
@@ -33,8 +34,10 @@ def free_port() -> int:
 class CncjsServer:
     """The program `cncjs`, with a folder for its settings."""
 
-    def __init__(self, folder: Path):
-        kept = {"state": {"checkForUpdates": False}}
+    def __init__(self, folder: Path, ports: Sequence[str] = ()):
+        """`ports`: ports that its page offers in addition to those on USB."""
+        named = [{"path": port, "manufacturer": "virtual machine"} for port in ports]
+        kept = {"ports": named, "state": {"checkForUpdates": False}}
         (folder / "cncrc").write_text(json.dumps(kept))
         # It asks udev for the ports on USB, which a container lacks, and would then offer none.
         udev = folder / "udevadm"
@@ -79,9 +82,10 @@ class Cncjs:
     """CNCjs with its buttons; its socket speaks socket.io 2 over a websocket."""
 
     name = "CNCjs"
+    lacks = frozenset()
 
-    def __init__(self, folder: Path):
-        self.server = CncjsServer(folder)
+    def __init__(self, folder: Path, ports: Sequence[str] = ()):
+        self.server = CncjsServer(folder, ports)
         query = f"EIO=3&transport=websocket&token={self.server.token()}"
         address = f"ws://127.0.0.1:{self.server.tcp_port}/socket.io/?{query}"
         self.socket = connect(address, legacy=True)
