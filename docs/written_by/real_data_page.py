@@ -4,17 +4,14 @@ from __future__ import annotations
 
 import numpy as np
 from plumb.cure.add import Addition, Parameter
-from plumb.cure.machine_file import MARKS, SETTINGS, with_y_errors_flipped
 from plumb.fit.compare import best_pose
 from plumb.fit.observations import rms
-from plumb.marks.read import read_marks
-from plumb.model.predict import known_effects
 from plumb.pictures.fingerprints import Picture, drawing
-from plumb.settings.files import read_settings
 from real_sets import (
     BRACKETS,
     CUTS,
     HOLES,
+    NINE,
     PAIRS,
     RealSet,
     middle_shift,
@@ -23,6 +20,7 @@ from real_sets import (
     predicted,
     real_set,
     refusal_of,
+    with_y_errors_flipped,
 )
 from template import filled
 
@@ -34,9 +32,8 @@ SUNK, REACH = 2.0, 1170.0  # [mm] of a beam's tip, while the sled crosses so far
 
 def pages() -> dict[str, str]:
     """Return the page and each picture by its name below the project's root."""
-    settings = read_settings(SETTINGS, known=known_effects())
-    nine = RealSet("mibproj", settings, read_marks(MARKS, sheet=settings.sheet))
-    flipped = RealSet(nine.name, settings, with_y_errors_flipped(nine.marks))
+    nine = real_set(NINE, "Calibration Measurements.ini", "groundcontrol.ini")
+    flipped = RealSet(nine.name, nine.settings, with_y_errors_flipped(nine.marks))
     fifteen = real_set("c0depr1sm-2019-01-03", "marks.csv", "machine.toml")
     holes = {name: real_set(name) for name in HOLES}
     together = pooled(list(holes.values()))

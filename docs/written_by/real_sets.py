@@ -29,6 +29,7 @@ HOLES = (
 )
 CUTS = "madgrizzle-2018-08-27"
 PAIRS = ((HOLES[0], HOLES[1]), (HOLES[2], HOLES[3]))  # before and after a fit of the owner
+NINE = "mibproj"
 BRACKETS = ("gero-2017-04-26", "blsteinhauer88-2017-06-18")
 HOLE_EFFECTS = ("chain_pitch",)
 
@@ -158,3 +159,13 @@ def _by_span(
         for span, error in zip(holes.marks.distances, errors_of[holes.name], strict=True):
             groups.setdefault(frozenset(span.between), []).append(float(error))
     return {ends: np.array(errors) for ends, errors in groups.items() if len(errors) > 1}
+
+
+def with_y_errors_flipped(measurements: Measurements) -> Measurements:
+    """Return the same marks, each as far below its target as it was above it."""
+    flipped = []
+    for mark in measurements.marks:
+        x, y = mark.measured or mark.target
+        measured = (x, 2 * mark.target[1] - y) if mark.measured else None
+        flipped.append(replace(mark, measured=measured))
+    return replace(measurements, marks=tuple(flipped))
