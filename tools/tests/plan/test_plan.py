@@ -43,6 +43,13 @@ def pitch():
 
 
 @pytest.fixture(scope="module")
+def proposed(pitch):
+    """What is proposed for it."""
+    _, marks, diagnosis, _ = pitch
+    return propose(diagnosis, Inputs(MAKER, marks))
+
+
+@pytest.fixture(scope="module")
 def clean():
     """A board on which nothing is hidden."""
     marks = board({}, NINE, seed=7)
@@ -56,14 +63,12 @@ def kinds(answer):
     return [proposal.option.kind for proposal in answer.proposals]
 
 
-def test_every_intervention_is_among_the_options(pitch):
-    _, marks, diagnosis, _ = pitch
-    answer = propose(diagnosis, Inputs(MAKER, marks))
-    assert set(kinds(answer)) >= {"marks", "repeats", "weight", "swap", "check", "frame"}
-    assert answer.blind is not None and len(answer.blind.option.visits) == 28
-    rates = [proposal.rate for proposal in answer.proposals]
+def test_every_intervention_is_among_the_options(proposed):
+    assert set(kinds(proposed)) >= {"marks", "repeats", "weight", "swap", "check", "frame"}
+    assert proposed.blind is not None and len(proposed.blind.option.visits) == 28
+    rates = [proposal.rate for proposal in proposed.proposals]
     assert rates == sorted(rates, reverse=True)
-    for proposal in answer.proposals:
+    for proposal in proposed.proposals:
         assert 0 <= proposal.chance <= 1 and proposal.option.minutes > 0 and proposal.option.do
         assert 1 <= proposal.left <= len(effect_names())
 
@@ -98,11 +103,11 @@ def test_more_rows_never_lower_lambda_and_chosen_ones_beat_random_ones(pitch):
     )
 
 
-def test_look_alikes_are_told_by_what_parts_them_only(pitch):
+def test_look_alikes_are_told_by_what_parts_them_only(pitch, proposed):
     # A tape and chains that are long draw nearly the same arrows; a steel rule parts them.
     cut, marks, diagnosis, _ = pitch
     assert {"tape_scale", "chain_pitch"} <= set(diagnosis.suspects)
-    proposals = propose(diagnosis, Inputs(MAKER, marks)).proposals
+    proposals = proposed.proposals
     best = max(proposals, key=lambda each: each.chance)
     assert best.option.kind == "check" and best.chance > 0.3
     heavier = [each for each in proposals if each.option.kind == "weight"]
