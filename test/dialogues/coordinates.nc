@@ -160,6 +160,8 @@
 <- error: that is farther*
 -> G92
 <- error: G92 needs*
+-> G28.1 X1
+<- error: *
 -> G43.1
 <- error: G43.1 needs*
 -> G53 G2 X30 Y30 I5

@@ -16,6 +16,18 @@
 <* ok
 ~~ wait 0.5
 ~~ status <Idle,MPos:30.00,10.00,3.00,WPos:0.000,0.000,0.000> within 0.02
+; The hole is as deep as it says, and the bit stays there for P.
+-> G98 G82 X35 Z-1 R1 P3000
+~~ wait 7.8
+~~ z -1 within 0.03
+~~ sled X35 Y10 within 0.06
+<* ok
+-> G80 G4 P0
+<* ok
+~~ wait 0.5
+~~ z 3 within 0.03
+-> G0 X30
+<- ok
 ; Repeats, inches, G91, a dwell, in a system of coordinates.
 -> G10 L2 P3 X30 Y0
 <- ok

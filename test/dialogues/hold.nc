@@ -51,11 +51,16 @@
 <- B20
 <- Z Axis Upper Limit: 3.00 Lower Limit: 3.00 within 0.021
 <- ok
+; They move along with a height that is said in a hold.
+-> G10 Z1
+<- ok
+-> B20
+<- B20
+<- Z Axis Upper Limit: 1.00 Lower Limit: 1.00 within 0.021
+<- ok
 -> B19
 <- B19
 <- Z Axis Limits Cleared
-<- ok
--> G10 Z1
 <- ok
 -> G0 Z0.5
 <- ok

@@ -29,3 +29,23 @@
 <* ok
 ~~ wait 0.5
 ~~ status <Idle,MPos:10.00,0.00,-3.00,WPos:0.000,0.000,0.000> within 0.02
+-> G0 Z0
+<- Message: Please adjust Z-Axis to a depth of 0.00 mm
+<- Maslow Paused
+>> ~
+<- ok
+<- ok
+; A stop in the move before it: nobody is asked for a height.
+-> G1 X40 F600
+<- ok
+-> G0 Z-6
+~~ wait 0.5
+>> !
+<- ok
+<- Laser off
+<- [Forward Calculating Position]
+<- position loaded at:
+<* *
+<* *
+~~ wait 2
+~~ quiet

@@ -7,7 +7,7 @@
 ~~ wait 1
 ~~ quiet
 -> G1 X60 F900
-<- ALARM: Halted at G1 X60 F900: the sled moved # mm while its motors were off: bring it back, or begin again from where it is. Press Stop.
+<- ALARM: Halted at G1 X60 F900: the sled moved 32 mm while its motors were off: bring it back, or begin again from where it is. Press Stop. within 1
 ~~ wait 2
 ~~ off left
 >> !

@@ -11,10 +11,14 @@
 ~~ spindle high
 -> M5
 <- Turning Spindle Off
+~~ wait 0.9
+~~ quiet
 <- ok
 ~~ spindle low
 -> M3
 <- Turning Spindle On
+~~ wait 0.9
+~~ quiet
 <- ok
 ; A stop takes the relay back at once.
 >> !
@@ -38,10 +42,25 @@
 <- ok
 -> M3
 <- Turning Spindle On
-~~ wait 3
+~~ wait 1
+~~ servo 90
+~~ wait 2
 ~~ servo 180
+~~ wait 2
+~~ servo 90
+; Three turns of 2 s, and 1 s for the spindle.
+~~ wait 1.9
+~~ quiet
 <- ok
 ~~ servo loose
+-> M5
+<- Turning Spindle Off
+~~ wait 3
+~~ servo 0
+<- ok
+~~ servo loose
+-> M3
+<* ok
 -> M106
 <- Laser on
 <- ok
@@ -64,7 +83,10 @@
 ~~ spindle 128 within 1
 -> G1 X20 F600
 <- ok
+; A new speed is that of the moves behind it.
 -> S24000
+~~ wait 0.4
+~~ spindle 128 within 1
 <- ok
 ~~ spindle high
 -> M5

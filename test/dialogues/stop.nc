@@ -35,3 +35,17 @@
 <- ok
 ~~ wait 1
 ~~ quiet
+; Before a pause whose moves are on their way: nobody is asked for anything.
+-> G1 X40 F600
+<- ok
+-> M0
+~~ wait 0.5
+>> !
+<- ok
+<- Laser off
+<- [Forward Calculating Position]
+<- position loaded at:
+<* *
+<* *
+~~ wait 2
+~~ quiet

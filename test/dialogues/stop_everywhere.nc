@@ -63,6 +63,8 @@
 <* position loaded at:
 <* *
 <* *
+~~ wait 3
+~~ servo loose
 -> $17=0
 <- ok
 ; A stopped jog ends in G90, whatever of it was still waiting.

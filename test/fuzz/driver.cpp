@@ -1,7 +1,7 @@
 // Runs a fuzz target where there is no libFuzzer: mutates a corpus, keeps what reaches new edges,
 // writes the input of a crash into a file.
 //
-// DRIVER FOLDER LENGTH [SEED [NEW_FOLDER]] fuzzes; DRIVER FILE runs a single input. A length is a
+// DRIVER FOLDER LENGTH [SEED] fuzzes; DRIVER FILE runs a single input. A length is a
 // number of runs, whose inputs are the same on every machine, or a time: 600s.
 #include <sys/stat.h>
 #include <unistd.h>
@@ -65,12 +65,6 @@ bool run(const Input& input) {
   return isNew();
 }
 
-void keepNew(const char* folder, std::size_t number, const Input& input) {
-  const std::string name = std::string(folder) + "/" + std::to_string(number);
-  std::ofstream(name, std::ios::binary)
-      .write(reinterpret_cast<const char*>(input.data()), std::streamsize(input.size()));
-}
-
 std::size_t edgeCount() {
   std::size_t count = 0;
   for (const uint8_t bits : edges_seen) count += bits != 0;
@@ -87,7 +81,7 @@ struct Length {
   double seconds;
 };
 
-int fuzz(const char* folder, const Length& length, unsigned seed, const char* new_folder) {
+int fuzz(const char* folder, const Length& length, unsigned seed) {
   Corpus corpus = readCorpus(folder);
   if (corpus.empty()) {
     std::fprintf(stderr, "%s holds no corpus\n", folder);
@@ -101,17 +95,9 @@ int fuzz(const char* folder, const Length& length, unsigned seed, const char* ne
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   };
   long runs = 0;
-  for (double next_report = 60; !length.isOver(runs, since()); ++runs) {
+  for (; !length.isOver(runs, since()); ++runs) {
     const Input input = mutator.next(corpus);
-    if (run(input)) {
-      corpus.push_back(input);
-      if (new_folder != nullptr) keepNew(new_folder, corpus.size(), input);
-    }
-    if (since() < next_report) continue;
-    std::printf("%.0f s: %ld runs, %zu inputs, %zu edges\n", since(), runs, corpus.size(),
-                edgeCount());
-    std::fflush(stdout);
-    next_report += 60;
+    if (run(input)) corpus.push_back(input);
   }
   std::printf("%s: %ld runs in %.0f s, %zu inputs grew to %zu, %zu edges, nothing found\n", folder,
               runs, since(), first, corpus.size(), edgeCount());
@@ -143,10 +129,9 @@ int main(int argc, char** argv) {
     return 0;
   }
   if (argc < 3) {
-    std::fprintf(stderr, "use: %s FOLDER LENGTH [SEED [NEW_FOLDER]], or %s FILE\n", argv[0],
-                 argv[0]);
+    std::fprintf(stderr, "use: %s FOLDER LENGTH [SEED], or %s FILE\n", argv[0], argv[0]);
     return 2;
   }
   const unsigned seed = argc > 3 ? unsigned(std::atoi(argv[3])) : 1;
-  return fuzz(argv[1], Length(argv[2]), seed, argc > 4 ? argv[4] : nullptr);
+  return fuzz(argv[1], Length(argv[2]), seed);
 }

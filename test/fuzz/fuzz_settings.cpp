@@ -3,6 +3,7 @@
 // The input: which image, how many patches, each {address, address, length, bytes}, then the lines.
 #include <cstddef>
 
+#include "settings_host/published_image.h"
 #include "world.h"
 
 namespace {
@@ -19,13 +20,19 @@ struct Front {
   }
 };
 
+std::vector<uint8_t> bytesOf(const Eeprom& eeprom) {
+  std::vector<uint8_t> bytes;
+  for (uint16_t at = 0; at < eeprom.size(); ++at) bytes.push_back(eeprom.read(at));
+  return bytes;
+}
+
 std::vector<uint8_t> imageBy(uint8_t choice) {
   switch (choice % 5) {
     case 0:
       return ownImage();
     case 1:
     case 2:
-      return publishedImage();
+      return bytesOf(publishedImage(choice % 5 == 1));
     case 3:
       return std::vector<uint8_t>(4096, 0);
     default:

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <utility>
 
 #include "answers.h"
@@ -232,10 +231,6 @@ class World : public Wire, public Drives, public Aux, public Clock {
   bool touches_ = false, is_ending_ = false, is_greeting_ = true;
 };
 
-void putFloats(std::vector<uint8_t>& image, std::size_t at, const std::vector<float>& values) {
-  std::memcpy(image.data() + at, values.data(), values.size() * sizeof(float));
-}
-
 }  // namespace
 
 std::vector<uint8_t> live(const Story& story) {
@@ -259,32 +254,5 @@ const std::vector<uint8_t>& ownImage() {
         "B06 L1651 R1651\n\x02";
     return live(story);
   }();
-  return image;
-}
-
-std::vector<uint8_t> publishedImage() {
-  std::vector<uint8_t> image(4096, 0xff);
-  const std::size_t block = 340;
-  image[300] = 5;
-  image[301] = image[322] = image[494] = 56;
-  const int32_t counts[] = {210960, 210960, 0};
-  std::memcpy(image.data() + 310, counts, sizeof counts);
-  putFloats(image, block, {2438.4f, 1219.2f, 2978.4f, 463, 310, 139, 79});
-  const uint16_t words[] = {2000, 1651, 0};
-  image[block + 28] = 0;
-  putFloats(image, block + 29, {139.1f});
-  std::memcpy(image.data() + block + 33, words, sizeof words);
-  putFloats(image, block + 39, {8113.73f, 63.5f});
-  const uint16_t feed = 800;
-  std::memcpy(image.data() + block + 47, &feed, sizeof feed);
-  image[block + 49] = 1;
-  image[block + 50] = image[block + 51] = 0;
-  putFloats(image, block + 52, {12.6f, 3.17f, 7560});
-  putFloats(image, block + 64, {1300, 0, 34, 1, 5, 0, 0.28f, 1});
-  putFloats(image, block + 96, {1300, 0, 34, 1, 5, 0, 0.28f, 1});
-  putFloats(image, block + 128, {0});
-  image[block + 132] = 1;
-  image[block + 133] = 3;
-  putFloats(image, block + 134, {0, 0, 2000, 0, 0});
   return image;
 }

@@ -29,5 +29,3 @@ std::vector<uint8_t> live(const Story& story);
 
 /// An EEPROM of this firmware that knows where the sled is.
 const std::vector<uint8_t>& ownImage();
-/// An EEPROM of the published firmware.
-std::vector<uint8_t> publishedImage();

@@ -7,7 +7,6 @@
 #include <deque>
 #include <vector>
 
-#include "published_loop.h"
 #include "world/motor.h"
 
 const double kTurnLength = 63.5;                   // [mm]
@@ -20,13 +19,12 @@ struct Asked {
   double set_point, ahead;
 };
 
-/// A motor with random tolerances by its seed, controlled by a law at a rate [Hz].
-template <class Loop>
-class AxisWith {
+/// A motor with random tolerances by its seed, controlled at a rate [Hz].
+class ControlledAxis {
  public:
-  AxisWith(unsigned seed, double rate) : AxisWith(world::anyMotor(seed), seed, rate) {}
+  ControlledAxis(unsigned seed, double rate) : ControlledAxis(world::anyMotor(seed), seed, rate) {}
 
-  AxisWith(const world::MotorConstants& constants, unsigned seed, double rate)
+  ControlledAxis(const world::MotorConstants& constants, unsigned seed, double rate)
       : constants_(constants), motor(constants_, seed), seconds(1 / rate) {
     loop_.tune(kPosition, kSpeed, float(constants_.counts_per_turn), float(seconds));
     loop_.rest();
@@ -53,7 +51,7 @@ class AxisWith {
 
  private:
   world::MotorConstants constants_;
-  Loop loop_;
+  motion::AxisLoop loop_;
   motion::Watch watch_;
   int32_t counts_ = 0;
 
@@ -63,9 +61,6 @@ class AxisWith {
   int duty = 0;
   motion::Fault fault = motion::Fault::kNone;
 };
-
-using ControlledAxis = AxisWith<motion::AxisLoop>;
-using PublishedAxis = AxisWith<PublishedLoop>;
 
 /// A set-point that goes to and fro with bounded acceleration, and the way it will go a few ticks
 /// later, as the ring of set-points gives it.

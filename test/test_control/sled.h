@@ -4,8 +4,8 @@
 
 #include "axis.h"
 
-/// A sled under control of a law, with any two of the forty motors.
-template <class Loop, class Axis = AxisWith<Loop>>
+/// A sled with any two of the forty motors.
+template <class Axis = ControlledAxis>
 class SledWith {
  public:
   using Point = motion::Point<double>;
@@ -13,7 +13,7 @@ class SledWith {
   /// `ring`: most set-points that the main program keeps ahead.
   SledWith(unsigned seed, double rate, int ring = motion::SetPoints::kMost)
       : ring_(ring),
-        ahead_(Loop::ticksAhead(float(1 / rate))),
+        ahead_(motion::AxisLoop::ticksAhead(float(1 / rate))),
         axis_{{seed, rate}, {(seed + 17) % kMotors, rate}} {
     mover_.prepare({100, 10, 1000.0f / 60, 0.66f, 0.05f}, float(1 / rate));
     mover_.setSprockets({{float(-kHalf), float(kUp)}, {float(kHalf), float(kUp)}, {0, 0, 0}});

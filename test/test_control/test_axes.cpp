@@ -79,22 +79,6 @@ class Bench {
 
 }  // namespace
 
-TEST(Axes, ComeToTheirEndWithoutPassingIt) {
-  for (const float ticks : {100.0f, 200.0f}) {
-    double worst = 0;
-    for (unsigned seed = 0; seed < 20; ++seed) {
-      Bench bench(seed, ticks);
-      bench.travel(20, 800);
-      for (int rest = 0; rest < int(ticks); rest += bench.isMoving() ? 0 : 1) {
-        bench.tick();
-        worst = std::max(worst, bench.chain() - 20);
-      }
-      EXPECT_NEAR(20, bench.chain(), 0.05) << "motor " << seed;
-    }
-    EXPECT_LT(worst, 0.06) << ticks << " Hz";
-  }
-}
-
 TEST(Axes, YieldWhereTheSupplyIsWeakAndRiseAgain) {
   for (const float ticks : {100.0f, 200.0f}) {
     for (unsigned seed = 0; seed < 20; ++seed) {

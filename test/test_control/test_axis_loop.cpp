@@ -81,46 +81,6 @@ TEST_P(AtRate, ABlockedMotorThatComesFreeDoesNotShootOff) {
   }
 }
 
-TEST_P(AtRate, WhatIsWiredWronglyLeavesItsSetPointAtOnce) {
-  for (int fault = 0; fault < 3; ++fault) {
-    ControlledAxis axis(1, GetParam());
-    axis.motor.wires.motor_reversed = fault == 0;
-    axis.motor.wires.encoder_reversed = fault == 1;
-    axis.motor.wires.encoder_unplugged = fault == 2;
-    int ticks = 0;
-    double travelled = 0;
-    // The alarm sees the measured error: a motor is driven hard and stands still or turns the wrong
-    // way.
-    for (double at = 0; ticks < int(GetParam()); ++ticks) {
-      at += 13.3 / GetParam();
-      axis.tick(at);
-      travelled = std::fabs(axis.motor.turns() * kTurnLength);
-      if (axis.duty == 255 || axis.duty == -255) break;
-    }
-    EXPECT_LT(ticks, int(0.3 * GetParam())) << "fault " << fault;
-    EXPECT_LT(travelled, 8.0) << "fault " << fault;
-  }
-}
-
-TEST(AxisLoop, TakesACountForNoErrorOnlyAtRest) {
-  const float kCount = 1 / 8113.73f;  // [turns]
-  const auto dutyAfter = [](float error, float asked) {
-    motion::AxisLoop loop;
-    loop.tune(kPosition, kSpeed, 8113.73f, 0.01f);
-    loop.rest();
-    int16_t duty = 0;
-    for (int i = 0; i < 100; ++i) {
-      loop.measure(asked);
-      duty = loop.follow(error, asked, asked);
-    }
-    return duty;
-  };
-  EXPECT_EQ(0, dutyAfter(kCount, 0));
-  EXPECT_EQ(0, dutyAfter(-kCount, 0));
-  EXPECT_LT(100, dutyAfter(2 * kCount, 0));
-  EXPECT_LT(dutyAfter(0, kCount) + 50, dutyAfter(kCount, kCount));
-}
-
 namespace {
 
 const float kPerTick = 0.01f / 60;  // [turns] in a tick of 10 ms at 1 rpm

@@ -19,7 +19,7 @@ double distanceToSide(Point place, Point from, Point to) {
 }
 
 /// An axis whose rotor is where it shall be, always. The play of the gear is left: the encoder is
-/// on the rotor, so no law sees it.
+/// on the rotor, so no loop sees it.
 struct PlayAlone {
   PlayAlone(unsigned seed, double rate) : motor{world::anyMotor(seed), 0}, seconds(1 / rate) {}
 
@@ -39,9 +39,9 @@ struct PlayAlone {
 };
 
 /// How far the bit strays from the outline of a square of 30 mm [mm].
-template <class Loop, class Axis = AxisWith<Loop>>
+template <class Axis = ControlledAxis>
 double straysFromSquare(unsigned seed, double rate, double feed, int ring) {
-  SledWith<Loop, Axis> sled(seed, rate, ring);
+  SledWith<Axis> sled(seed, rate, ring);
   const Point corners[] = {{0, 0}, {30, 0}, {30, 30}, {0, 30}, {0, 0}};
   for (int i = 1; i < 5; ++i) sled.lineTo(corners[i], feed);
   sled.finish();
@@ -56,9 +56,8 @@ double straysFromSquare(unsigned seed, double rate, double feed, int ring) {
 }
 
 /// How far the bit goes beyond the end of a long line [mm].
-template <class Loop>
 double passesItsEnd(unsigned seed, double rate, double feed, int ring) {
-  SledWith<Loop> sled(seed, rate, ring);
+  SledWith<> sled(seed, rate, ring);
   const Point end = seed % 2 ? Point{160, 120} : Point{-200, 0};
   sled.lineTo(end, feed);
   sled.finish();
@@ -83,16 +82,14 @@ Spread ofAll(const char* name, double rate, double feed, Measure measure) {
   return {all[kMotors / 2], all.back()};
 }
 
-template <class Loop>
 Spread corners(const char* name, double rate, double feed, int ring = motion::SetPoints::kMost) {
   return ofAll(name, rate, feed,
-               [=](unsigned seed) { return straysFromSquare<Loop>(seed, rate, feed, ring); });
+               [=](unsigned seed) { return straysFromSquare<>(seed, rate, feed, ring); });
 }
 
-template <class Loop>
 Spread ends(const char* name, double rate, double feed, int ring = motion::SetPoints::kMost) {
   return ofAll(name, rate, feed,
-               [=](unsigned seed) { return passesItsEnd<Loop>(seed, rate, feed, ring); });
+               [=](unsigned seed) { return passesItsEnd(seed, rate, feed, ring); });
 }
 
 class SledAtRate : public testing::TestWithParam<double> {};
@@ -103,27 +100,24 @@ INSTANTIATE_TEST_SUITE_P(Both, SledAtRate, testing::Values(100.0, 200.0));
 
 TEST_P(SledAtRate, ComesToItsEndAndStaysThere) {
   for (const double feed : {300.0, 800.0}) {
-    EXPECT_LT(ends<motion::AxisLoop>("end", GetParam(), feed).worst, 0.08);
+    EXPECT_LT(ends("end", GetParam(), feed).worst, 0.08);
     // With two set-points ahead, as when the main program is busy, the bit still does not
     // overshoot.
-    EXPECT_LT(ends<motion::AxisLoop>("end, short ring", GetParam(), feed, 2).worst, 0.16);
+    EXPECT_LT(ends("end, short ring", GetParam(), feed, 2).worst, 0.16);
   }
 }
 
-TEST_P(SledAtRate, CutsACornerLessThanThePublishedLaw) {
+TEST_P(SledAtRate, CutsACornerByLittle) {
   for (const double feed : {300.0, 800.0}) {
-    const Spread ours = corners<motion::AxisLoop>("corner", GetParam(), feed);
-    const Spread published = corners<PublishedLoop>("corner, published", GetParam(), feed);
-    EXPECT_LT(ours.median, published.median);
-    EXPECT_LT(ours.worst, published.worst);
+    const Spread ours = corners("corner", GetParam(), feed);
     EXPECT_LT(ours.median, 0.13);
+    EXPECT_LT(ours.worst, feed < 800 ? 0.15 : 0.33);
   }
 }
 
-TEST_P(SledAtRate, StraysByThePlayOfItsGearsUnderAnyLaw) {
+TEST_P(SledAtRate, StraysByThePlayOfItsGearsHoweverItIsControlled) {
   const Spread play = ofAll("play alone", GetParam(), 800, [](unsigned seed) {
-    return straysFromSquare<motion::AxisLoop, PlayAlone>(seed, GetParam(), 800,
-                                                         motion::SetPoints::kMost);
+    return straysFromSquare<PlayAlone>(seed, GetParam(), 800, motion::SetPoints::kMost);
   });
   // A quarter of the chains is slack.
   EXPECT_NEAR(play.median, 0, 0.001);
@@ -131,7 +125,7 @@ TEST_P(SledAtRate, StraysByThePlayOfItsGearsUnderAnyLaw) {
 }
 
 TEST_P(SledAtRate, PassesASlowCornerOnMotorsThatTurnRound) {
-  const Spread ours = corners<motion::AxisLoop>("slow corner", GetParam(), 200);
+  const Spread ours = corners("slow corner", GetParam(), 200);
   EXPECT_LT(ours.median, 0.08);
   EXPECT_LT(ours.worst, 0.12);
 }

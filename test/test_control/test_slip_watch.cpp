@@ -118,10 +118,3 @@ TEST(Pace, ComesBackFromAnyWay) {
     EXPECT_TRUE(pace.isKept(0));
   }
 }
-
-TEST(Pace, MovesWellAwayFromRest) {
-  for (const int sign : {-1, 1}) {
-    EXPECT_TRUE(Pace::moves(sign * 524));
-    EXPECT_FALSE(Pace::moves(sign * 523));
-  }
-}

@@ -119,16 +119,6 @@ TEST_P(AnyLine, IsAnsweredOnceOrHaltsUntilStop) {
 
 INSTANTIATE_TEST_SUITE_P(Seeds, AnyLine, testing::Range(1u, conversations() + 1));
 
-TEST(AnUnknownBoard, RaisesAnAlarmAndStillAnswers) {
-  std::vector<Step> steps;
-  for (const char* text :
-       {"ALARM: The Board version number*", "B05", "Firmware Version 1.28", "ok"}) {
-    steps.push_back({Step::kSkipTo, text, text});
-    if (steps.size() == 1) steps.push_back({Step::kSend, "B05", "B05"});
-  }
-  EXPECT_EQ("", HostMachine(steps, 1651, {0, nullptr}).play());
-}
-
 TEST(Settings, ComeBackAsTheyWereSentInWhateverForm) {
   std::vector<Step> steps = readScript("test/dialogues", "setup.inc");
   const std::pair<const char*, const char*> values[] = {

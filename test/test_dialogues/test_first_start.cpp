@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "host_machine.h"
-#include "test_settings/published_image.h"
+#include "settings_host/published_image.h"
 
 namespace {
 

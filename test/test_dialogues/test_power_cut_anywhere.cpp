@@ -6,7 +6,7 @@
 
 #include "awakened.h"
 #include "host_machine.h"
-#include "test_settings/published_image.h"
+#include "settings_host/published_image.h"
 
 using namespace machine;
 

@@ -218,24 +218,6 @@ TEST(Registry, FindsTheFirstParameterOfAnEffect) {
   EXPECT_EQ(All::indexOf(180), All::firstOf<ChainPitch<double>>());
 }
 
-TEST(Registry, TakesOverWhatThePublishedSettingsSay) {
-  const Frame<double> frame = {2978.4, 1072.6, 0, 139.1, 10.1063, 97.9, 0.00137293, Feed::kOverTop};
-  EffectParams<double> effects = {}, expected = {};
-  const PublishedChains<double> published = {8.2e-12, {0.002, -0.001}, 2438.4, 1219.2};
-  Effects::For<double>::addPublished(frame, published, effects.value);
-  // The longest line on the sheet is hypot(2708.4, 1682.2) mm.
-  const double share = 139.1 / hypot(2708.4, 1682.2), chain = 1 - share;
-  expected.set(160, 8.2e-12 / (chain * chain * chain * (1 + 3 * share)));
-  expected.set(180, 0.002);
-  expected.set(181, -0.001);
-  expected.set(200, 139.1 * 0.002 / 1.002);
-  expected.set(201, -139.1 * 0.001 / 0.999);
-  for (const AnyParam& any : everyParam())
-    EXPECT_NEAR(expected.value[any.index], effects.value[any.index],
-                1e-12 * fabs(expected.value[any.index]))
-        << any.setting;
-}
-
 TEST(Registry, EveryHeaderSaysAllThatTheLabAsks) {
   Missing missing;
   Effects::For<double>::visit(missing);

@@ -59,17 +59,6 @@ TEST(Push, ChainsAreThoseOfTheJudgesPushedSled) {
   }
 }
 
-TEST(Push, NoneLeavesTheChainsAsTheyAre) {
-  const Machine<double> laws = lawsWith({{110, 0.007}, {120, 3}});
-  for (const Eigen::Vector2d& at : sheetPlaces()) {
-    const Point<double> place = {at.x(), at.y()};
-    const Chains<double> pushed = paidOut(hangPushed(laws, place, {0, 0}));
-    const Chains<double> free = inverse(laws, place).chains;
-    EXPECT_NEAR(free.left, pushed.left, 1e-9);
-    EXPECT_NEAR(free.right, pushed.right, 1e-9);
-  }
-}
-
 TEST(Push, ListsKnowWhichEffectsPush) {
   typedef Registry<At<100, MotorLevel>, At<110, Hose>, At<120, Hose>>::For<double> Pushing;
   EXPECT_EQ(6, int(Pushing::kPushMask));

@@ -29,32 +29,3 @@ TEST(PushedBalance, PullsHoldTheLoadAndThePush) {
     }
   }
 }
-
-TEST(PushedBalance, AFrameThatGivesFollowsThePullOfEachSide) {
-  const Point<double> push = {14, -4};  // [N]
-  for (const EffectParams<double>& effects :
-       {hiddenBy("", {{110, 0.02}, {111, 0.02}}, 0, 0).effects,
-        hiddenBy("", {{120, 6}, {121, -4}}, 0, 0).effects}) {
-    const Machine<double> laws = prepare(frameUnder({}), effects);
-    reference::Machine machine = judge(effects);
-    machine.push = {push.x, push.y};
-    for (const Eigen::Vector2d& place :
-         {Eigen::Vector2d(-700, 300), Eigen::Vector2d(0, -300), Eigen::Vector2d(800, 100)}) {
-      const reference::Hang truth = reference::hangAt(machine, place);
-      ASSERT_TRUE(truth.solved);
-      const Hanging<double> hanging = hangPushed(laws, Point<double>{place.x(), place.y()},
-                                                 {push.x / kSledWeight, push.y / kSledWeight});
-      EXPECT_LT(worse(paidOut(hanging), truth.paid_out), 0.015) << place.x() << " " << place.y();
-    }
-  }
-}
-
-TEST(Found, SaysWhetherASearchWasSentBeyondWhatHangs) {
-  const Machine<double> laws = lawsWith({});
-  const PaidOut<double> paid = inverse(laws, Point<double>{300, -200});
-  EXPECT_EQ(Found::kYes, forward(laws, paid.chains, Point<double>{0, 0}).found);
-  // Pulls so unequal that the sled would hang outside a motor.
-  EXPECT_EQ(Found::kOutOfReach,
-            forward(laws, Chains<double>{200, 3400}, Point<double>{0, 0}).found);
-  EXPECT_EQ(Found::kOutOfReach, forward(laws, Chains<double>{1000, 1000}).found) << "too short";
-}

@@ -20,15 +20,6 @@ double sweep(double dx, double dy, ArcCentre centre, bool clockwise) {
 
 }  // namespace
 
-TEST(ArcCentre, OfAQuarterCircleIsOnTheRightForG2AndOnTheLeftForG3) {
-  const ArcCentre right = centreByRadius(10, 10, 10, true);
-  EXPECT_NEAR(10, right.x, 1e-5);
-  EXPECT_NEAR(0, right.y, 1e-5);
-  const ArcCentre left = centreByRadius(10, 10, 10, false);
-  EXPECT_NEAR(0, left.x, 1e-5);
-  EXPECT_NEAR(10, left.y, 1e-5);
-}
-
 TEST(ArcCentre, IsAsFarFromBothEndsAndTurnsTheShortWayUnlessTheRadiusIsNegative) {
   std::mt19937 random(4);
   std::uniform_real_distribution<float> place(-900, 900), factor(0.501f, 20);
@@ -43,15 +34,6 @@ TEST(ArcCentre, IsAsFarFromBothEndsAndTurnsTheShortWayUnlessTheRadiusIsNegative)
     ASSERT_NEAR(wide, from, 1e-5 * double(wide) + 1e-3);
     ASSERT_NEAR(from, to, 2e-6 * double(wide) + 1e-3);
     ASSERT_EQ(is_long, sweep(dx, dy, centre, clockwise) > M_PI);
-  }
-}
-
-TEST(ArcCentre, OfAHalfCircleIsItsMiddle) {
-  for (const bool clockwise : {false, true}) {
-    const ArcCentre centre = centreByRadius(100, 0, 50, clockwise);
-    ASSERT_TRUE(centre.found);
-    EXPECT_NEAR(50, centre.x, 1e-4);
-    EXPECT_NEAR(0, centre.y, 1e-4);
   }
 }
 

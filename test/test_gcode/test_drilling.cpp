@@ -129,12 +129,6 @@ TEST(Drilling, RepeatsAlongTheWayInG91) {
   EXPECT_EQ("across 50 2, feed -1, rapid 2", tool.drill("X10"));
 }
 
-TEST(Drilling, RepeatsInPlaceInG90AndTakesKForL) {
-  Driller tool(2);
-  EXPECT_EQ("across 3 0, feed 0, rapid 2, across 3 0, feed 0, rapid 2",
-            tool.drill("G81 X3 Z0 R2 K2"));
-}
-
 TEST(Drilling, CountsFromWhereCoordinatesBegin) {
   Driller tool(20);
   tool.offset[0] = 100;
@@ -181,12 +175,6 @@ TEST(Drilling, MakesNoStepOfManyHolesWhereNothingMoves) {
   std::string all;
   for (int i = 0; i < 999; ++i) all += (i == 0 ? "" : ", ") + std::string("across 3 0");
   EXPECT_EQ(all, tool.allSteps());
-}
-
-TEST(Drilling, MakesNoHoleOfALineWithAFault) {
-  Driller tool(5);
-  EXPECT_EQ("across 1 0, rapid 1, feed -1, rapid 5", tool.drill("G81 X1 Z-1 R1"));
-  EXPECT_EQ("fault", tool.drill("X2 L0"));
 }
 
 TEST(Drilling, LeavesNothingOfALineThatWasBrokenOff) {

@@ -38,15 +38,6 @@ TEST(Input, GivesLinesInOrderAndEmptyOnesToo) {
   EXPECT_EQ("B05  |", lines(input));
 }
 
-TEST(Quick, CharactersAreToldAtOnce) {
-  for (const char* each : {"!", "~"}) {
-    Input input;
-    EXPECT_EQ(each, put(input, each));
-  }
-  Input input;
-  EXPECT_EQ("XX", put(input, "\x18`"));
-}
-
 TEST(Quick, CharactersActInsideLinesAndComments) {
   Input input;
   EXPECT_EQ("~", put(input, "G1 X~5\n"));
@@ -86,14 +77,6 @@ TEST(Quick, AQuestionMarkAsksForTheStatusOutsideComments) {
   EXPECT_EQ(Quick::kNone, input.put('?'));
   put(input, "\n?\n");
   EXPECT_EQ("X1 (?) ;?||", lines(input)) << "its line feed ends a line";
-}
-
-TEST(Input, DropsControlCharactersInFrontOfALine) {
-  Input input;
-  put(input, std::string("\0\x01\x7f", 2) + "G1 X5\n\x10G1 X6\n\x02G1");
-  EXPECT_EQ("G1 X5|G1 X6|", lines(input));
-  put(input, "\n\x02G2\n");
-  EXPECT_EQ("G1|G2|", lines(input));
 }
 
 TEST(Input, MakesAControlCharacterInALineAMistakeAsADigitMayHaveBecomeIt) {
@@ -190,43 +173,10 @@ TEST(Input, MakesADigitWithAWrongBitAMistake) {
   }
 }
 
-TEST(Input, MakesOtherBytesAMistakeButNotInComments) {
-  Input input;
-  put(input, "X1\xc3\xbc\n(1\xc2\xb0)\n");
-  char line[Input::kRoom + 1];
-  ASSERT_TRUE(input.takeLine(line));
-  EXPECT_EQ(Fault::kStray, faultOf(line));
-  ASSERT_TRUE(input.takeLine(line));
-  EXPECT_EQ(Fault::kNone, faultOf(line));
-}
-
 TEST(Input, MakesASpaceOfATab) {
   Input input;
   put(input, "X1\tY2\n");
   EXPECT_EQ("X1 Y2|", lines(input));
-}
-
-TEST(Input, HoldsTheHundredAndTwentySixBytesThatClientsSendAhead) {
-  Input input;
-  std::string sent;
-  for (int i = 0; i < 18; ++i) sent += "G1 X5 \n";
-  ASSERT_EQ(126u, sent.size());
-  EXPECT_EQ("", put(input, sent));
-  EXPECT_EQ(1, input.room());
-  EXPECT_EQ("", put(input, "\n\n\n"));
-  EXPECT_EQ("O", put(input, "\n"));
-}
-
-TEST(Input, OverflowsWhenLinesWaitAndNoRoomIsLeft) {
-  Input input;
-  put(input, "G1\n");
-  EXPECT_EQ("", put(input, std::string(125, 'X')));
-  EXPECT_EQ(0, input.room());
-  EXPECT_EQ("O", put(input, "X"));
-  input.clear();
-  EXPECT_EQ(kAllFree, input.room());
-  put(input, "\nG2\n");
-  EXPECT_EQ("G2|", lines(input));
 }
 
 TEST(Input, HoldsTheHundredAndTwentyEightCharactersOfGrblSenders) {
@@ -258,23 +208,6 @@ TEST(Input, SwallowsALongerLineToItsEndAndTellsOnce) {
   EXPECT_EQ("(too long)|G1|", lines(input));
 }
 
-TEST(Input, IsStoppedInTheMiddleOfALongLine) {
-  Input input;
-  EXPECT_EQ("!", put(input, std::string(300, 'X') + "!"));
-  input.clear();
-  put(input, "\nG1\n");
-  EXPECT_EQ("G1|", lines(input));
-}
-
-TEST(Input, CountsItsRoomRoundTheRing) {
-  Input input;
-  for (int i = 0; i < 500; ++i) {
-    EXPECT_EQ("", put(input, "G1 X1234567890 Y1234567890\n"));
-    EXPECT_EQ("G1 X1234567890 Y1234567890|", lines(input));
-    ASSERT_EQ(kAllFree, input.room());
-  }
-}
-
 TEST(Resume, CountsForLinesThatEndedBeforeIt) {
   Input input;
   char line[Input::kRoom + 1];
@@ -287,26 +220,6 @@ TEST(Resume, CountsForLinesThatEndedBeforeIt) {
   EXPECT_FALSE(input.takeResume());
   input.takeLine(line);
   EXPECT_FALSE(input.takeResume());
-}
-
-TEST(Resume, DoesNotCountForALineThatEndsAfterIt) {
-  Input input;
-  char line[Input::kRoom + 1];
-  put(input, "G1\nM~0\n");
-  input.takeLine(line);
-  EXPECT_STREQ("G1", line);
-  input.takeLine(line);
-  EXPECT_STREQ("M0", line);
-  EXPECT_FALSE(input.takeResume());
-}
-
-TEST(Resume, CountsForTheLineThatIsBeingExecuted) {
-  Input input;
-  char line[Input::kRoom + 1];
-  put(input, "M0\nG1\n");
-  input.takeLine(line);
-  put(input, "~");
-  EXPECT_TRUE(input.takeResume());
 }
 
 TEST(Resume, IsForgottenWithTheLines) {

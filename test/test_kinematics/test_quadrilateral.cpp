@@ -160,17 +160,6 @@ TEST_P(EverySled, ForwardFindsThePlaceWithoutAGuess) {
   }
 }
 
-TEST_P(EverySled, ForwardComesBackFromTheFarCorner) {
-  const Quadrilateral<float> machine = lawsOf<float>(GetParam());
-  for (const Point<float>& target : sheetPlaces<float>()) {
-    const Point<float> far = {target.x > 0 ? -1229.2f : 1229.2f, target.y > 0 ? -619.6f : 619.6f};
-    const TiltedPlace<float> place =
-        forward(machine, inverse(machine, target).chains, far, target.x > 0 ? -0.5f : 0.5f);
-    ASSERT_EQ(Found::kYes, place.found) << target.x << " " << target.y;
-    EXPECT_LT(miss(place, target), kCloseEnough) << target.x << " " << target.y;
-  }
-}
-
 TEST_P(EverySled, ForwardComesBackFromTwiceTheSheetAndAnyTilt) {
   const Quadrilateral<float> machine = lawsOf<float>(GetParam());
   std::mt19937 random(20200501);
@@ -185,44 +174,6 @@ TEST_P(EverySled, ForwardComesBackFromTwiceTheSheetAndAnyTilt) {
           << "from " << guess.x << " " << guess.y << " to " << target.x << " " << target.y;
       EXPECT_LT(miss(place, target), kCloseEnough) << "from " << guess.x << " " << guess.y;
     }
-}
-
-TEST_P(EverySled, ForwardFindsTheJudgesSled) {
-  const Quadrilateral<double> machine = lawsOf<double>(GetParam());
-  for (const Point<double>& target : sheetPlaces<double>(0, 9, 5)) {
-    const reference::TiltedHang truth = judged(GetParam(), target);
-    const TiltedPlace<double> place =
-        forward(machine, Chains<double>{truth.paid_out[0], truth.paid_out[1]});
-    ASSERT_EQ(Found::kYes, place.found);
-    EXPECT_LT(miss(place, target), kCloseEnough);
-  }
-}
-
-TEST(Quadrilateral, HangsLevelInTheMiddleOnStraightTangents) {
-  // By hand: brackets 400 inwards of the sprockets and 300 below, 10 of radius.
-  const Frame<double> frame = {1000, 400, 0, 0, 10, 0, 0, Feed::kOverTop};
-  const Quadrilateral<double> machine =
-      prepare(frame, BracketSled<double>{200, 100, 50}, PitchStrain<double>{0, 0.01});
-  const TiltedPaidOut<double> paid = inverse(machine, Point<double>{0, 0});
-  const double tangent = sqrt(500.0 * 500 - 100), wrap = 10 * (atan2(300, 400) + asin(10 / 500.0));
-  EXPECT_NEAR(0, paid.tilt_sine, 1e-12);
-  EXPECT_NEAR(wrap + tangent, paid.chains.left, 0.0017);
-  EXPECT_NEAR(wrap + tangent / 1.01, paid.chains.right, 0.0017);
-}
-
-TEST(Quadrilateral, MovesWithTheMotors) {
-  Frame<double> frame = {2978.4, 1072.6, 12.5, 0, kSprocketRadius, 0, 0, Feed::kOffBottom};
-  const BracketSled<double> sled = {310, 139, 79};
-  const PitchStrain<double> pitch = {0.001, 0};
-  const TiltedPaidOut<double> moved = inverse(prepare(frame, sled, pitch), Point<double>{712.5, 9});
-  frame.motor_center_x = 0;
-  const TiltedPaidOut<double> still = inverse(prepare(frame, sled, pitch), Point<double>{700, 9});
-  EXPECT_LT(apart(moved.chains, still.chains), 1e-9);
-}
-
-TEST(Quadrilateral, TiltsUpOnTheSideOfTheNearerMotor) {
-  EXPECT_GT(inverse(published(), Point<float>{900, 0}).tilt_sine, 0.1f);
-  EXPECT_LT(inverse(published(), Point<float>{-900, 0}).tilt_sine, -0.1f);
 }
 
 TEST(Quadrilateral, ForwardFollowsASmallStepInOneRound) {
@@ -261,16 +212,6 @@ TEST(Quadrilateral, RefusesPlacesThatAreNoNumbers) {
   EXPECT_EQ(Found::kOutOfReach, foundTilted(INFINITY, 0));
   EXPECT_EQ(Found::kOutOfReach, foundTilted(0, -INFINITY));
   EXPECT_EQ(Found::kOutOfReach, foundTilted(1e30f, -1e30f));
-}
-
-TEST(Quadrilateral, RefusesPlacesAboveOrBesideTheMotors) {
-  EXPECT_EQ(Found::kOutOfReach, foundTilted(0, 940));  // brackets level with the sprockets
-  EXPECT_EQ(Found::kOutOfReach, foundTilted(0, 1072.6f));
-  EXPECT_EQ(Found::kOutOfReach, foundTilted(0, 1500));
-  EXPECT_EQ(Found::kOutOfReach, foundTilted(300, 1080));
-  EXPECT_EQ(Found::kOutOfReach, foundTilted(1600, 0));
-  EXPECT_EQ(Found::kOutOfReach, foundTilted(-1480, -500));
-  EXPECT_EQ(Found::kOutOfReach, foundTilted(-1489.2f, 1072.6f));
 }
 
 TEST(Quadrilateral, SearchesNoLongerWherePlacesAreOutOfReach) {

@@ -69,23 +69,10 @@ Reach verdictAt(double x, double y, const ReachLimits<double>& limits = ReachLim
   return reach(lawsOf<double>(triedMachines()[0]), Point<double>{x, y}, limits).verdict;
 }
 
-/// Places of the sheet with that verdict, of 25 * 13.
-int countOf(const Machine<double>& machine, Reach verdict) {
-  int count = 0;
-  for (const Point<double>& place : sheetPlaces<double>(0, 25, 13))
-    count += reachedBy(machine, place).verdict == verdict;
-  return count;
-}
-
 }  // namespace
 
 TEST_P(ReachOf, GiveIsWhatTheJudgesSledDoesWhenPushed) {
   EXPECT_LT(worstGive(lawsOf<double>(GetParam()), judgeOf(GetParam())), 0.018);
-}
-
-TEST(Reach, GiveOfTheDefaultMachineIsWithinOnePerCent) {
-  const Tried tried = triedMachines()[0];
-  EXPECT_LT(worstGive(lawsOf<double>(tried), judgeOf(tried)), 0.01);
 }
 
 TEST(Reach, EveryEffectWithForceGives) {
@@ -124,23 +111,6 @@ TEST(Reach, ALeaningFrameIsSofter) {
   EXPECT_GT(worstGive(upright, judge), 0.03);
 }
 
-TEST(Reach, AgreesWithThePublishedTable) {
-  // Two figures of a study of the default machine. The study takes the arm for chain too, so 5 to
-  // 10 per cent too much chain stretches.
-  struct Row {
-    double x, y, xx, yy;
-  };
-  const Row rows[] = {{0, 550, 0.005, 0.036},    {0, 0, 0.008, 0.015},   {0, -550, 0.015, 0.013},
-                      {1150, 550, 0.025, 0.013}, {1150, 0, 0.12, 0.017}, {1150, -550, 0.39, 0.023},
-                      {1200, -600, 0.69, 0.027}};
-  const Machine<double> machine = lawsOf<double>(triedMachines()[0]);
-  for (const Row& row : rows) {
-    const Give<double> give = reachedBy(machine, Point<double>{row.x, row.y}).give;
-    EXPECT_NEAR(row.xx, give.xx, 0.0005 + 0.05 * row.xx) << row.x << " " << row.y;
-    EXPECT_NEAR(row.yy, give.yy, 0.0005 + 0.07 * row.yy) << row.x << " " << row.y;
-  }
-}
-
 TEST_P(ReachOf, TensionsAreTheJudgesAtTheSprockets) {
   const Machine<double> machine = lawsOf<double>(GetParam());
   const reference::Machine judge = judgeOf(GetParam());
@@ -163,16 +133,6 @@ TEST_P(ReachOf, FloatAgreesWithDouble) {
     EXPECT_NEAR(exact.give.yy, double(rounded.give.yy), 0.005 * exact.give.yy);
     EXPECT_NEAR(exact.tension[kLeft], double(rounded.tension[kLeft]), 0.001);
   }
-}
-
-TEST(Reach, LeftMirrorsRight) {
-  const Machine<double> machine = lawsWith({{160, 8.2e-12}, {170, 5e-6}, {110, 0.01}});
-  const Reached<double> left = reachedBy(machine, Point<double>{-900, -300});
-  const Reached<double> right = reachedBy(machine, Point<double>{900, -300});
-  EXPECT_NEAR(left.give.xx, right.give.xx, 1e-12);
-  EXPECT_NEAR(left.give.xy, -right.give.xy, 1e-12);
-  EXPECT_GT(left.give.xy, 0.01);  // pushed right, where it is soft, the sled climbs its near chain
-  EXPECT_NEAR(left.tension[kLeft], right.tension[kRight], 1e-9);
 }
 
 TEST(Reach, AMachineWithoutForceEffectsDoesNotGiveButStillPulls) {
@@ -230,22 +190,6 @@ TEST(Reach, OnTheDefaultMachineOnlyTheLowerEndsOfBothSidesAreNotUsable) {
   }
   EXPECT_EQ(Reach::kTooSlack, verdictAt(1219.2, -609.6));
   EXPECT_EQ(Reach::kTooVertical, verdictAt(-1200, -600));
-}
-
-TEST(Reach, MotorsNearTheSheetPullTooMuchAtTheTopOnly) {
-  const Machine<double> low = lawsOf<double>(triedMachines()[8]);  // wide gap, 300 mm above
-  EXPECT_EQ(Reach::kTooTight, reachedBy(low, Point<double>{0, 600}).verdict);
-  EXPECT_EQ(Reach::kUsable, reachedBy(low, Point<double>{0, 0}).verdict);
-  EXPECT_EQ(Reach::kUsable, reachedBy(low, Point<double>{1200, -600}).verdict);
-}
-
-TEST(Reach, ALightSledIsTooSlackBelowAndAHeavyOneTooTightAbove) {
-  const Machine<double> light = lawsOf<double>(triedMachines()[2]);
-  const Machine<double> heavy = lawsOf<double>(triedMachines()[3]);
-  EXPECT_GT(countOf(light, Reach::kTooSlack), 20);
-  EXPECT_EQ(0, countOf(light, Reach::kTooTight));
-  EXPECT_EQ(0, countOf(heavy, Reach::kTooSlack) + countOf(heavy, Reach::kTooVertical));
-  EXPECT_GT(countOf(heavy, Reach::kTooTight), 20);
 }
 
 TEST(Reach, MostGiveIsTheLargerRoot) {

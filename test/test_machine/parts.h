@@ -59,11 +59,8 @@ struct PartsAtRest : testing::Test, BoardOfParts, machine::Parts, machine::Dispa
     board.said.clear();
   }
 
-  bool runQuestion(const char* line) override {
-    asked = line;
-    return true;
-  }
-  void answer(bool done) override { answered.push_back(done); }
+  bool runQuestion(const char*) override { return true; }
+  void answer(bool) override {}
 
   void hangAt(float x, float y) {
     const motion::Lengths<float> lengths = geometry.inverse({x, y});
@@ -74,24 +71,14 @@ struct PartsAtRest : testing::Test, BoardOfParts, machine::Parts, machine::Dispa
   }
 
   /// The words of a line's first code.
-  static gcode::Piece piece(const char* text) {
+  static gcode::Words words(const char* text) {
     gcode::Piece piece;
     gcode::Pieces(text).next(piece);
-    return piece;
+    return piece.words;
   }
-  static gcode::Words words(const char* text) { return piece(text).words; }
 
   void expectSaid(const std::string& text) {
     EXPECT_NE(std::string::npos, board.said.find(text)) << "said: " << board.said;
   }
-  void expectAt(float x, float y, float z_at) {
-    const machine::Place at = place.now(waiting.isMoving());
-    EXPECT_NEAR(x, at.x, 0.02);
-    EXPECT_NEAR(y, at.y, 0.02);
-    EXPECT_NEAR(z_at, at.z, 0.002);
-  }
-
   Rounds waiting;
-  std::string asked;
-  std::vector<bool> answered;
 };

@@ -1,49 +1,31 @@
 // Which axis a fault names, and which faults prove its counts wrong.
 #include <gtest/gtest.h>
 
-#include <array>
-
-#include "machine/axes.h"
-#include "set_counts.h"
-#include "settings_flash.h"
+#include "prepared_axes.h"
 
 using namespace machine;
 
 namespace {
 
 /// Axes that follow, at zero.
-struct Faults : testing::Test {
-  Faults() : values(table, room), axes(motors, clock) {
-    axes.prepare(values);
-    axes.follow();
-  }
-
-  void tick(int ticks) {
-    for (; ticks > 0; --ticks) axes.tick();
-  }
+struct Faults : testing::Test, PreparedAxes<BoardAtRest> {
+  Faults() { axes.follow(); }
 
   /// It turns the way it is driven, but too slowly.
   void leaveRightBehind() {
     for (int i = 1; i <= 12; ++i) {
       axes.jumpTo(kRightAxis, 0.25f * float(i));
-      motors.counted[kRightAxis] = uint16_t(motors.counted[kRightAxis] + 8);
-      tick(1);
+      board.counted[kRightAxis] = uint16_t(board.counted[kRightAxis] + 8);
+      ticks(1);
     }
   }
-
-  FlashTable table;
-  float room[kSettingCount];
-  settings::Values values;
-  SetCounts motors;
-  NoClock clock;
-  Axes axes;
 };
 
 }  // namespace
 
 TEST_F(Faults, AnAxisThatStandsIsDisprovedAlone) {
   axes.jumpTo(kLeftAxis, 50);
-  tick(120);
+  ticks(120);
   EXPECT_EQ(motion::Fault::kStands, axes.fault().fault);
   EXPECT_TRUE(axes.isDisproved(kLeftAxis));
   EXPECT_FALSE(axes.isDisproved(kRightAxis));
@@ -60,7 +42,7 @@ TEST_F(Faults, AnAxisThatIsLeftBehindIsNotDisproved) {
 
 TEST_F(Faults, TheWorstIsTold) {
   axes.jumpTo(kLeftAxis, 50);
-  tick(120);
+  ticks(120);
   leaveRightBehind();
   const Axes::AxisFault worst = axes.fault();
   EXPECT_EQ(motion::Fault::kStands, worst.fault) << "the right axis is left behind later";
@@ -69,7 +51,7 @@ TEST_F(Faults, TheWorstIsTold) {
 
 TEST_F(Faults, ANewStartForgetsThem) {
   axes.jumpTo(kLeftAxis, 50);
-  tick(120);
+  ticks(120);
   axes.releaseAll();
   axes.standStill();
   axes.follow();

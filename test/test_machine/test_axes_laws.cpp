@@ -37,59 +37,6 @@ TEST(AxesCounts, AreTakenOverWithoutPowerAndWithoutAWayToGo) {
   }
 }
 
-TEST(AxesLift, KnowsWhereZIsPlannedAndWhereItGoes) {
-  Driven driven;
-  driven.axes.simulate(true);
-  driven.axes.declare(kZAxis, 3);
-  driven.axes.follow();
-  EXPECT_FALSE(driven.axes.isLifted());
-  driven.axes.lift(8, 5, 50);
-  EXPECT_TRUE(driven.axes.isLifted()) << "it is about to";
-  EXPECT_FLOAT_EQ(8, driven.axes.liftedTo());
-  EXPECT_FLOAT_EQ(3, driven.axes.plannedZ());
-  driven.ticks(50);
-  EXPECT_GT(driven.axes.length(kZAxis), 4);
-  EXPECT_LT(driven.axes.length(kZAxis), 7);
-  EXPECT_FLOAT_EQ(8, driven.axes.liftedTo());
-  driven.ticks(200);
-  EXPECT_NEAR(double(driven.axes.length(kZAxis)), 8, 0.001);
-  EXPECT_FLOAT_EQ(3, driven.axes.plannedZ());
-  driven.axes.declareLifted(1);
-  EXPECT_NEAR(double(driven.axes.length(kZAxis)), 1, 0.001);
-  EXPECT_FLOAT_EQ(1, driven.axes.target(kZAxis));
-  EXPECT_FLOAT_EQ(3, driven.axes.plannedZ()) << "the way keeps its heights";
-  EXPECT_TRUE(driven.axes.isLifted());
-  driven.axes.lower(5, 50);
-  EXPECT_TRUE(driven.axes.isLifted()) << "it is on its way back";
-  driven.ticks(200);
-  EXPECT_FALSE(driven.axes.isLifted());
-  EXPECT_NEAR(double(driven.axes.length(kZAxis)), 3, 0.001);
-}
-
-TEST(AxesImagination, StaysKnownUntilMotorsRunForReal) {
-  Driven driven;
-  driven.axes.simulate(true);
-  EXPECT_FALSE(driven.axes.isImagined());
-  driven.axes.declare(kLeftAxis, 100);
-  EXPECT_TRUE(driven.axes.isImagined());
-  driven.axes.simulate(true);
-  EXPECT_TRUE(driven.axes.isImagined()) << "asked for once more";
-  driven.axes.simulate(false);
-  driven.axes.simulate(true);
-  EXPECT_FALSE(driven.axes.isImagined()) << "begun again";
-}
-
-TEST(AxesImagination, BeginsWithMotionAndNotWithPower) {
-  Driven driven;
-  driven.axes.simulate(true);
-  driven.axes.follow();
-  driven.ticks(3);
-  EXPECT_FALSE(driven.axes.isImagined());
-  driven.axes.jumpTo(kLeftAxis, 1);
-  driven.ticks(1);
-  EXPECT_TRUE(driven.axes.isImagined());
-}
-
 TEST(AxesImagination, AHeightThatIsDeclaredMeanwhileIsNotThatOfTheRealZ) {
   Driven driven;
   driven.axes.simulate(true);
@@ -143,12 +90,4 @@ TEST(AxesDrive, EndsWhereTheyStandStillEvenIfTheEncoderIsLost) {
   driven.ticks(5);
   EXPECT_EQ(0, driven.board.duty[kLeftAxis]);
   EXPECT_TRUE(driven.axes.isPowered());
-}
-
-TEST(AxesRate, IsThatOfTheTicks) {
-  Driven driven;
-  for (const float rate : {100.0f, 200.0f}) {
-    driven.axes.setTicksPerSecond(rate);
-    EXPECT_FLOAT_EQ(1 / rate, driven.axes.secondsPerTick());
-  }
 }

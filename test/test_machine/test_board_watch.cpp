@@ -41,37 +41,6 @@ Seen seen(BoardWatch& watch, Board& board, int looks, bool is_powered = true,
 
 }  // namespace
 
-TEST(BoardWatch, KnowsTheSupply) {
-  BoardWatch watch;
-  Board board;
-  EXPECT_EQ(0, watch.supply());
-  seen(watch, board, 20);
-  EXPECT_NEAR(5, watch.supply(), 0.03);
-  board.supply = 4.6;
-  seen(watch, board, 100);
-  board.supply = 5;
-  seen(watch, board, 100);
-  EXPECT_NEAR(4.6, watch.lowestSupply(), 0.03);
-  EXPECT_NEAR(5, watch.lowestSupply(), 0.03);
-}
-
-TEST(BoardWatch, SaysALowSupplyOnce) {
-  BoardWatch watch;
-  Board board;
-  EXPECT_EQ(0, seen(watch, board, 100).low);
-  board.supply = 4.2;
-  EXPECT_EQ(1, seen(watch, board, 100).low);
-  // The supply is back, but not far enough for a new message.
-  board.supply = 4.36;
-  seen(watch, board, 100);
-  board.supply = 4.2;
-  EXPECT_EQ(0, seen(watch, board, 100).low);
-  board.supply = 4.5;
-  seen(watch, board, 100);
-  board.supply = 4.2;
-  EXPECT_EQ(1, seen(watch, board, 100).low);
-}
-
 TEST(BoardWatch, BelievesNothingBeforeTheReferenceHasSettled) {
   BoardWatch watch;
   Board board;

@@ -1,9 +1,7 @@
 // Motors that a fault stops: they are shorted for half a second, and let go then.
 #include <gtest/gtest.h>
 
-#include "board_at_rest.h"
-#include "machine/axes.h"
-#include "settings_flash.h"
+#include "prepared_axes.h"
 
 using namespace machine;
 
@@ -12,25 +10,15 @@ namespace {
 const std::array<bool, 3> kAll = {true, true, true}, kNone = {false, false, false};
 
 /// Axes that follow, at a rate of ticks [1/s].
-struct Brakes : testing::TestWithParam<int> {
-  Brakes() : values(table, room), axes(board, board) {
+struct Brakes : testing::TestWithParam<int>, PreparedAxes<BoardAtRest> {
+  Brakes() {
     axes.setTicksPerSecond(float(GetParam()));
     axes.prepare(values);
     axes.follow();
     axes.jumpTo(kLeftAxis, 50);
-    tick(20);
+    ticks(20);
     EXPECT_NE(0, board.duty[kLeftAxis]);
   }
-
-  void tick(int ticks) {
-    for (; ticks > 0; --ticks) axes.tick();
-  }
-
-  FlashTable table;
-  float room[kSettingCount];
-  settings::Values values;
-  BoardAtRest board;
-  Axes axes;
 };
 
 }  // namespace
@@ -41,9 +29,9 @@ TEST_P(Brakes, HoldForHalfASecond) {
   axes.brakeAll();
   EXPECT_FALSE(axes.isPowered());
   EXPECT_EQ(kAll, board.shorted);
-  tick(GetParam() / 2 - 1);
+  ticks(GetParam() / 2 - 1);
   EXPECT_EQ(kAll, board.shorted);
-  tick(1);
+  ticks(1);
   EXPECT_EQ(kNone, board.shorted);
   EXPECT_EQ(0, board.duty[kLeftAxis]);
 }
@@ -57,15 +45,15 @@ TEST_P(Brakes, EndWhereAMotorIsLetGo) {
 TEST_P(Brakes, EndWhereMotorsFollowAgain) {
   axes.brakeAll();
   axes.follow();
-  tick(1);
+  ticks(1);
   EXPECT_EQ(kNone, board.shorted);
   axes.jumpTo(kLeftAxis, 100);
-  tick(GetParam() / 2);
+  ticks(GetParam() / 2);
   EXPECT_NE(0, board.duty[kLeftAxis]);
 }
 
 TEST_P(Brakes, AreNotUsedWhereAMotorIsLetGoAtRest) {
   axes.releaseAll();
-  tick(GetParam());
+  ticks(GetParam());
   EXPECT_EQ(kNone, board.shorted);
 }

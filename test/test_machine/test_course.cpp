@@ -1,7 +1,6 @@
-// The table of states: its laws over all states and events, and the door of path and z.
+// The table of states: its laws over all states and events; and the overrides.
 #include <gtest/gtest.h>
 
-#include "board_at_rest.h"
 #include "machine/course.h"
 #include "machine/overrides.h"
 
@@ -100,27 +99,6 @@ TEST(Course, AsksOneGateForEveryKindOfLine) {
     }
   }
   EXPECT_FALSE(Course::pathGoesIn(State::kChecking));
-}
-
-TEST(Course, BrakesZOffThePathAndTakesNoEventThatTheTableLacks) {
-  BoardAtRest board;
-  Axes axes(board, board);
-  Course course(axes);
-  axes.simulate(true);
-  axes.follow();
-  EXPECT_FALSE(course.take(Event::kBack));
-  EXPECT_TRUE(course.take(Event::kPause));
-  axes.lift(5, 2, 10);
-  for (int i = 0; i < 100; ++i) axes.tick();
-  EXPECT_FALSE(axes.isAtRest());
-  EXPECT_TRUE(axes.isPathAtRest());
-  EXPECT_TRUE(course.take(Event::kHold));
-  const float from = axes.target(kZAxis);
-  for (int i = 0; i < 300; ++i) axes.tick();
-  EXPECT_TRUE(axes.isAtRest());
-  // v^2 / 2a = 0.2 mm.
-  EXPECT_NEAR(from + 0.2f, axes.target(kZAxis), 0.03f);
-  EXPECT_EQ(State::kHeld, course.state());
 }
 
 TEST(Overrides, FeedGoesInStepsBetweenItsEnds) {

@@ -68,19 +68,6 @@ TEST(Laser, ShowsTheBeamOrAllOfIt) {
   }
 }
 
-TEST(Laser, StaysOffAfterOffThoughMovesStillBrake) {
-  Bench bench({});
-  bench.cutter.arm(true);
-  bench.cutter.show(255);
-  bench.cutter.off();
-  EXPECT_EQ(0, bench.laser());
-  bench.cutter.show(200);
-  EXPECT_EQ(0, bench.laser());
-  bench.cutter.arm(true);
-  bench.cutter.show(200);
-  EXPECT_EQ(255, bench.laser());
-}
-
 TEST(Spindle, IsPulsedByItsSpeed) {
   Bench bench({{17, 4}, {60, 6000}, {61, 24000}});
   bench.cutter.setSpindle(true);
@@ -134,17 +121,6 @@ TEST(Laser, GivesItsBeamToTheMoveItWasAimedFor) {
   bench.cutter.aim(1);
   bench.cutter.arm(false);
   EXPECT_EQ(0, bench.cutter.takeBeam());
-}
-
-TEST(Laser, IsNotArmedByOffNorShownByM107) {
-  Bench bench({});
-  bench.cutter.setFull();
-  bench.cutter.arm(true);
-  bench.cutter.off();
-  EXPECT_EQ(0, bench.cutter.beamOf(1));
-  bench.cutter.arm(false);
-  bench.cutter.show(200);
-  EXPECT_EQ(0, bench.laser());
 }
 
 TEST(Spindle, ThatIsPulsedStopsThoughItsKindChanged) {

@@ -89,30 +89,6 @@ TEST(EdgeCut, ALineOfOneMillimetreIsCutLikeAnyOther) {
   }
 }
 
-TEST(EdgeCut, FarBeyondACornerTheSledWaitsThere) {
-  const std::vector<Piece> pieces =
-      piecesOf(motion::line(Point<float>{900, 0}, Point<float>{1500, 6000}), kSheet);
-  ASSERT_EQ(3u, pieces.size());
-  EXPECT_NEAR(0.1, pieces[0].last, 1e-6);
-  EXPECT_LT(apart({960, 600}, pieces[0].path.to), 1e-3);
-  EXPECT_NEAR(0.5, pieces[1].last, 1e-6);
-  EXPECT_LT(apart({1200, 600}, pieces[1].path.to), 1e-3);
-  EXPECT_EQ(motion::Drawn::kNoLength, pieces[2].path.drawn);
-}
-
-TEST(EdgeCut, ACircleOverTheEdgeSlidesAlongIt) {
-  const Path<float> circle = motion::arc(Point<float>{1100, 0}, Point<float>{1100, 0},
-                                         Point<float>{1160, 0}, motion::Turn::kClockwise);
-  const std::vector<Piece> pieces = piecesOf(circle, kSheet);
-  ASSERT_EQ(3u, pieces.size());
-  EXPECT_GT(0, pieces[0].path.sweep);
-  EXPECT_EQ(0, pieces[1].path.sweep);
-  EXPECT_LT(apart({1200, float(std::sqrt(2000))}, pieces[1].path.from), 1e-3);
-  EXPECT_LT(apart({1200, -float(std::sqrt(2000))}, pieces[1].path.to), 1e-3);
-  EXPECT_GT(0, pieces[2].path.sweep);
-  expectClamped(circle, kSheet);
-}
-
 TEST(EdgeCut, FollowsAnyLineAsFarAsItIsOnTheSheet) {
   Random random;
   for (int i = 0; i < 3000; ++i)

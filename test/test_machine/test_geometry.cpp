@@ -91,17 +91,6 @@ TEST(FrameSettings, APlaceIsFoundFromAnyGuess) {
   }
 }
 
-TEST(FrameSettings, SprocketsStandAsFarApartAndAsHighAsTheySay) {
-  for (const float kinematics : {1.0f, 2.0f}) {
-    const Shaped shaped({{7, kinematics}, {1, 1000}, {2, 3000}, {3, 450}});
-    const motion::Sprockets<float>& sprockets = shaped.geometry.sprockets();
-    EXPECT_FLOAT_EQ(-1500, sprockets.left.x);
-    EXPECT_FLOAT_EQ(1500, sprockets.right.x);
-    EXPECT_FLOAT_EQ(950, sprockets.left.y);
-    EXPECT_FLOAT_EQ(950, sprockets.right.y);
-  }
-}
-
 TEST(FrameSettings, SprocketsThatRunOutBendTheChainsNoMoreThanTheBoundSays) {
   const Shaped round({{7, 2}, {8, 139}, {10, 5000}});
   const Shaped uneven({{7, 2}, {8, 139}, {10, 5000}, {190, 0.5f}});
@@ -120,14 +109,4 @@ TEST(FrameSettings, SprocketsThatRunOutBendTheChainsNoMoreThanTheBoundSays) {
   EXPECT_GT(steepest, 0.02) << "half a millimetre on a sprocket of 10";
   EXPECT_LE(steepest, allowed + 2e-4);
   EXPECT_LE(allowed, 2 * steepest) << "and the bound is no excuse";
-}
-
-TEST(FrameSettings, SheetIsCentredOnTheOrigin) {
-  const Shaped shaped({{0, 2000}, {1, 1000}});
-  EXPECT_FLOAT_EQ(-1000, shaped.geometry.sheet().low.x);
-  EXPECT_FLOAT_EQ(1000, shaped.geometry.sheet().high.x);
-  EXPECT_FLOAT_EQ(-500, shaped.geometry.sheet().low.y);
-  EXPECT_FLOAT_EQ(500, shaped.geometry.sheet().high.y);
-  EXPECT_FLOAT_EQ(1000, shaped.geometry.smoothArea().half_width);
-  EXPECT_FLOAT_EQ(500, shaped.geometry.smoothArea().half_height);
 }

@@ -4,9 +4,9 @@
 #include <random>
 #include <vector>
 
+#include "board_at_rest.h"
 #include "machine/course.h"
 #include "machine/planner.h"
-#include "set_counts.h"
 #include "settings_flash.h"
 
 using namespace machine;
@@ -25,7 +25,7 @@ double distance(const Place3& a, const Place3& b) {
 /// A mover on the usual ring machine, and where its set-points put the sled.
 class World {
  public:
-  World() : values_(table_, room_), axes_(drives_, clock_) {
+  World() : values_(table_, room_), axes_(board_, board_) {
     for (const auto& [number, value] :
          {std::pair<int, float>{7, 2}, {8, 139.1f}, {160, 8.2e-12f}, {170, 5.2e-6f}})
       EXPECT_EQ(values_.set(uint8_t(number), value), settings::Refusal::kNone);
@@ -97,8 +97,7 @@ class World {
   FlashTable table_;
   float room_[kSettingCount];
   settings::Values values_;
-  SetCounts drives_;
-  NoClock clock_;
+  BoardAtRest board_;
   Axes axes_;
   Course course_{axes_};
   Planner planner_;
@@ -131,14 +130,6 @@ TEST(Planner, EndsEveryMoveOnTheExactLengths) {
   }
 }
 
-TEST(Planner, KeepsToTheLine) {
-  World world;
-  world.lineTo(600, 300, 0, 15);
-  world.run();
-  for (const Place3& place : world.places)
-    EXPECT_NEAR((place.x * 300 - place.y * 600) / std::hypot(600, 300), 0, 0.01);
-}
-
 TEST(Planner, KeepsFeedAndRadiusOnAnArc) {
   World world;
   world.standAt(100, 0);
@@ -154,43 +145,6 @@ TEST(Planner, KeepsFeedAndRadiusOnAnArc) {
   for (const Place3& place : world.places) EXPECT_NEAR(std::hypot(place.x, place.y), 100, 0.01);
 }
 
-TEST(Planner, GainsAndLosesSpeedWithinTheLimit) {
-  World world;
-  std::mt19937 random(4);
-  for (int i = 0; i < 60; ++i)
-    world.lineTo(float(random() % 200), float(random() % 200), 0, float(5 + random() % 12));
-  world.run();
-  const std::vector<double> lengths = steps(world.places);
-  for (std::size_t i = 1; i < lengths.size(); ++i) {
-    EXPECT_LE(lengths[i] / kTick, 17.5);
-    // Twice the limit: where a corner falls between two ticks, a single step has both changes.
-    EXPECT_LE(std::fabs(lengths[i] - lengths[i - 1]) / kTick / kTick, 2.2 * kGain + 30);
-  }
-}
-
-TEST(Planner, PassesSmoothCurvesOfShortMovesWithoutStopping) {
-  World world;
-  world.standAt(50, 0);
-  for (int i = 1; i <= 400; ++i)
-    world.lineTo(float(50 * std::cos(i * 0.02)), float(50 * std::sin(i * 0.02)), 0, 10);
-  world.run();
-  int slow = 0;
-  for (const double step : steps(world.places)) slow += step / kTick < 5;
-  EXPECT_LT(slow, 40);
-  EXPECT_LT(double(world.places.size()) * kTick, 1.15 * 400 / 10);
-}
-
-TEST(Planner, CutsACornerNoMoreThanItMay) {
-  World world;
-  world.lineTo(100, 0, 0, 15);
-  world.lineTo(100, 100, 0, 15);
-  world.run();
-  double nearest = 1e9;
-  for (const Place3& place : world.places)
-    nearest = std::min(nearest, distance(place, {100, 0, 0}));
-  EXPECT_LT(nearest, 0.05);
-}
-
 TEST(Planner, BrakesOnAStopAndForgetsTheRest) {
   World world;
   world.lineTo(500, 0, 0, 15);
@@ -202,29 +156,6 @@ TEST(Planner, BrakesOnAStopAndForgetsTheRest) {
   EXPECT_LT((double(world.places.size()) - double(before)) * kTick, 0.35);
   const std::vector<double> lengths = steps(world.places);
   EXPECT_LT(lengths.back() / kTick, 2.5);
-}
-
-TEST(Planner, BringsZAlongWithinItsOwnSpeed) {
-  World world;
-  world.lineTo(10, 0, -5, 15);
-  world.run();
-  EXPECT_NEAR(world.places.back().z, -5, 1e-4);
-  const double most = 12.6 * 3.17 / 60;  // [mm/s]
-  for (std::size_t i = 1; i < world.places.size(); ++i)
-    EXPECT_LE(std::fabs(world.places[i].z - world.places[i - 1].z) / kTick, most * 1.02);
-}
-
-TEST(Planner, DoesNotDriftOverManyShortMoves) {
-  World world;
-  for (int i = 0; i < 20000; ++i) {
-    const float y = i % 2 ? 0.0f : 0.037f;
-    world.lineTo(float(i) * 0.001f, y, 0, 15);
-  }
-  world.lineTo(0, 0, 0, 15);
-  world.run();
-  const motion::Lengths<float> exact = world.geometry().inverse({0, 0});
-  EXPECT_EQ(world.setPoint().left, motion::toCounts(exact.left));
-  EXPECT_EQ(world.setPoint().right, motion::toCounts(exact.right));
 }
 
 // [mm] Error that the search leaves in a chain where the other hangs steeply, far off the sheet.

@@ -4,8 +4,8 @@
 #include <array>
 
 #include "../settings_host/eeprom.h"
+#include "board_at_rest.h"
 #include "machine/position_keeper.h"
-#include "set_counts.h"
 #include "settings_flash.h"
 
 using namespace machine;
@@ -20,7 +20,7 @@ class KeptMachine {
       : eeprom_(eeprom),
         values_(table_, room_),
         memory(eeprom, values_),
-        axes(encoders, clock_),
+        axes(board, board),
         keeper(memory, axes) {
     const settings::Started started = memory.start();
     axes.prepare(values_);
@@ -66,12 +66,11 @@ class KeptMachine {
   FlashTable table_;
   float room_[kSettingCount];
   settings::Values values_;
-  NoClock clock_;
   uint32_t now_ms_ = 0;
 
  public:
   settings::Memory memory;
-  SetCounts encoders;
+  BoardAtRest board;
   Axes axes;
   PositionKeeper keeper;
   int kept = 0;
@@ -99,33 +98,6 @@ TEST_F(Keeper, KeepsOnceWhatRests) {
   EXPECT_TRUE(machine.keeper.isSettled());
 }
 
-TEST(PositionKeeper, KeepsNothingBeforeChainsAreSet) {
-  settings_host::Eeprom eeprom;
-  KeptMachine machine(eeprom);
-  EXPECT_FALSE(machine.keeper.trustsChains());
-  EXPECT_FALSE(machine.keeper.hasLost());
-  machine.keeper.declareZ();
-  machine.wake();
-  machine.axes.releaseAll();
-  machine.pass(2000);
-  EXPECT_EQ(0, machine.kept);
-  EXPECT_EQ(Known::kNothing, machine.afterCut().known);
-}
-
-TEST_F(Keeper, MarksTheRecordBeforeMotorsMayHavePower) {
-  machine.keeper.beginMoving();
-  EXPECT_FALSE(machine.keeper.mayMove());
-  machine.wake();
-  EXPECT_EQ(Known::kMoving, machine.afterCut().known);
-  machine.pass(5000);
-  EXPECT_EQ(1, machine.kept) << "motors on";
-  EXPECT_EQ(Known::kMoving, machine.afterCut().known);
-  machine.axes.releaseAll();
-  machine.pass(1000);
-  EXPECT_EQ(2, machine.kept);
-  EXPECT_EQ(Known::kAtRest, machine.afterCut().known);
-}
-
 TEST_F(Keeper, MarksItAlsoWhereNobodyAsked) {
   machine.axes.driveOpen(kZAxis, 1);
   machine.pass(30);
@@ -138,7 +110,7 @@ TEST_F(Keeper, WaitsForAMotorThatRunsOn) {
   machine.wake();
   machine.axes.releaseAll();
   for (int i = 0; i < 100; ++i) {
-    machine.encoders.counted[kRightAxis] = uint16_t(machine.encoders.counted[kRightAxis] + 3);
+    machine.board.counted[kRightAxis] = uint16_t(machine.board.counted[kRightAxis] + 3);
     machine.pass(100);
     ASSERT_EQ(1, machine.kept) << "it still runs";
     ASSERT_EQ(Known::kMoving, machine.afterCut().known);
@@ -152,24 +124,24 @@ TEST_F(Keeper, WaitsForAMotorThatCreeps) {
   machine.wake();
   machine.axes.releaseAll();
   for (int i = 0; i < 30; ++i) {
-    machine.encoders.counted[kRightAxis] = uint16_t(machine.encoders.counted[kRightAxis] + 2);
+    machine.board.counted[kRightAxis] = uint16_t(machine.board.counted[kRightAxis] + 2);
     machine.pass(100);
   }
   EXPECT_EQ(1, machine.kept);
 }
 
 TEST_F(Keeper, LeavesARecordWhoseChainIsPulled) {
-  machine.encoders.counted[kLeftAxis] = 12;
+  machine.board.counted[kLeftAxis] = 12;
   machine.pass(1000);
   EXPECT_EQ(Known::kAtRest, machine.afterCut().known) << "chains give way a little";
   EXPECT_EQ(1, machine.kept);
-  machine.encoders.counted[kLeftAxis] = 13;
+  machine.board.counted[kLeftAxis] = 13;
   machine.pass(30);
   EXPECT_EQ(Known::kMoving, machine.afterCut().known);
   machine.pass(1000);
   EXPECT_EQ(2, machine.kept);
   EXPECT_EQ(machine.axes.counts(kLeftAxis), machine.afterCut().position.left);
-  machine.encoders.counted[kLeftAxis] = 0;
+  machine.board.counted[kLeftAxis] = 0;
   machine.pass(30);
   EXPECT_EQ(Known::kMoving, machine.afterCut().known) << "back is as far";
 }
@@ -178,7 +150,7 @@ TEST_F(Keeper, AnEdgeUnderTheSensorIsNoMotion) {
   machine.wake();
   machine.axes.releaseAll();
   for (int i = 0; i < 100; ++i) {
-    machine.encoders.counted[kLeftAxis] = uint16_t(i % 2);
+    machine.board.counted[kLeftAxis] = uint16_t(i % 2);
     machine.pass(10);
   }
   EXPECT_EQ(2, machine.kept);
@@ -213,39 +185,12 @@ TEST_F(Keeper, ADeclarationBeforeMotorsHavePowerKeepsNothing) {
   EXPECT_EQ(Known::kMoving, machine.afterCut().known);
 }
 
-TEST_F(Keeper, WhatIsErasedStaysErased) {
-  machine.memory.reset(settings::Reset::kSettingsAndPosition);
-  machine.keeper.startAfresh();
-  machine.keeper.reconsider();
-  machine.pass(5000);
-  EXPECT_FALSE(machine.keeper.hasLost());
-  EXPECT_EQ(1, machine.kept);
-  EXPECT_EQ(Known::kNothing, machine.afterCut().known);
-}
-
 TEST_F(Keeper, AStopBeforeMotorsHavePowerComesBackToRest) {
   machine.keeper.beginMoving();
   machine.pass(2000);
   EXPECT_EQ(Known::kMoving, machine.afterCut().known) << "it may get power any moment";
   machine.keeper.endWait();
   machine.pass(1000);
-  EXPECT_EQ(Known::kAtRest, machine.afterCut().known);
-}
-
-TEST_F(Keeper, KeepsNothingThatIsDoubtful) {
-  machine.wake();
-  machine.keeper.doubt(kRightAxis, settings::Doubt::kCounts);
-  machine.axes.releaseAll();
-  machine.pass(2000);
-  EXPECT_EQ(1, machine.kept);
-  EXPECT_EQ(Known::kDoubted, machine.afterCut().known);
-  EXPECT_TRUE(machine.keeper.hasLost());
-  EXPECT_FALSE(machine.keeper.trustsChains());
-  machine.keeper.declareZ();
-  EXPECT_FALSE(machine.keeper.trustsChains()) << "z says nothing of a chain";
-  machine.keeper.declareChains();
-  machine.pass(1000);
-  EXPECT_TRUE(machine.keeper.trustsAll());
   EXPECT_EQ(Known::kAtRest, machine.afterCut().known);
 }
 
@@ -259,37 +204,4 @@ TEST_F(Keeper, ADoubtOverZLeavesTheChains) {
   machine.pass(1000);
   EXPECT_TRUE(machine.keeper.trustsAll());
   EXPECT_EQ(Known::kAtRest, machine.afterCut().known);
-}
-
-TEST_F(Keeper, ImaginedMotionLeavesTheRecordAlone) {
-  machine.axes.simulate(true);
-  machine.wake();
-  machine.axes.declare(kLeftAxis, 100);
-  machine.keeper.declareChains();
-  machine.axes.releaseAll();
-  machine.pass(2000);
-  EXPECT_EQ(1, machine.kept);
-  EXPECT_EQ(Known::kAtRest, machine.afterCut().known);
-  EXPECT_TRUE(machine.axes.isImagined());
-  machine.keeper.doubt(kLeftAxis, settings::Doubt::kCounts);
-  machine.pass(100);
-  EXPECT_EQ(Known::kAtRest, machine.afterCut().known)
-      << "the chains themselves are where they were";
-}
-
-TEST(PositionKeeper, TakesOverWhatAStartKnows) {
-  settings_host::Eeprom eeprom;
-  {
-    KeptMachine machine(eeprom);
-    machine.axes.declare(kLeftAxis, 1700);
-    machine.keeper.declareChains();
-    machine.pass(1000);
-  }
-  KeptMachine again(eeprom);
-  EXPECT_TRUE(again.keeper.trustsAll());
-  again.pass(1000);
-  EXPECT_EQ(0, again.kept) << "it is kept already";
-  again.wake();
-  KeptMachine after(eeprom);
-  EXPECT_TRUE(after.keeper.hasLost());
 }

@@ -76,28 +76,3 @@ TEST_F(Printed, NoMachineHasWhatShowsAsZero) {
   EXPECT_EQ("99999.00", fixed(99999, 2));
   EXPECT_EQ("65536.0000", fixed(65536, 4));
 }
-
-TEST_F(Printed, ASenderOfGrblGetsWordsAsAMessageAndAnswersAsTheyAre) {
-  out.speak(Dialect::kGrbl);
-  out.line(FLASH("for people"));
-  EXPECT_EQ("[MSG:for people]\r\n", said());
-  out.line(FLASH("$110=900"));
-  out.plain(FLASH("ok"));
-  out.end();
-  EXPECT_EQ("$110=900\r\nok\r\n", said());
-  out.error(grbl::kTravel).line(FLASH("beyond the sheet"));
-  EXPECT_EQ("[MSG:beyond the sheet]\r\nerror:15\r\n", said());
-  out.alarm(grbl::kAlarmOfTarget).line(FLASH("no place"));
-  EXPECT_EQ("[MSG:no place]\r\nALARM:2\r\n", said());
-  out.bareError(grbl::kLocked);
-  out.line(FLASH("again"));
-  EXPECT_EQ("error:9\r\n[MSG:again]\r\n", said());
-}
-
-TEST_F(Printed, AMaslowClientGetsTheWordsAlone) {
-  out.line(FLASH("for people"));
-  out.error(grbl::kTravel).line(FLASH("beyond the sheet"));
-  out.alarm(grbl::kAlarmOfTarget).line(FLASH("no place"));
-  out.end();
-  EXPECT_EQ("for people\r\nerror: beyond the sheet\r\nALARM: no place\r\n\r\n", said());
-}

@@ -32,17 +32,6 @@ int taken(Plain plain) {
 
 }  // namespace
 
-TEST(Duration, IsThatOfALongMoveAtAnyMomentOfIt) {
-  for (const double seconds : {0.01, 0.005}) {
-    Plain plain(kGentle, seconds);
-    plain.lineTo(60, 0);
-    for (int i = 0; i < 800; i += 40) {
-      EXPECT_NEAR(taken(plain), predicted(plain), 2) << i;
-      for (int tick = 0; tick < 40; ++tick) plain.tick();
-    }
-  }
-}
-
 TEST(Duration, IsThatOfAnyMovesTogether) {
   std::mt19937 random(7);
   std::uniform_real_distribution<float> any(0, 1);
@@ -62,25 +51,4 @@ TEST(Duration, OfNothingIsNothing) {
   EXPECT_FALSE(plain.mover.lastsLonger(0));
   plain.lineTo(0.01f, 0);
   EXPECT_TRUE(plain.mover.lastsLonger(0));
-}
-
-TEST(Duration, OfShortMovesIsLessThanTheirStopsWouldTake) {
-  Plain plain;
-  // A smooth row: 16 moves of 0.5 mm take 0.7 s, with a stop at each end 2.2 s.
-  for (int i = 1; i <= MoveQueue::kMost; ++i) plain.lineTo(float(i) * 0.5f, 0);
-  EXPECT_FALSE(plain.mover.lastsLonger(75));
-  EXPECT_TRUE(plain.mover.lastsLonger(60));
-}
-
-TEST(Ring, TellsHowManyWait) {
-  SetPoints points;
-  Leg point = {{0, 0, 0}, 1, 1, 0};
-  for (int round = 0; round < 30; ++round) {
-    for (int i = 0; i < SetPoints::kMost - round % 3; ++i) {
-      EXPECT_EQ(i, points.count());
-      points.push(point);
-    }
-    while (points.count() != 0) points.take(point);
-    EXPECT_TRUE(points.isEmpty());
-  }
 }

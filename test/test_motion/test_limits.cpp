@@ -88,12 +88,6 @@ TEST(CornerLimit, OfLongMovesIsThatOfTheArcWithinTheDeviation) {
       << "straight back";
 }
 
-TEST(CornerLimit, CountsTheTurnOfZ) {
-  const double turn = 0.1;
-  const Direction level = {1, 0, 0}, rising = {float(std::cos(turn)), 0, float(std::sin(turn))};
-  EXPECT_NEAR(double(cornerSpeedSquared(level, rising, 1, 0.05f, 0.2f)), 0.25 / turn, 0.01);
-}
-
 TEST(Steepest, IsThatOfTheChainThatChangesMostAtEitherEnd) {
   const Sprockets<double> sprockets = {{-1289, 1073}, {1689, 973}, {0.002, 0, 0}};
   std::mt19937 random(7);

@@ -161,19 +161,6 @@ TEST(Mover, ChainSpeedAndZSpeedSlowTheWholeMove) {
   EXPECT_EQ(toCounts(-5.0f), deep.now.z);
 }
 
-TEST(Mover, ZGoesEvenlyWithThePathAndAlone) {
-  Plain plain;
-  plain.lineTo(50, 0, -3);
-  plain.lineTo(50, 0, 1);
-  plain.run();
-  for (const Asked& each : plain.asked) {
-    if (each.x > 49.99) break;
-    EXPECT_NEAR(each.z, -3 * each.x / 50, 0.001);
-  }
-  EXPECT_EQ(toCounts(1.0f), plain.now.z);
-  EXPECT_EQ(toCounts(50.0f), plain.now.left);
-}
-
 TEST(Mover, OneChainMovesByALengthAtASpeed) {
   Plain plain;
   plain.mover.standAt({toCounts(1500.0f), toCounts(1700.0f), 0});

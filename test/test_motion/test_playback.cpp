@@ -41,26 +41,6 @@ TEST(Yielding, TakesItsShareOfWhatWasAskedFor) {
   EXPECT_NEAR(15, speedAfter(plain, 60), 0.03);
 }
 
-TEST(StepAhead, IsThatOfTheSpeedNow) {
-  Plain plain = cruising();
-  plain.mover.fill(plain.set_points, plain.inverse);
-  EXPECT_NEAR(0.15, stepAhead(plain), 1e-3);
-  plain.playback.goAt(64);
-  speedAfter(plain, 60);
-  EXPECT_NEAR(0.0375, stepAhead(plain), 1e-3);
-}
-
-TEST(StepAhead, FallsWhereAHoldBrakesAndIsNoneAtRest) {
-  Plain plain = cruising();
-  plain.playback.hold();
-  EXPECT_NEAR(0.14, speedAfter(plain, 1) * kTick, 1e-3);
-  EXPECT_NEAR(0.10, stepAhead(plain), 1e-3);
-  speedAfter(plain, 11);
-  EXPECT_EQ(0, stepAhead(plain)) << "at rest before that tick";
-  speedAfter(plain, 30);
-  EXPECT_EQ(0, stepAhead(plain));
-}
-
 TEST(StepAhead, IsNoneForASetOutThatIsHeld) {
   Plain plain;
   plain.playback.hold();

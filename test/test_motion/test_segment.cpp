@@ -67,13 +67,6 @@ TEST(Segment, PassesThroughItsMiddleKnot) {
   }
 }
 
-TEST(Segment, ThatStandsStaysWhereItIs) {
-  const Segment segment = standing({123456, -7});
-  EXPECT_EQ(0, segment.ticks_left);
-  EXPECT_EQ(123456, segment.at().left);
-  EXPECT_EQ(-7, segment.at().right);
-}
-
 TEST(Fine, DivisionRoundsDownOnBothSidesOfZero) {
   for (int32_t dividend : {-700, -13, -7, -1, 0, 1, 6, 7, 700, 2000000000, -2000000000})
     for (uint16_t divisor : {1, 7, 181, 32761}) {

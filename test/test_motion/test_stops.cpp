@@ -54,18 +54,6 @@ TEST(Hold, StandsWithinTheBrakingDistanceAndATick) {
     }
 }
 
-TEST(Hold, LosesSpeedNoFasterThanItMayAtAnyMoment) {
-  for (int at = 1; at < 120; ++at) {
-    Plain plain;
-    plain.lineTo(12, 0);
-    for (int i = 0; i < at; ++i) plain.tick();
-    plain.playback.hold();
-    standStill(plain);
-    EXPECT_LE(hardestAlongX(plain), 205) << at;
-    EXPECT_LE(plain.asked.back().x, 12.0001);
-  }
-}
-
 TEST(Hold, RestsOnThePathAndResumesToTheSameEnd) {
   for (int at = 1; at < 400; at += 7) {
     Plain plain;
@@ -91,19 +79,6 @@ TEST(Hold, RestsOnThePathAndResumesToTheSameEnd) {
   }
 }
 
-TEST(Hold, InShortMovesRunsThroughSeveralOfThem) {
-  Plain plain;
-  for (int i = 1; i <= 300; ++i) plain.lineTo(float(i) * 0.1f, 0);
-  const double before = plain.asked.back().x;
-  plain.playback.hold();
-  standStill(plain);
-  EXPECT_LE(hardestAlongX(plain), 205);
-  EXPECT_LT(plain.asked.back().x, before + 1.3);
-  plain.playback.resume();
-  plain.run();
-  EXPECT_EQ(toCounts(30.0f), plain.now.left);
-}
-
 TEST(Hold, ResumedWhileStillBrakingGoesOnAtThatSpeed) {
   Plain plain = cruisingToCorner();
   plain.playback.hold();
@@ -112,81 +87,6 @@ TEST(Hold, ResumedWhileStillBrakingGoesOnAtThatSpeed) {
   for (int i = 0; i < 100; ++i) plain.tick();
   const std::vector<double> speeds = plain.speeds();
   EXPECT_GT(*std::min_element(speeds.begin() + 100, speeds.end()), 5);
-  EXPECT_LE(hardestAlongX(plain), 105);
-}
-
-TEST(Hold, WithNothingToDoKeepsWhatComes) {
-  Plain plain;
-  plain.playback.hold();
-  plain.lineTo(1, 0);
-  for (int i = 0; i < 50; ++i) plain.tick();
-  EXPECT_EQ(0, plain.now.left);
-  plain.playback.resume();
-  plain.run();
-  EXPECT_EQ(toCounts(1.0f), plain.now.left);
-}
-
-TEST(Hold, ForgottenGoesOnFromWhereItStands) {
-  Plain plain = cruisingToCorner();
-  plain.playback.hold();
-  standStill(plain);
-  plain.set_points.clear();
-  plain.playback.reset();
-  plain.playback.resume();
-  plain.mover.standAt(plain.now);
-  plain.at = {float(plain.asked.back().x), float(plain.asked.back().y)};
-  plain.lineTo(0, 0);
-  plain.run();
-  EXPECT_EQ(0, plain.now.left);
-  EXPECT_LE(hardestAlongX(plain), 205);
-}
-
-TEST(Share, IsThatOfThePlannedSpeedAllTheWay) {
-  for (const int share : {26, 64, 128, 200, 255}) {
-    Plain plain;
-    plain.playback.goAt(uint16_t(share));
-    plain.lineTo(60, 0);
-    plain.lineTo(60, 60);
-    plain.lineTo(60.1f, 60.3f);
-    plain.run();
-    EXPECT_EQ(toCounts(60.1f), plain.now.left);
-    EXPECT_EQ(toCounts(60.3f), plain.now.right);
-    const std::vector<double> speeds = plain.speeds();
-    EXPECT_NEAR(*std::max_element(speeds.begin(), speeds.end()), 15.0 * share / 256, 0.03);
-    // Here, too, the corner is passed within a tick.
-    EXPECT_LE(hardestAlongX(plain), 105 + 350.0 * share / 256);
-    EXPECT_TRUE(plain.playback.isDone());
-  }
-}
-
-TEST(Share, ChangesWithinTheAcceleration) {
-  Plain plain = cruisingToCorner();
-  for (const int share : {128, 30, 256, 255, 100, 256}) {
-    plain.playback.goAt(uint16_t(share));
-    for (int i = 0; i < 60; ++i) plain.tick();
-    EXPECT_NEAR(plain.speeds().back(), 15.0 * share / 256, 0.03) << share;
-  }
-  EXPECT_LE(hardestAlongX(plain), 105);
-  plain.run();
-  EXPECT_EQ(toCounts(500.0f), plain.now.left);
-  EXPECT_EQ(toCounts(100.0f), plain.now.right);
-}
-
-TEST(Boost, MakesMovesFasterWithinTheirLimits) {
-  Plain plain;
-  plain.lineTo(200, 0, 0, 8);
-  for (int i = 0; i < 200; ++i) plain.tick();
-  plain.mover.boost(1.5f, 15);
-  for (int i = 0; i < 100; ++i) plain.tick();
-  EXPECT_NEAR(plain.speeds().back(), 12, 0.01);
-  plain.mover.boost(2, 15);
-  for (int i = 0; i < 100; ++i) plain.tick();
-  EXPECT_NEAR(plain.speeds().back(), 15, 0.01);
-  plain.mover.boost(1, 15);
-  for (int i = 0; i < 100; ++i) plain.tick();
-  EXPECT_NEAR(plain.speeds().back(), 8, 0.01);
-  plain.run();
-  EXPECT_EQ(toCounts(200.0f), plain.now.left);
   EXPECT_LE(hardestAlongX(plain), 105);
 }
 
@@ -216,15 +116,6 @@ TEST(LateMainProgram, SetPointsWaitWhereTheyAreAndSetOutFromRest) {
   plain.run();
   EXPECT_EQ(toCounts(500.0f), plain.now.left);
   EXPECT_EQ(toCounts(100.0f), plain.now.right);
-}
-
-TEST(LateMainProgram, IsNotBlamedForAPauseBetweenMoves) {
-  Plain plain;
-  for (int i = 0; i < 50; ++i) plain.tick();
-  plain.lineTo(10, 0);
-  plain.run();
-  EXPECT_LE(hardestAlongX(plain), 105);
-  EXPECT_LT(plain.asked.size(), 50u + 90u);
 }
 
 TEST(OutOfReach, SetPointsEndBeforeTheRefusedPlace) {

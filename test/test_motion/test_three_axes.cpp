@@ -65,18 +65,6 @@ TEST(ThreeAxes, EverySetPointLiesOnTheMoves) {
   }
 }
 
-TEST(ThreeAxes, AMillimetreEndsToTheCount) {
-  for (const float rise : {0.0f, 1.0f}) {
-    Plain plain(kQuick);
-    plain.lineTo(1, 0, rise);
-    plain.lineTo(1, 0, rise + 1);
-    plain.run();
-    EXPECT_EQ(toCounts(1.0f), plain.now.left) << rise;
-    EXPECT_EQ(0, plain.now.right) << rise;
-    EXPECT_EQ(toCounts(rise + 1), plain.now.z) << rise;
-  }
-}
-
 TEST(ThreeAxes, LegsSayHowFarTheyLeadAndHowFastThatMayChange) {
   for (const Asked& to : {Asked{30, 0, 0}, {0, 0, 9}, {20, 15, 6}, {0, 0, -9}}) {
     Plain plain(kQuick);

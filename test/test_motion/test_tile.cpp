@@ -155,19 +155,6 @@ TEST_P(TileOf, ShortMovesAskForOneInverseInManyTicks) {
   }
 }
 
-TEST(Tiles, WithoutAnAreaEachTickIsExact) {
-  const Streamed streamed = stream(triedMachines()[0], {0, 0}, 0.1f, {0, 0}, 10);
-  EXPECT_GE(streamed.asked, streamed.ticks - 1);
-}
-
-TEST(Tiles, AreLaidOnTheSheetOnly) {
-  // The circle touches the edge; the inverse is not asked for a place beyond it.
-  const Streamed streamed = stream(triedMachines()[0], {1214.2f, 0}, 0.1f, kSheetArea, 10);
-  EXPECT_LE(streamed.across, kHalfWidth + 0.001);
-  EXPECT_GT(streamed.across, kHalfWidth - 0.1);
-  EXPECT_LT(streamed.asked, streamed.ticks / 5);
-}
-
 TEST(Tiles, AreNotLaidInAHurry) {
   // Nine inverses at once would let seven set-points run dry.
   const Streamed enough = stream(triedMachines()[0], {300, 0}, 0.3f, kSheetArea, 10);

@@ -166,22 +166,6 @@ TEST(Walk, AtAShareIsWhereThePlanIsAtThatShareOfTheTime) {
   }
 }
 
-TEST(Walk, EndsOnTheLastSetPointThatIsKnown) {
-  for (const uint16_t share : {256, 200, 100, 3}) {
-    Walker walker(evenLegs(4, 30));
-    walker.ticks(1);
-    walker.playback.goAt(share);
-    int ticks = 0;
-    while (walker.tick() && ticks < 1000) ++ticks;
-    EXPECT_EQ(2400, walker.now.left) << share;
-    EXPECT_EQ(-1200, walker.now.right) << share;
-    EXPECT_EQ(360, walker.now.z) << share;
-    EXPECT_TRUE(walker.playback.isAtRest()) << share;
-    EXPECT_EQ(0, walker.playback.beam()) << share;
-    EXPECT_FALSE(walker.tick()) << share;
-  }
-}
-
 TEST(Walk, HeldAtTheEndOfALegGoesOnIntoTheNext) {
   // By 250 a tick it stands after 750 + 500 + 250 counts, in the middle of a leg; by 1000 at once.
   Walker walker(evenLegs(10, 1000));

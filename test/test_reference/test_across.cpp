@@ -58,30 +58,6 @@ TEST(Across, LinkByLinkTheChainReachesTheOtherSprocket) {
   }
 }
 
-TEST(Across, ItsSagAndDropAreThoseOfAParabola) {
-  const Machine machine = frame();
-  const Across across = leftAcross(machine, 0.3);
-  ASSERT_TRUE(across.solved);
-  const double level = across.pull.x(), gap = machine.motor_gap, weight = machine.left.weight;
-  const double sag = weight * weight * gap * gap * gap / (24 * level * level);
-  EXPECT_NEAR(0.3, sag - machine.left.compliance * level * gap, 0.01);
-  EXPECT_NEAR(weight * gap * gap / (8 * level), across.drop, 0.2);
-  EXPECT_NEAR(-weight * gap / 2, across.pull.y(), 0.01);
-  EXPECT_NEAR(-level, across.other_pull.x(), 1e-9);
-}
-
-TEST(Across, AFrameThatGivesAndAChainThatStretchesTakeUpTheirShare) {
-  Machine machine = frame();
-  machine.left.weight = 0;
-  machine.left.inward = 0.012;
-  machine.right.inward = 0.003;
-  const Across across = leftAcross(machine, -3);
-  ASSERT_TRUE(across.solved);
-  const double give = machine.left.inward + machine.right.inward;
-  const double stretch = machine.left.compliance * (machine.motor_gap - 3);
-  EXPECT_NEAR(3 / (give + stretch), across.pull.x(), 0.01);
-}
-
 TEST(Across, TheRightChainIsItsMirror) {
   Machine machine = frame();
   machine.left.pitch = machine.right.pitch = 0.001;

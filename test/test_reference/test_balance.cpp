@@ -25,17 +25,6 @@ TEST(Balance, PullsCarryTheSled) {
   }
 }
 
-TEST(Balance, MotorsCarrySledAndChains) {
-  const Machine machine = defaultMachine();
-  for (const Vector2d& bit : gridOver(13, 7)) {
-    const reference::Hang hang = reference::hangAt(machine, bit);
-    const double lifted = hang.left.tension_at_sprocket * std::sin(hang.left.departure_angle) +
-                          hang.right.tension_at_sprocket * std::sin(hang.right.departure_angle);
-    const double chains = 0.00137293 * (hang.left.free_length + hang.right.free_length);
-    EXPECT_NEAR(97.9 + chains, lifted, 1e-9);
-  }
-}
-
 TEST(Balance, PullsPassThroughTheBit) {
   const Machine machine = defaultMachine();
   for (const Vector2d& bit : gridOver(13, 7)) {

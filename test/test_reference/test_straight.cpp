@@ -63,29 +63,4 @@ TEST(Straight, StretchedChainIsItsTangentDividedByItsStretch) {
   }
 }
 
-TEST(Straight, TensionsFollowTheSineRule) {
-  const Machine machine;
-  for (const Vector2d& bit : gridOver(13, 7)) {
-    const reference::Hang hang = reference::hangAt(machine, bit);
-    const double a = hang.left.departure_angle, b = hang.right.departure_angle;
-    EXPECT_NEAR(machine.sled_weight * std::cos(b) / std::sin(a + b), hang.left.tension_at_ring,
-                1e-9);
-    EXPECT_NEAR(machine.sled_weight * std::cos(a) / std::sin(a + b), hang.right.tension_at_ring,
-                1e-9);
-  }
-}
-
-TEST(Straight, IsReachedSmoothlyAsTheChainGetsLighter) {
-  const Vector2d bit(1150, -550);
-  const double bare = reference::hangAt(Machine(), bit).paid_out[0];
-  const auto excess = [&](double weight) {
-    return reference::hangAt(withChains(Machine(), weight, 0), bit).paid_out[0] - bare;
-  };
-  EXPECT_GT(excess(1e-4), 0.01);
-  // Sag grows with the square of the weight.
-  EXPECT_NEAR(4, excess(1e-4) / excess(5e-5), 0.05);
-  EXPECT_NEAR(4, excess(2e-5) / excess(1e-5), 0.01);
-  EXPECT_NEAR(0, excess(1e-12), 1e-11);
-}
-
 }  // namespace

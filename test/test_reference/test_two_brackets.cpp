@@ -85,18 +85,6 @@ TEST(TwoBrackets, ForcesAndMomentsVanishOnAnyMachine) {
   }
 }
 
-TEST(TwoBrackets, BothPullsAndTheWeightMeetInOnePoint) {
-  const TwoBrackets sled;
-  for (const Vector2d& bit : gridOver(7, 5)) {
-    const TiltedHang hang = reference::hangTilted(Machine(), sled, bit);
-    ASSERT_TRUE(hang.solved);
-    const Vector2d from = hang.left.ends.head<2>(), along = hang.left.pull.head<2>();
-    const Vector2d other = hang.right.ends.head<2>(), across = hang.right.pull.head<2>();
-    const Vector2d meet = from + along * (cross(other - from, across) / cross(along, across));
-    EXPECT_NEAR((bit + reference::centerFromBit(sled, hang.tilt)).x(), meet.x(), 1e-7);
-  }
-}
-
 TEST(TwoBrackets, ChainsAreTheTangentsOfRulerAndCompass) {
   Lottery lottery;
   for (int i = 0; i < 100; ++i) {
@@ -128,20 +116,6 @@ TEST(TwoBrackets, NoOtherTiltOnTheSameChainsIsLower) {
       EXPECT_GT(height(-turn), rest + 50 * turn * turn) << "tilt " << hang.tilt;
     }
     EXPECT_NEAR(0, (height(1e-4) - height(-1e-4)) / 2e-4, 1e-4) << "tilt " << hang.tilt;
-  }
-}
-
-TEST(TwoBrackets, MirroredPlacesMirrorTheSled) {
-  const Machine machine = defaultMachine();
-  const TwoBrackets sled;
-  for (const Vector2d& bit : gridOver(7, 5)) {
-    const TiltedHang hang = reference::hangTilted(machine, sled, bit);
-    const TiltedHang mirrored = reference::hangTilted(machine, sled, {-bit.x(), bit.y()});
-    ASSERT_TRUE(hang.solved && mirrored.solved);
-    EXPECT_NEAR(hang.tilt, -mirrored.tilt, 1e-11);
-    EXPECT_NEAR(hang.paid_out[0], mirrored.paid_out[1], 1e-8);
-    // The bracket that is nearer to its motor hangs higher.
-    EXPECT_EQ(bit.x() > 0, hang.tilt > 1e-6);
   }
 }
 

@@ -49,16 +49,6 @@ TEST(Memory, MotionWaitsForItsMarkOnlyNotForTheSettings) {
   EXPECT_TRUE(board.memory.mayMove());
 }
 
-TEST(Memory, TellsWhenASettingIsStored) {
-  Eeprom eeprom = used();
-  Board board(eeprom);
-  EXPECT_TRUE(board.memory.settingsStored());
-  board.memory.set(2, 3000);
-  EXPECT_FALSE(board.memory.settingsStored());
-  while (!board.memory.settingsStored()) board.memory.step();
-  EXPECT_EQ(3000, Board(eeprom).values.at(kMotorGap));
-}
-
 TEST(Memory, StoresEverythingOnceTheFirstSettingIsSentToANewBoard) {
   Eeprom eeprom;
   {
@@ -100,18 +90,6 @@ TEST(Reset, OfSettingsKeepsThePosition) {
   EXPECT_EQ(2978.4f, after.values.at(kMotorGap));
   EXPECT_EQ(Known::kAtRest, after.started.known);
   EXPECT_TRUE(same(positionOf(1), after.started.position));
-}
-
-TEST(Reset, OfBothForgetsThePosition) {
-  Eeprom eeprom = used();
-  {
-    Board board(eeprom);
-    board.memory.reset(Reset::kSettingsAndPosition);
-    settle(board.memory);
-  }
-  Board after(eeprom);
-  EXPECT_EQ(Known::kNothing, after.started.known);
-  EXPECT_EQ(1, after.values.at(kSimulatedMotors));
 }
 
 TEST(Reset, OfEverythingLeavesDefaults) {

@@ -44,14 +44,6 @@ Eeprom travelled(int count) {
 
 }  // namespace
 
-TEST(Position, NothingIsKnownOfAVirginBoard) {
-  Eeprom eeprom;
-  Ring ring(eeprom);
-  EXPECT_EQ(Known::kNothing, ring.known);
-  ring.slots.beginMoving();
-  EXPECT_TRUE(ring.slots.mayMove());
-}
-
 TEST(Position, IsFoundAsItWasLeft) {
   for (int rests : {1, 2, 64, 65, 66, 131, 700}) {
     Eeprom eeprom = travelled(rests);
@@ -74,45 +66,6 @@ TEST(Position, IsFoundAlsoWhereItsNumberStartsAgain) {
       ASSERT_TRUE(same(positionOf(i), again.position)) << i;
     }
   }
-}
-
-TEST(Position, LeftBehindIsTold) {
-  Eeprom eeprom = travelled(3);
-  {
-    Ring ring(eeprom);
-    ring.slots.beginMoving();
-    EXPECT_FALSE(ring.slots.mayMove()) << "before the mark is stored";
-    ring.settle();
-    EXPECT_TRUE(ring.slots.mayMove());
-  }
-  Ring after(eeprom);
-  EXPECT_EQ(Known::kMoving, after.known);
-  EXPECT_TRUE(same(positionOf(2), after.position));
-}
-
-TEST(Position, ADoubtIsKeptUntilAPositionIs) {
-  Eeprom eeprom = travelled(3);
-  {
-    Ring ring(eeprom);
-    ring.slots.doubt(Doubt::kCounts);
-    ring.settle();
-  }
-  EXPECT_EQ(Known::kDoubted, Ring(eeprom).known);
-  {
-    Ring ring(eeprom);
-    EXPECT_TRUE(same(positionOf(2), ring.position));
-    ring.slots.beginMoving();
-    ring.settle();
-    EXPECT_TRUE(ring.slots.mayMove());
-  }
-  EXPECT_EQ(Known::kDoubted, Ring(eeprom).known) << "a motion makes it no better";
-  Ring ring(eeprom);
-  ring.slots.keep(positionOf(4));
-  ring.settle();
-  EXPECT_EQ(Known::kAtRest, Ring(eeprom).known);
-  ring.slots.beginMoving();
-  ring.settle();
-  EXPECT_EQ(Known::kMoving, Ring(eeprom).known) << "that doubt is over";
 }
 
 TEST(Position, ADoubtKeepsItsFirstReason) {
@@ -160,14 +113,6 @@ TEST(Position, NothingCanBeDoubtedOfAVirginBoard) {
   ring.slots.doubt(Doubt::kCounts);
   ring.settle();
   EXPECT_EQ(0u, eeprom.writes);
-  EXPECT_EQ(Known::kNothing, Ring(eeprom).known);
-}
-
-TEST(Position, ForgottenIsForgotten) {
-  Eeprom eeprom = travelled(70);
-  Ring ring(eeprom);
-  ring.slots.forget();
-  ring.settle();
   EXPECT_EQ(Known::kNothing, Ring(eeprom).known);
 }
 
@@ -219,23 +164,6 @@ TEST(Position, EveryCutLeavesTheOldOneInMotionOrTheNewOneAtRest) {
   std::printf("position: power cut %d times\n", cuts);
   testing::Test::RecordProperty("cuts", cuts);
   EXPECT_GT(cuts, 2500);
-}
-
-TEST(Position, ACutInTheMarkIsBeforeAnyMotion) {
-  for (int torn = 0; torn < 256; ++torn) {
-    Eeprom eeprom = travelled(66);
-    try {
-      Ring ring(eeprom);
-      eeprom.cutAfter(0, torn);
-      ring.slots.beginMoving();
-      ring.settle();
-      FAIL() << "nothing was written";
-    } catch (const PowerCut&) {
-    }
-    Ring after(eeprom);
-    EXPECT_TRUE(same(positionOf(65), after.position));
-    EXPECT_NE(Known::kNothing, after.known);
-  }
 }
 
 TEST(Position, AtRestIsNeverClaimedOfAPlaceThatWasLeft) {
@@ -343,18 +271,6 @@ TEST(Position, PassesOverSlotsWithWornCells) {
     ring.slots.keep(positionOf(i));
     ring.settle();
   }
-}
-
-TEST(Position, AMarkThatDoesNotStickIsWrittenElsewhere) {
-  Eeprom eeprom = travelled(3);
-  eeprom.dead[2144 + 2 * 30 + 25] = true;
-  Ring ring(eeprom);
-  ring.slots.beginMoving();
-  ring.settle();
-  EXPECT_TRUE(ring.slots.mayMove());
-  Ring after(eeprom);
-  EXPECT_EQ(Known::kMoving, after.known);
-  EXPECT_TRUE(same(positionOf(2), after.position));
 }
 
 TEST(Position, AgreesOnlyWithItsScaleAndItsPlace) {

@@ -2,7 +2,8 @@
 // Afterwards it never takes our data, nor its old data, as valid.
 #include <cmath>
 
-#include "published_image.h"
+#include "../settings_host/published_image.h"
+#include "boards.h"
 
 namespace {
 

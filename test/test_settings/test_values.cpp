@@ -106,14 +106,6 @@ TEST(Table, EffectLimitsAreTheirPlausibleRangeWidened) {
   }
 }
 
-TEST(Values, TakeAWholeNumberWrittenWithDecimals) {
-  Held held;
-  EXPECT_EQ(Refusal::kNone, held.values.set(38, 2.00000f));
-  EXPECT_EQ(2, valueOf(held, 38));
-  EXPECT_EQ(Refusal::kNone, held.values.set(16, 0.000000f));
-  EXPECT_EQ(Refusal::kNone, held.values.set(9, 65535));
-}
-
 TEST(Values, RefuseWithOneClearSentenceAndStayAsTheyWere) {
   Held held;
   EXPECT_EQ("$38 must be from 1 to 2, a whole number", refusalOf(held, 38, 1.5f));
@@ -130,18 +122,6 @@ TEST(Values, RefuseWithOneClearSentenceAndStayAsTheyWere) {
     EXPECT_EQ(held.table.at(i).usual, held.values.at(i));
 }
 
-TEST(Values, TakeWhatClientsSend) {
-  Held held;
-  // The values of the protocol's round trip, and GroundControl's way to silence the alarm.
-  const std::pair<int, float> sent[] = {{3, 463.1f},   {12, 8113.73f}, {27, 0.28f}, {13, 63.5f},
-                                        {42, 2000},    {37, 33},       {8, 139.1f}, {29, 1300},
-                                        {20, -7560.f}, {40, -0.08f},   {22, 1e-05f}};
-  for (const auto& [number, value] : sent) {
-    ASSERT_EQ(Refusal::kNone, held.values.set(uint8_t(number), value)) << number;
-    EXPECT_EQ(value, valueOf(held, uint8_t(number)));
-  }
-}
-
 TEST(Values, NegativeZeroIsZero) {
   Held held;
   ASSERT_EQ(Refusal::kNone, held.values.set(37, -0.0f));
@@ -155,19 +135,6 @@ TEST(Values, ElasticityAndSledWeightOfWebControlMeanOurs) {
     const bool ours = number == 45 || number == 46;
     EXPECT_EQ(!ours, number == meantBy(uint8_t(number))) << number;
   }
-}
-
-TEST(Values, ResetKeepsWhatIsKeptUnlessAskedForAll) {
-  Held held;
-  held.values.set(2, 3000);
-  held.values.setRow(kSimulatedMotors, 1);
-  held.values.setRow(kZUpperLimit, 5);
-  held.values.reset(false);
-  EXPECT_EQ(2978.4f, held.values.at(kMotorGap));
-  EXPECT_EQ(10000, held.values.at(kZUpperLimit));
-  EXPECT_EQ(1, held.values.at(kSimulatedMotors));
-  held.values.reset(true);
-  EXPECT_EQ(0, held.values.at(kSimulatedMotors));
 }
 
 TEST(Dump, LinesSayNumberValueAndComment) {

@@ -38,7 +38,7 @@ ARROWS = {
     ),
     "tools/vm": (["tools/vm/*", "tools/judge"], ANYTHING),
     "test/settings_host": (["tools/core", "src", "include", "lib/*"], ANYTHING),
-    "test/fuzz": (["src", "src/machine", "lib/*", "tools/vm/*", "test/test_dialogues"], ANYTHING),
+    "test/fuzz": (["src", "src/machine", "lib/*", "tools/vm/*", "test/settings_host"], ANYTHING),
     "test/test_*": (
         [
             "tools/judge",

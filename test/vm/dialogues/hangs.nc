@@ -11,16 +11,22 @@
 <* ok
 -> M106
 <* ok
+-> $17=2
+<- ok
+-> M3
+<* ok
 -> G1 X500 Y0 F600
 ~~ wait 2
 ~~ on left at once
 ~~ on right at once
 ~~ laser high at once
+~~ spindle high at once
 ~~ freeze report
 ~~ wait 1.2
 ~~ off left at once
 ~~ off right at once
 ~~ laser low at once
+~~ spindle low at once
 ~~ wait 2
 ~~ off left at once
 ~~ off right at once

@@ -5,7 +5,9 @@
 #include <cstring>
 #include <utility>
 
-#include "boards.h"
+#include "eeprom.h"
+
+using settings_host::Eeprom;
 
 /// A setting in the block: number, offset from address 340, bytes, and a value that is not the
 /// default.
