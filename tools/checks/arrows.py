@@ -42,12 +42,8 @@ ARROWS = {
         [
             "tools/judge",
             "tools/core",
-            "test/curves",
-            "test/tried",
-            "test/vm",
+            "test/*",
             "tools/vm/*",
-            "test/settings_host",
-            "test/test_settings",
             "src",
             "src/machine",
             "src/board",
