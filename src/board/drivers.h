@@ -133,8 +133,7 @@ inline uint8_t pwmFor(Driver driver, uint8_t wanted) {
   return wanted;
 }
 
-/// Divider bits of the PWM timers 3 and 4, and of timer 2, for a choice of 1 to 3.
-inline uint8_t dividerBits(uint8_t choice) { return choice; }
+/// Divider bits of the PWM timer 2 for a choice of 1 to 3; those of timers 3 and 4 are the choice.
 inline uint8_t dividerBitsOfTimer2(uint8_t choice) { return choice == 3 ? 4 : choice; }
 
 /// Words that name the driver in the greeting, as the published firmware spells them.

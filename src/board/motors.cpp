@@ -121,8 +121,8 @@ void Motors::arrange(bool over_top, uint8_t pwm_choice) {
   }
   const uint8_t choice = pwmFor(shield_->driver, pwm_choice);
   TCCR2B = uint8_t((TCCR2B & ~7) | dividerBitsOfTimer2(choice));
-  TCCR3B = uint8_t((TCCR3B & ~7) | dividerBits(choice));
-  TCCR4B = uint8_t((TCCR4B & ~7) | dividerBits(choice));
+  TCCR3B = uint8_t((TCCR3B & ~7) | choice);
+  TCCR4B = uint8_t((TCCR4B & ~7) | choice);
 }
 
 }  // namespace board

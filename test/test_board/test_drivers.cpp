@@ -181,5 +181,4 @@ TEST(Drivers, GetAPwmThatTheirChipFollows) {
   EXPECT_EQ(pwmFor(Driver::kTb6643, 2), 2);
   EXPECT_EQ(pwmFor(Driver::kL298, 0), 3);
   EXPECT_EQ(dividerBitsOfTimer2(3), 4);
-  EXPECT_EQ(dividerBits(3), 3);
 }

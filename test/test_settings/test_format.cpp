@@ -53,12 +53,6 @@ TEST(Format, ZeroIsExactlyZero) {
   EXPECT_EQ("0", textOf(-0.0f));
 }
 
-TEST(Format, WhatIsNoNumberIsSaid) {
-  EXPECT_EQ("nan", textOf(NAN));
-  EXPECT_EQ("inf", textOf(INFINITY));
-  EXPECT_EQ("-inf", textOf(-INFINITY));
-}
-
 TEST(Format, EveryFloatReadsBackAsItself) {
   std::mt19937 random(11);
   for (int i = 0; i < 2000000; ++i) {

@@ -1,4 +1,4 @@
-"""What the kinematics costs on the Mega: cycles and stack by simulation, bytes by the linker."""
+"""What the kinematics costs on the Mega: cycles and stack, by simulation."""
 
 import json
 import re
@@ -29,9 +29,6 @@ AVR_FLAGS = [
     "-fdata-sections",
     "-Wl,--gc-sections",
 ]
-# Rows of the table and the sum of parts that part_program.cpp knows them by.
-PARTS = {"prepare": 1, "inverse": 2, "forward": 4, "reach": 16, "all three": 7}
-CONSTANTS = 8
 # With all effects listed a machine without them pays for each; these are in every machine.
 CASE, KEPT = "inverse, sag, stretch and pitch", ("chain_sag", "chain_stretch", "chain_pitch")
 
@@ -39,10 +36,10 @@ Figures = dict[str, tuple[float, ...]]
 
 
 def measure() -> Figures:
-    """Build every program and measure it: median and most cycles of a case, bytes of a part."""
+    """Return the median and most cycles of each case, and the deepest stack of each part."""
     BUILD.mkdir(parents=True, exist_ok=True)
     (BUILD / "effect_cases.h").write_text(registry.cases(), encoding="utf-8")
-    elf = linked("board_program")
+    elf = linked()
     symbols, stack = output("avr-nm", "-C", elf), {}
     for part in ("inverse", "forward", "reach"):
         # A function dissolved into its caller would have no stack to measure.
@@ -51,47 +48,28 @@ def measure() -> Figures:
     cases = counted(elf)
     figures: Figures = {name: tuple(case["cycles"][1:]) for name, case in cases.items()}
     short, left_out = registry.only(KEPT)
-    few = counted(linked("board_program", effects=short))[CASE]["cycles"][1:]
+    few = counted(linked(short))[CASE]["cycles"][1:]
     # Where the compiler happens to do better with the longer list, it costs nothing.
     both = zip(figures[CASE], few, strict=True)
     figures["each absent effect"] = tuple(max(0, round((a - b) / left_out)) for a, b in both)
     for name, case in cases.items():
         part = name.partition(",")[0]
         stack[part] = max(stack.get(part, 0), case["stack"])
-    return figures | sizes_of_parts() | {f"{part}, stack": (most,) for part, most in stack.items()}
+    return figures | {f"{part}, stack": (most,) for part, most in stack.items()}
 
 
-def sizes_of_parts() -> Figures:
-    """Return what each part adds to a program that already has the four operations and the root,
-    and each effect to all three.
-    """
-    base = sizes(linked("part_program", "-DPARTS=0"))
-    flash = {}
-    for name, number in PARTS.items():
-        flash[name] = sizes(linked("part_program", f"-DPARTS={number}"))[0] - base[0]
-    for name in registry.numbers():
-        fewer = linked("part_program", "-DPARTS=7", effects=registry.without(name))
-        flash[name] = base[0] + flash["all three"] - sizes(fewer)[0]
-    # The harness's way of naming its storage costs flash; a machine's constants lie in RAM alone.
-    constants = sizes(linked("part_program", f"-DPARTS={CONSTANTS}"))[1] - base[1]
-    figures: Figures = {f"{name}, flash": (size,) for name, size in flash.items()}
-    return figures | {"constants of one machine, static RAM": (constants,)}
-
-
-def linked(program: str, *options: str, effects: str = "") -> Path:
-    """Return a program of this folder for the Mega, with another list of effects if one is
-    given.
-    """
-    elf, kinematics = BUILD / f"{program}.elf", KINEMATICS
+def linked(effects: str = "") -> Path:
+    """Return the program of the cases for the Mega; `effects`: another list of effects."""
+    elf, kinematics = BUILD / "board_program.elf", KINEMATICS
     if effects:
-        elf, kinematics = BUILD / f"{program}_other.elf", BUILD / "other_effects"
+        elf, kinematics = BUILD / "board_program_other.elf", BUILD / "other_effects"
         shutil.rmtree(kinematics, ignore_errors=True)
         shutil.copytree(KINEMATICS, kinematics)
         (kinematics / "effects.h").write_text(effects, encoding="utf-8")
     includes = [f"-I{folder}" for folder in (kinematics, BENCH, BUILD)]
     names = ("Kinematics", "reach", "quadrilateral")
-    sources = [BENCH / f"{program}.cpp", *(kinematics / f"{name}.cpp" for name in names), FLOAT]
-    output("avr-g++", *AVR_FLAGS, *includes, *options, *sources, "-o", elf)
+    sources = [BENCH / "board_program.cpp", *(kinematics / f"{name}.cpp" for name in names), FLOAT]
+    output("avr-g++", *AVR_FLAGS, *includes, *sources, "-o", elf)
     return elf
 
 

@@ -10,7 +10,7 @@ CLOCK = 16e6  # [Hz]
 FLASH, RAM, STACK = "the firmware, flash", "the firmware, static RAM", "the firmware, deepest stack"
 
 
-def measure() -> tuple[Figures, Figures]:
+def measure() -> Figures:
     """Return the bytes of the firmware as built by PlatformIO, and how it keeps time, by playing
     dialogues on simavr.
     """
@@ -19,7 +19,10 @@ def measure() -> tuple[Figures, Figures]:
     slow, fast, hard, asked, deepest = (figures_of(program, name) for name in dialogues)
     flash, ram = sizes(FIRMWARE)
     stack = deepest["stack"]
-    timed = {
+    figures = {
+        FLASH: flash,
+        RAM: ram,
+        STACK: stack,
         "static RAM, deepest stack and a quarter of it": ram + 1.25 * stack,
         "control tick, share of the time at 100 Hz": slow["tick_share_streaming"],
         "the same, three axes with sag, stretch and pitch": most(hard, "tick_share"),
@@ -34,9 +37,7 @@ def measure() -> tuple[Figures, Figures]:
         "longest wait for the answer to a `?`, ms": asked["longest_answer_ms"],
         "first line after power-on, ms": slow["first_line_ms"],
     }
-    return {FLASH: (flash,), RAM: (ram,), STACK: (stack,)}, {
-        name: (value,) for name, value in timed.items()
-    }
+    return {name: (value,) for name, value in figures.items()}
 
 
 def cycles_of_a_question(figures: dict[str, float]) -> float:

@@ -1,60 +1,37 @@
-"""Measures what kinematics and firmware cost and holds it against CHANGELOG.md and the budgets."""
+"""Measures what kinematics and firmware cost on the Mega and holds it against the budgets."""
 
-import argparse
 import re
 import sys
 import tomllib
+from dataclasses import dataclass
 
 import board
 import firmware
-from commands import ROOT, ToolError, output
-from record import Budgets, Costs, over_budget, recorded, replaced, risen, table
+from board import Figures
+from commands import ROOT, ToolError
 
-CHANGELOG = ROOT / "CHANGELOG.md"
+NOTHING = "–"
+
+
+@dataclass(frozen=True)
+class Budgets:
+    """What the first number of a figure may be."""
+
+    most: dict[str, float]
+    least: dict[str, float]
 
 
 def main() -> int:
-    """Measure; 0 if all may stand, 1 if not, 2 if it cannot be measured."""
-    parser = argparse.ArgumentParser(prog="tools/bench/run", description=__doc__)
-    parser.add_argument("--write", action="store_true", help="record the figures in CHANGELOG.md")
-    wanted = parser.parse_args()
+    """Print the table; 0 if every budget is kept, 1 if not, 2 if it cannot be measured."""
     try:
-        return measure(write=wanted.write)
+        figures, limits = board.measure() | firmware.measure(), budgets()
     except (ToolError, OSError) as error:
         print(f"bench: {error}", file=sys.stderr)
         return 2
-
-
-def measure(*, write: bool) -> int:
-    """Print the table; record it or compare it. 0 if it may stand."""
-    text, limits = CHANGELOG.read_text(encoding="utf-8"), budgets()
-    compiler = output("avr-gcc", "-dumpversion")
-    sizes, timed = firmware.measure()
-    if compiler not in output("avr-readelf", "-p", ".comment", board.FIRMWARE):
-        print("bench: the firmware was built by another compiler: its size is not compared")
-        sizes, timed = {}, sizes | timed
-    costs = Costs(f"avr-gcc {compiler}", board.measure() | sizes, timed)
-    shown = table(costs, limits)
-    print(shown, end="\n\n")
-    refused = over_budget(costs, limits)
-    if write:
-        CHANGELOG.write_text(replaced(text, shown), encoding="utf-8")
-        print("bench: wrote the table in CHANGELOG.md")
-    else:
-        refused += against_record(costs, *recorded(text))
-    print(*[f"bench: {line}" for line in refused] or ["bench: within record and budgets"], sep="\n")
+    refused = over_budget(figures, limits)
+    print(table(figures, limits), end="\n\n")
+    print(*[f"bench: {line}" for line in refused] or ["bench: within all budgets"], sep="\n")
     return int(bool(refused))
-
-
-def against_record(costs: Costs, compiler: str, old: board.Figures) -> list[str]:
-    """Return what rose, in one line; of another compiler's record only the budgets count."""
-    if compiler != costs.compiler:
-        print(f"bench: {costs.compiler} here, {compiler} in CHANGELOG.md: not compared")
-        return []
-    lines = risen(costs, old)
-    more = f" (and {len(lines) - 1} more)" if len(lines) > 1 else ""
-    remedy = "if that is meant, record it: tools/bench/run --write"
-    return [f"{lines[0]}{more}; {remedy}"] if lines else []
 
 
 def budgets() -> Budgets:
@@ -65,6 +42,34 @@ def budgets() -> Budgets:
         limit = re.findall(rf"^board_upload\.{name} = (\d+)$", build, re.MULTILINE)[0]
         written["most"][row] = int(limit)
     return Budgets(written["most"], written["least"])
+
+
+def table(figures: Figures, budgets: Budgets) -> str:
+    """Return all figures next to their budgets."""
+    limits = budgets.most | budgets.least
+    rows = [
+        f"| {name} | {' / '.join(map(shown, figure))} | "
+        f"{shown(limits[name]) if name in limits else NOTHING} |"
+        for name, figure in figures.items()
+    ]
+    return "\n".join(["| the Mega | measured | budget |", "|---|---|---|", *rows])
+
+
+def shown(value: float) -> str:
+    """Return a number with its thousands apart, a share in percent."""
+    return f"{value:.1%}" if 0 < value < 1 else f"{value:,.0f}"
+
+
+def over_budget(figures: Figures, budgets: Budgets) -> list[str]:
+    """Return one line for each budget that is not kept, or of which nothing is measured."""
+    lines = []
+    for limits, sign in ((budgets.most, 1), (budgets.least, -1)):
+        for name, limit in limits.items():
+            if name not in figures:
+                lines.append(f"{name}: has a budget, but no such case is measured")
+            elif sign * figures[name][0] > sign * limit:
+                lines.append(f"{name}: {shown(figures[name][0])}, the budget is {shown(limit)}")
+    return lines
 
 
 if __name__ == "__main__":

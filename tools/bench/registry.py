@@ -38,10 +38,5 @@ def only(names: Sequence[str]) -> tuple[str, int]:
     return LIST.sub(lambda _: listed, text, count=1), len(entries) - len(names)
 
 
-def without(name: str) -> str:
-    """Return the header without one effect."""
-    return only([other for other in numbers() if other != name])[0]
-
-
 def _type(name: str) -> str:
     return "".join(word.capitalize() for word in name.split("_"))

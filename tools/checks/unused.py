@@ -9,10 +9,10 @@ from pathlib import Path
 
 import tree
 import vulture
-from names import NOT_CODE, blank
 
 DECLARED_IN = ("lib", "src")
 USED_IN = (*DECLARED_IN, "include", "tools")
+NOT_CODE = re.compile(r'//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\\n])*"', re.DOTALL)
 WORD = re.compile(r"[A-Za-z_]\w*")
 # A type, then a name with a bracket, as clang-format spaces them.
 DECLARED = re.compile(
@@ -55,6 +55,11 @@ def violations(root: Path) -> Iterator[str]:
         if word not in used and word not in BY_OTHERS:
             yield f"{place}: only tests use {word}(): use it, or remove it with its test"
     yield from unused_python(root)
+
+
+def blank(match: re.Match) -> str:
+    """Return as many lines as the comment or string had, without its words."""
+    return "\n" * match[0].count("\n")
 
 
 def unused_python(root: Path) -> Iterator[str]:

@@ -21,22 +21,29 @@ Machine<Real> machineOf(const std::vector<Real>& values, bool over_top) {
   return prepare(described.frame, described.effects);
 }
 
+/// What `answer` writes for each row (n, 2) of pairs, and whether it was found (n,).
+template <class Answer>
+nb::tuple answersTo(const Pairs& pairs, const Answer& answer) {
+  double* numbers;
+  uint8_t* found;
+  const size_t count = pairs.shape(0);
+  auto results = newArray<double>({count, 2}, &numbers);
+  auto founds = newArray<uint8_t>({count}, &found);
+  for (size_t i = 0; i < count; ++i)
+    found[i] = static_cast<uint8_t>(answer(i, numbers[2 * i], numbers[2 * i + 1]));
+  return nb::make_tuple(results, founds);
+}
+
 template <class Real>
 nb::tuple lengthsOf(const Values& values, bool over_top, const Pairs& points) {
   const Machine<Real> machine = machineOf(numbers<Real>(values), over_top);
-  double* length;
-  uint8_t* found;
-  const size_t count = points.shape(0);
-  auto lengths = newArray<double>({count, 2}, &length);
-  auto founds = newArray<uint8_t>({count}, &found);
-  for (size_t i = 0; i < count; ++i) {
+  return answersTo(points, [&](size_t i, double& left, double& right) {
     const PaidOut<Real> paid = inverse(
         machine, Point<Real>{static_cast<Real>(points(i, 0)), static_cast<Real>(points(i, 1))});
-    length[2 * i] = static_cast<double>(paid.chains.left);
-    length[2 * i + 1] = static_cast<double>(paid.chains.right);
-    found[i] = static_cast<uint8_t>(paid.found);
-  }
-  return nb::make_tuple(lengths, founds);
+    left = static_cast<double>(paid.chains.left);
+    right = static_cast<double>(paid.chains.right);
+    return paid.found;
+  });
 }
 
 nb::tuple lengths(const Values& values, bool over_top, const Pairs& points, bool float32) {
@@ -46,21 +53,15 @@ nb::tuple lengths(const Values& values, bool over_top, const Pairs& points, bool
 
 nb::tuple places(const Values& values, bool over_top, const Pairs& chains) {
   const Machine<double> machine = machineOf(numbers<double>(values), over_top);
-  double* place;
-  uint8_t* found;
-  const size_t count = chains.shape(0);
-  auto result = newArray<double>({count, 2}, &place);
-  auto founds = newArray<uint8_t>({count}, &found);
-  for (size_t i = 0; i < count; ++i) {
-    Place<double> at = forward(machine, Chains<double>{chains(i, 0), chains(i, 1)});
+  return answersTo(chains, [&](size_t i, double& x, double& y) {
+    const Chains<double> paid_out = {chains(i, 0), chains(i, 1)};
+    Place<double> at = forward(machine, paid_out);
     // The board's search stops within a few micrometres. A second search from there is exact.
-    if (at.found == Found::kYes)
-      at = forward(machine, Chains<double>{chains(i, 0), chains(i, 1)}, at.sled);
-    place[2 * i] = at.sled.x;
-    place[2 * i + 1] = at.sled.y;
-    found[i] = static_cast<uint8_t>(at.found);
-  }
-  return nb::make_tuple(result, founds);
+    if (at.found == Found::kYes) at = forward(machine, paid_out, at.sled);
+    x = at.sled.x;
+    y = at.sled.y;
+    return at.found;
+  });
 }
 
 /// Returns slopes by setting (n, 2, settings), slopes by place (n, 2, 2), and `found` (n,).
@@ -157,21 +158,15 @@ nb::tuple pushedLengths(const Values& values, bool over_top, const Pairs& points
   const Machine<double> machine = machineOf(numbers<double>(values), over_top);
   if (pushes.shape(0) != points.shape(0)) throw nb::value_error("each place needs its push");
   const double weight = machine.frame.sled_weight;
-  double* length;
-  uint8_t* found;
-  const size_t count = points.shape(0);
-  auto lengths = newArray<double>({count, 2}, &length);
-  auto founds = newArray<uint8_t>({count}, &found);
-  for (size_t i = 0; i < count; ++i) {
+  return answersTo(points, [&](size_t i, double& left, double& right) {
     const Hanging<double> hanging =
         hangPushed(machine, Point<double>{points(i, 0), points(i, 1)},
                    Point<double>{pushes(i, 0) / weight, pushes(i, 1) / weight});
     const Chains<double> chains = paidOut(hanging);
-    length[2 * i] = chains.left;
-    length[2 * i + 1] = chains.right;
-    found[i] = static_cast<uint8_t>(hanging.found);
-  }
-  return nb::make_tuple(lengths, founds);
+    left = chains.left;
+    right = chains.right;
+    return hanging.found;
+  });
 }
 
 }  // namespace

@@ -5,7 +5,7 @@ setup_debian() {
   local missing
   if ! command -v apt-get >/dev/null; then
     command -v g++ cmake python3 >/dev/null ||
-      stop "there is no apt-get here; install what these packages bring: $(packages_for "$1")"
+      stop "there is no apt-get here; install what these packages bring: $(packages_for "$1" | xargs)"
     return
   fi
   missing=$(missing_packages "$1")
@@ -30,25 +30,16 @@ needs_administrator() {
   stop "an administrator has to install packages first: apt-get install --no-install-recommends $1"
 }
 
-# The packages that a set needs, on one line.
+# The packages that a set needs, a line each.
 packages_for() {
-  local package group rest names=()
-  while IFS='|' read -r package group rest; do
-    package=${package// /} group=${group// /}
-    case "$package" in '' | '#'*) continue ;; esac
-    if [ "$group" = lab ] || [ "$group" = "$1" ]; then names+=("$package"); fi
-  done <"$root/tools/steps/debian_packages.txt"
-  printf '%s' "${names[*]}"
+  awk -F ' *[|] *' -v set="$1" '/^[^#]/ && ($2 == "lab" || $2 == set) { print $1 }' "$root/tools/steps/debian_packages.txt"
 }
 
 # Those of them that are not installed, on one line.
 missing_packages() {
-  local installed package missing=()
-  # shellcheck disable=SC2046  # one word per package
-  installed=" $(dpkg-query -W -f '${binary:Package}=${db:Status-Abbrev} ' $(packages_for "$1") \
-    2>/dev/null | sed 's/:[a-z0-9]*=/=/g') " || true
+  local package missing=()
   for package in $(packages_for "$1"); do
-    [[ $installed == *" $package=ii "* ]] || missing+=("$package")
+    [ "$(dpkg-query -W -f '${db:Status-Abbrev}' "$package" 2>/dev/null)" = "ii " ] || missing+=("$package")
   done
   printf '%s' "${missing[*]}"
 }

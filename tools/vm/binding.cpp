@@ -106,11 +106,8 @@ class VirtualMachine {
   void hookAcross(const std::string& axis, double slack, double beyond) {
     world_.hookAcross(axisNamed(axis), slack, beyond);
   }
-  void unhook() { world_.unhook(); }
   void slip(const std::string& axis, double mm) { world_.slip(axisNamed(axis), mm); }
-  void climb(const std::string& axis) { world_.climb(axisNamed(axis)); }
   void set(const std::string& number, double value) { world_.set(number, value); }
-  void creep(const std::string& number, double per_second) { world_.creep(number, per_second); }
   void setWire(const std::string& axis, const std::string& fault, bool is_so) {
     world::Wires& wires = world_.wires(axisNamed(axis));
     const std::map<std::string, bool*> faults = {{"motor_reversed", &wires.motor_reversed},
@@ -124,23 +121,9 @@ class VirtualMachine {
     if (found == faults.end()) throw nb::value_error(("no wire has the fault " + fault).c_str());
     *found->second = is_so;
   }
-  void missEdges(const std::string& axis, int pairs) {
-    running().missEdges(axisNamed(axis), pairs);
-  }
-  void delayProgram(int milliseconds) { running().delayProgram(milliseconds); }
   void setMotorSupply(double volts) { world_.weakenSupply(world::MotorConstants().supply - volts); }
-  void setBoardSupply(double volts) { brain_->setSupply(volts); }
-  std::vector<int> eepromWrites() const {
-    const auto* const host = dynamic_cast<const brain::HostBrain*>(brain_.get());
-    return host ? host->memory().writes_of : std::vector<int>();
-  }
 
  private:
-  brain::Brain& running() {
-    if (!brain_->isRunning()) throw nb::value_error("start the machine first");
-    return *brain_;
-  }
-
   world::World world_;
   std::unique_ptr<brain::Brain> brain_;
 };
@@ -155,27 +138,14 @@ void bindFaults(nb::class_<VirtualMachine>& machine) {
            arg("beyond") = 12.7,
            "Takes the sled off and hooks a chain on the other sprocket, so many mm of links past "
            "12 o'clock, with so much slack [mm] beyond the motor gap.")
-      .def("unhook", &VirtualMachine::unhook, "Hangs the sled on its chains again.")
       .def("slip", &VirtualMachine::slip, arg("axis"), arg("mm"),
            "A chain jumps on its sprocket: so much more is paid out than was counted.")
-      .def("climb", &VirtualMachine::climb, arg("axis"),
-           "A chain climbs over a tooth of its sprocket as that turns: it slips by a link.")
       .def("set", &VirtualMachine::set, arg("number"), arg("value"),
            "Gives a number of the judge's machine a new value.")
-      .def("creep", &VirtualMachine::creep, arg("number"), arg("per_second"),
-           "Lets a number of the judge's machine change with time.")
       .def("set_wire", &VirtualMachine::setWire, arg("axis"), arg("fault"), arg("is_so"),
            "A fault: motor_reversed, motor_unplugged, encoder_reversed, encoder_unplugged, "
            "channel_lost, blocked, driver_complains.")
-      .def("miss_edges", &VirtualMachine::missEdges, arg("axis"), arg("pairs"),
-           "The next edges of an encoder come in pairs, so often: nobody can tell which way.")
-      .def("delay_program", &VirtualMachine::delayProgram, arg("milliseconds"),
-           nb::call_guard<nb::gil_scoped_release>(),
-           "The main program does nothing for so long; interrupts go on.")
-      .def("set_motor_supply", &VirtualMachine::setMotorSupply, arg("volts"), "12 if all is well.")
-      .def("set_board_supply", &VirtualMachine::setBoardSupply, arg("volts"), "5 if all is well.")
-      .def_prop_ro("eeprom_writes", &VirtualMachine::eepromWrites,
-                   "How often each byte was written since the world began; none for the ELF.");
+      .def("set_motor_supply", &VirtualMachine::setMotorSupply, arg("volts"), "12 if all is well.");
 }
 
 }  // namespace

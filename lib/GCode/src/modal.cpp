@@ -2,26 +2,6 @@
 #include "modal.h"
 
 namespace gcode {
-namespace {
-
-/// Codes that state what always holds: cutter compensation, scaling, rotation and polar words are
-/// off, spindle speed is in turns a minute, corners are passed within a fixed distance.
-bool isSoInAnyCase(uint16_t tenths) {
-  switch (tenths) {
-    case 150:
-    case 400:
-    case 500:
-    case 610:
-    case 640:
-    case 690:
-    case 970:
-      return true;
-    default:
-      return false;
-  }
-}
-
-}  // namespace
 
 void Modal::beginLine() {
   machine_coordinates = false;
@@ -76,8 +56,18 @@ bool Modal::take(uint16_t tenths) {
     case 990:
       retracts_to_r = tenths == 990;
       return true;
+    // What always holds: cutter compensation, scaling, rotation and polar words are off, spindle
+    // speed is in turns a minute, corners are passed within a fixed distance.
+    case 150:
+    case 400:
+    case 500:
+    case 610:
+    case 640:
+    case 690:
+    case 970:
+      return true;
     default:
-      return isSoInAnyCase(tenths);
+      return false;
   }
 }
 

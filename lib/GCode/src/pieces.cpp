@@ -16,27 +16,7 @@ bool holds(const char* letters, char letter) {
 
 /// Letters of which a number is used.
 bool hasMeaning(char letter) {
-  switch (letter) {
-    case 'F':
-    case 'G':
-    case 'H':
-    case 'I':
-    case 'J':
-    case 'K':
-    case 'L':
-    case 'M':
-    case 'P':
-    case 'Q':
-    case 'R':
-    case 'S':
-    case 'T':
-    case 'X':
-    case 'Y':
-    case 'Z':
-      return true;
-    default:
-      return false;
-  }
+  return (letter >= 'F' && letter <= 'M') || (letter >= 'P' && letter <= 'T') || letter >= 'X';
 }
 
 /// Codes that take the place words of their line, wherever in the line they come.

@@ -14,17 +14,7 @@ const uint8_t kLayout = 1;
 }  // namespace
 
 Copies::Copies(Bytes& bytes, uint16_t first_address, uint16_t apart)
-    : bytes_(bytes),
-      first_(first_address),
-      apart_(apart),
-      sequence_(0),
-      done_(0),
-      target_(0),
-      to_write_(0),
-      passes_(0),
-      changed_(false),
-      stored_(false),
-      worn_(false) {}
+    : bytes_(bytes), first_(first_address), apart_(apart) {}
 
 bool Copies::isValid(uint8_t copy) const {
   const uint16_t start = addressOf(copy);

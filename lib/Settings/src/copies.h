@@ -60,14 +60,14 @@ class Copies {
 
   Bytes& bytes_;
   uint16_t first_, apart_;
-  uint16_t sequence_;  ///< of the newest valid copy, or of the copy being written
-  uint16_t done_;      ///< bytes of the copy being written that are right
-  Checksum sum_;       ///< of those bytes
-  uint8_t target_;     ///< which copy is written next
-  uint8_t to_write_;   ///< copies that are not up to date
-  uint8_t passes_;     ///< so far, over the copy being written
-  bool changed_;       ///< this pass has written something
-  bool stored_, worn_;
+  uint16_t sequence_ = 0;  ///< of the newest valid copy, or of the copy being written
+  uint16_t done_ = 0;      ///< bytes of the copy being written that are right
+  Checksum sum_;           ///< of those bytes
+  uint8_t target_ = 0;     ///< which copy is written next
+  uint8_t to_write_ = 0;   ///< copies that are not up to date
+  uint8_t passes_ = 0;     ///< so far, over the copy being written
+  bool changed_ = false;   ///< this pass has written something
+  bool stored_ = false, worn_ = false;
 };
 
 }  // namespace settings

@@ -148,18 +148,11 @@ ValueText formatValue(float value) {
   Writer out = {result.text};
   const bool negative = bits >> 31;
   bits &= 0x7FFFFFFF;
-  if (bits > 0x7F800000) {
-    out.put("nan");
-  } else {
-    if (negative && bits) out.put('-');
-    if (bits == 0x7F800000) {
-      out.put("inf");
-    } else if (!bits) {
-      out.put('0');
-    } else {
-      putPositive(out, digitsOf(bits));
-    }
-  }
+  if (negative && bits) out.put('-');
+  if (bits)
+    putPositive(out, digitsOf(bits));
+  else
+    out.put('0');
   out.put('\0');
   return result;
 }

@@ -30,9 +30,7 @@ Memory::Memory(Bytes& bytes, Values& values)
       values_(values),
       copies_(bytes, kFirstCopy, kApart),
       slots_(bytes, kFirstSlot, kSlots),
-      log_(bytes, kFirstLog, kApart),
-      remains_(false),
-      retiring_(false) {}
+      log_(bytes, kFirstLog, kApart) {}
 
 uint16_t Memory::scale() const { return scaleOf(values_); }
 

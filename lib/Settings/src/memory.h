@@ -107,8 +107,8 @@ class Memory {
   Copies copies_;
   PositionSlots slots_;
   EventLog log_;
-  bool remains_;   ///< data of other firmware may still look valid
-  bool retiring_;  ///< such data is being overwritten
+  bool remains_ = false;   ///< data of other firmware may still look valid
+  bool retiring_ = false;  ///< such data is being overwritten
 };
 
 }  // namespace settings

@@ -61,23 +61,7 @@ Agreement compare(const Position& kept, uint16_t scale, float x, float y) {
 }
 
 PositionSlots::PositionSlots(Bytes& bytes, uint16_t first_address, uint8_t slots)
-    : bytes_(bytes),
-      first_(first_address),
-      slots_(slots),
-      newest_(uint8_t(slots - 1)),
-      mark_(kMoved),
-      sequence_(0),
-      exists_(false),
-      wanted_(kMoved),
-      moving_(false),
-      tried_(false),
-      writing_(false),
-      maybe_whole_(false),
-      holds_newest_(false),
-      target_(0),
-      failed_(0),
-      done_(0),
-      record_() {}
+    : bytes_(bytes), first_(first_address), slots_(slots), newest_(uint8_t(slots - 1)) {}
 
 bool PositionSlots::isValid(uint8_t slot) const {
   uint8_t record[kBytesPerSlot];

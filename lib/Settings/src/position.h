@@ -106,20 +106,20 @@ class PositionSlots {
   Bytes& bytes_;
   uint16_t first_;
   uint8_t slots_;
-  uint8_t newest_;     ///< slot of the newest record
-  uint8_t mark_;       ///< of the newest record
-  uint16_t sequence_;  ///< of the newest record
-  bool exists_;        ///< there is a newest record
-  uint8_t wanted_;     ///< what the mark should say while moving_: kMoved or a Doubt
-  bool moving_;        ///< the mark should say `wanted_`
-  bool tried_;         ///< the mark has been written, and is not there yet
-  bool writing_;       ///< a record is being written
-  bool maybe_whole_;   ///< its checksum has been begun, so it could already count
-  bool holds_newest_;  ///< `record_` is the newest record, not a record that was given up
-  uint8_t target_;     ///< slot being written
-  uint8_t failed_;     ///< how many slots before `target_` did not keep the record
-  uint8_t done_;       ///< bytes of the record being written that are right
-  uint8_t record_[kBytesPerSlot];
+  uint8_t newest_;             ///< slot of the newest record
+  uint8_t mark_ = kMoved;      ///< of the newest record
+  uint16_t sequence_ = 0;      ///< of the newest record
+  bool exists_ = false;        ///< there is a newest record
+  uint8_t wanted_ = kMoved;    ///< what the mark should say while moving_: kMoved or a Doubt
+  bool moving_ = false;        ///< the mark should say `wanted_`
+  bool tried_ = false;         ///< the mark has been written, and is not there yet
+  bool writing_ = false;       ///< a record is being written
+  bool maybe_whole_ = false;   ///< its checksum has been begun, so it could already count
+  bool holds_newest_ = false;  ///< `record_` is the newest record, not a record that was given up
+  uint8_t target_ = 0;         ///< slot being written
+  uint8_t failed_ = 0;         ///< how many slots before `target_` did not keep the record
+  uint8_t done_ = 0;           ///< bytes of the record being written that are right
+  uint8_t record_[kBytesPerSlot] = {};
 };
 
 }  // namespace settings

@@ -19,7 +19,8 @@ SETTINGS, MARKS, MACHINE = (
 ADD = ("add", SETTINGS, MARKS, "--effect", "chain_pitch")
 LINES = ("settings", MACHINE, "--to", "gcode", "--client", "none")
 GRID = ("grid", "--preset", "nine")
-TOOL = [sys.executable, str(ROOT / "tools/calibration_grid.py"), "--preset", "nine"]
+# As it is run without an installation: with nothing but Python's own library.
+TOOL = [sys.executable, "-IS", str(ROOT / "tools/calibration_grid.py"), "--preset", "nine"]
 # Commands with the option that names their result, and the name of a file for it.
 WRITERS = [
     pytest.param((*ADD, "-o"), "machine.toml", id="add"),

@@ -1,88 +1,30 @@
-"""Tests of tools/bench: the table is read back as written, rises and budgets are noticed."""
+"""Tests of tools/bench: figures stand beside their budgets, and what is over one is told."""
 
 import sys
-from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
-ROOT = Path(__file__).resolve().parents[3]
-BENCH = ROOT / "tools/bench"
-sys.path.insert(0, str(BENCH))
-import main as bench  # noqa: E402
-import registry  # noqa: E402
-from record import BEGIN, END, Budgets, Costs, over_budget, recorded, replaced, risen  # noqa: E402
-from record import table as table_of  # noqa: E402
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "bench"))
+import firmware
+import main as bench
+import registry
+from main import Budgets, over_budget, table
 
-COSTS = Costs(
-    "avr-gcc 5.4.0",
-    {"inverse, sag": (13_425, 13_622), "inverse, flash": (1966,), "an effect, flash": (-100,)},
-    {"lines a second": (240.0,), "share of the time": (0.102,)},
-)
+FIGURES = {
+    "inverse, sag": (13_425, 13_622),
+    "inverse, stack": (412,),
+    "lines a second": (240.0,),
+    "share of the time": (0.102,),
+}
 BUDGETS = Budgets({"inverse, sag": 13_500, "share of the time": 0.12}, {"lines a second": 230})
-EMPTY = f"# What changed\n\n{BEGIN}\n{END}\n\n- A line after.\n"
 
 
-def written(costs: Costs, text: str = EMPTY) -> str:
-    return replaced(text, table_of(costs, BUDGETS))
-
-
-def with_figure(name: str, *figure: int) -> Costs:
-    return replace(COSTS, recorded={**COSTS.recorded, name: figure})
-
-
-def test_what_is_written_is_read_back():
-    compiler, figures = recorded(written(COSTS))
-    assert compiler == COSTS.compiler
-    assert figures == COSTS.recorded | {"lines a second": (240,)}
-    assert risen(COSTS, figures) == []
-
-
-def test_a_second_writing_replaces_the_first_and_nothing_else():
-    smaller = with_figure("inverse, sag", 2, 3)
-    again = written(smaller, written(COSTS))
-    assert recorded(again) == recorded(written(smaller))
-    assert again.startswith("# What changed\n") and again.endswith("\n\n- A line after.\n")
-
-
-@pytest.mark.parametrize(
-    ("name", "figure", "lines"),
-    [
-        ("inverse, sag", (20, 30), []),
-        ("inverse, sag", (13_693, 13_622), []),  # by less than 2 %
-        (
-            "inverse, sag",
-            (13_694, 13_622),
-            ["inverse, sag rose from 13,425 / 13,622 to 13,694 / 13,622"],
-        ),
-        (
-            "inverse, sag",
-            (13_425, 14_000),
-            ["inverse, sag rose from 13,425 / 13,622 to 13,425 / 14,000"],
-        ),
-        ("inverse, flash", (2005,), []),
-        ("inverse, flash", (2006,), ["inverse, flash rose from 1,966 to 2,006"]),
-        ("an effect, flash", (-90,), ["an effect, flash rose from -100 to -90"]),
-        ("inverse, mud", (1,), ["inverse, mud: measured, but not recorded"]),
-    ],
-)
-def test_a_rise_is_told_in_one_line(name, figure, lines):
-    assert risen(with_figure(name, *figure), recorded(written(COSTS))[1]) == lines
-
-
-def test_a_case_that_vanished_is_told():
-    fewer = replace(COSTS, recorded={"inverse, sag": (13_425, 13_622)})
-    lines = risen(fewer, recorded(written(COSTS))[1])
-    assert len(lines) == 2 and all("no longer measured" in line for line in lines)
-
-
-def test_figures_of_another_compiler_are_not_compared(capsys):
-    other = replace(with_figure("inverse, sag", 9**9, 9**9), compiler="avr-gcc 7.3.0")
-    assert bench.against_record(other, *recorded(written(COSTS))) == []
-    assert "avr-gcc 5.4.0 in CHANGELOG.md: not compared" in capsys.readouterr().out
-    same = replace(other, compiler=COSTS.compiler)
-    (line,) = bench.against_record(same, *recorded(written(COSTS)))
-    assert line.endswith("if that is meant, record it: tools/bench/run --write")
+def test_a_figure_stands_beside_its_budget():
+    rows = table(FIGURES, BUDGETS).splitlines()
+    assert "| inverse, sag | 13,425 / 13,622 | 13,500 |" in rows
+    assert "| share of the time | 10.2% | 12.0% |" in rows
+    assert "| inverse, stack | 412 | – |" in rows
 
 
 @pytest.mark.parametrize(
@@ -95,20 +37,24 @@ def test_figures_of_another_compiler_are_not_compared(capsys):
     ],
 )
 def test_what_is_over_its_budget_is_told(budgets, lines):
-    assert over_budget(COSTS, budgets) == lines
+    assert over_budget(FIGURES, budgets) == lines
 
 
-def test_every_budget_is_of_a_row_in_the_record():
-    text = (ROOT / "CHANGELOG.md").read_text(encoding="utf-8")
-    budgets = bench.budgets()
-    assert all(f"\n| {name} | " in text for name in (*budgets.most, *budgets.least))
+def test_the_bench_reads_the_budgets_of_the_build():
+    most = bench.budgets().most
+    assert (most[firmware.FLASH], most[firmware.RAM]) == (184_320, 5_632)
 
 
-def test_the_list_of_effects_is_shortened_and_an_effect_taken_out_wherever_it_stands():
-    names = [*registry.numbers()]
+def test_static_ram_and_the_deepest_stack_with_a_quarter_fit_into_the_mega():
+    assert bench.budgets().most["static RAM, deepest stack and a quarter of it"] == 8_192
+
+
+def test_what_a_question_costs_is_the_time_that_lines_lose():
+    figures = {"lines_per_second": 200, "lines_per_second_asked": 190, "questions_per_second": 10}
+    assert firmware.cycles_of_a_question(figures) == pytest.approx(80_000)
+
+
+def test_the_list_of_effects_is_shortened():
     short, left_out = registry.only(["chain_sag", "chain_pitch"])
     assert registry.ENTRY.findall(short) == [("160", "ChainSag"), ("180", "ChainPitch")]
-    assert left_out == len(names) - 2
-    for name in (names[0], "chain_sag", names[-1]):
-        numbers = [number for number, _ in registry.ENTRY.findall(registry.without(name))]
-        assert len(numbers) == len(names) - 1 and str(registry.numbers()[name]) not in numbers
+    assert left_out == len(registry.numbers()) - 2

@@ -61,14 +61,14 @@ def refused(check: str, root: Path, name: str, text: str, expected: str) -> None
     assert expected in out
 
 
-@pytest.mark.parametrize("check", ["arrows", "names", "unused", "effects"])
+@pytest.mark.parametrize("check", ["arrows", "unused", "effects"])
 def test_good_tree_passes(tmp_path, check):
     code, text = said(check, plant(tmp_path, GOOD))
     assert (code, text.count("\n")) == (0, 1), text
 
 
 STRAND, MODEL = "lib/Kinematics/src/strand.h", "tools/plumb/model/predict.py"
-HANG, BARE = "tools/judge/reference/hang.h", "tools/plumb/grid/pattern.py"
+HANG = "tools/judge/reference/hang.h"
 
 
 @pytest.mark.parametrize(
@@ -87,9 +87,6 @@ HANG, BARE = "tools/judge/reference/hang.h", "tools/plumb/grid/pattern.py"
         ("tools/lab/src/api/a.ts", 'import { Sheet } from "../sheet/sheet";'),
         ("tools/lab/src/shell/a.ts", 'import { Step } from "../steps/step";'),
         ("tools/lab/src/attic/a.ts", "const a = 1;"),
-        (BARE, "import numpy"),
-        (BARE, "from plumb.text.files import read_bytes"),
-        (BARE, "from . import other"),
         ("tools/plumb/fit/problem.py", "from plumb import _judge"),
         (MODEL, "from plumb.fit.fit import fit"),
         (MODEL, "from plumb import cli"),
@@ -103,33 +100,6 @@ HANG, BARE = "tools/judge/reference/hang.h", "tools/plumb/grid/pattern.py"
 def test_arrows_refuse(tmp_path, name, line):
     without_room = line in ("import plumb", "from . import reach")
     refused("arrows", tmp_path, name, f"{line}\n", "name the room" if without_room else ":1:")
-
-
-@pytest.mark.parametrize(
-    ("name", "line", "word"),
-    [
-        ("lib/Motion/src/Motion.h", "x = max (a, b);", "max is a macro"),
-        ("lib/Motion/src/Motion.h", "x = 2 * PI;", "PI is a macro"),
-        ("lib/Motion/src/Motion.h", "int B0;", "B0 is a macro"),
-    ],
-)
-def test_names_refuse(tmp_path, name, line, word):
-    code, out = said("names", plant(tmp_path, {**GOOD, name: f"\n{line}\n"}))
-    assert code == 1 and out.startswith(f"{name}:2:") and word in out, out
-
-
-@pytest.mark.parametrize(
-    ("text", "word"),
-    [
-        ("const float kTick = 1;\n", "kTick"),
-        ("struct Motor {\n};\n", "Motor"),
-        ("Plain cruising() {\n}\n", "cruising"),
-    ],
-)
-def test_names_refuse_a_name_that_two_files_of_a_suite_define(tmp_path, text, word):
-    plant(tmp_path, {"test/test_motion/test_mover.cpp": text})
-    expected = f"test_mover.cpp defines {word} too"
-    refused("names", tmp_path, "test/test_motion/test_stops.cpp", text, expected)
 
 
 @pytest.mark.parametrize(
@@ -173,20 +143,19 @@ def test_effects_refuse_a_header_without_its_line(tmp_path, registry, expected):
 
 
 @pytest.mark.slow
-def test_annotations_refuse_what_has_no_type_or_no_reason(tmp_path):
+def test_annotations_refuse_what_has_no_type_or_a_bare_ignore(tmp_path):
     """All in a single tree: each run of mypy takes a second and more."""
     texts = {
         "a": "def f(x):\n    return x\n",
         "b": "def f(x: int) -> str:\n    return x\n",
         "c": "x: int = ''  # type: ignore\n",
         "d": "x: int = ''  # type: ignore[assignment]\n",
-        "e": "x: int = ''  # type: ignore[assignment]  # the library takes text as well\n",
     }
     files = {f"tools/plumb/text/{name}.py": text for name, text in texts.items()}
     code, out = said("annotations", plant(tmp_path, files))
     assert code == 1
     places = sorted(line.split(" ")[0] for line in out.splitlines())
-    assert places == [f"tools/plumb/text/{at}:" for at in ("a.py:1", "b.py:2", "c.py:1", "d.py:1")]
+    assert places == [f"tools/plumb/text/{at}:" for at in ("a.py:1", "b.py:2", "c.py:1")]
 
 
 BRANCHES = "def f(x):\n" + "".join(f"    if x == {i}:\n        x += 1\n" for i in range(12))
@@ -215,7 +184,7 @@ def test_generated_reports_a_stale_page(tmp_path):
 
 
 def test_checks_pass_over_what_gitignore_names_and_need_no_git(tmp_path):
-    bad = "inline int lonely(int steps) { return max(steps, 1); }\n"
-    ignored = {".gitignore": "/lib/built/\n*.gen.h\n", "lib/built/a.h": bad, "lib/b.gen.h": bad}
-    plant(tmp_path, {**GOOD, **ignored, ".git/lib/a.h": bad})
-    assert said("names", tmp_path)[0] == 0
+    ignored = {".gitignore": "/lib/built/\n*.gen.h\n"}
+    ignored |= {"lib/built/a.h": LONELY, "lib/b.gen.h": LONELY, ".git/lib/a.h": LONELY}
+    plant(tmp_path, {**GOOD, **ignored})
+    assert said("unused", tmp_path)[0] == 0

@@ -18,7 +18,6 @@ class SimulatedEeprom : public settings::Bytes {
     bytes.at(address) = value;
     busy_us_ = kWriteUs;
     ++writes;
-    ++writes_of.at(address);
   }
 
   void advance(int us) { busy_us_ -= us; }
@@ -34,7 +33,6 @@ class SimulatedEeprom : public settings::Bytes {
 
   std::vector<uint8_t> bytes = std::vector<uint8_t>(4096, 0xff);
   long writes = 0;
-  std::vector<int> writes_of = std::vector<int>(4096, 0);  ///< each byte
 
  private:
   enum { kWriteUs = 3400 };

@@ -26,7 +26,6 @@ class Sled {
 
   /// Gives a number of the judge's machine a new value; the sled moves with the next hang().
   void set(const std::string& name, double value) { *at(name) = value; }
-  double get(const std::string& name) { return *at(name); }
   const reference::Machine& machine() const { return machine_; }
 
   /// Lets the sled come to rest on chains of `paid_out` [mm left, right]. False where no sled can

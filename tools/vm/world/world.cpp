@@ -65,7 +65,9 @@ void World::brake(Axis axis) {
   motors_[axis].is_shorted = true;
 }
 
-double World::travel(Axis axis) const { return laid_[axis] + turned(axis); }
+double World::travel(Axis axis) const {
+  return laid_[axis] + motors_[axis].turns() * per_turn_[axis];
+}
 
 void World::hangAt(const Eigen::Vector2d& place) {
   const Eigen::Vector2d paid_out = sled_.chainsTo(place);
@@ -100,9 +102,6 @@ void World::advance(double seconds) {
     motor.run(-senses_[axis] * duties_[axis], seconds);
   }
   seconds_ += seconds;
-  goOnClimbing(seconds);
-  for (const auto& creep : creeps_)
-    sled_.set(creep.first, sled_.get(creep.first) + creep.second * seconds);
   if (across_.isHooked()) return tighten();
   if (!isDue(seconds)) return;
   hang();
@@ -131,21 +130,8 @@ void World::hang() {
   hung_ = seconds_;
   hung_on_ = {travel(kLeft), travel(kRight)};
   hangs_ = sled_.hang(hung_on_);
-  pullOnMotors();
-}
-
-void World::goOnClimbing(double seconds) {
-  for (const Axis axis : {kLeft, kRight}) {
-    if (!climbs_[axis].isOn()) continue;
-    const double tension = axis == kLeft ? sled_.leftTension() : sled_.rightTension();
-    laid_[axis] += climbs_[axis].advance(seconds, turned(axis), tension);
-    pullOnMotors();
-  }
-}
-
-void World::pullOnMotors() {
-  motors_[kLeft].pull = sled_.leftTension() * radius() * climbs_[kLeft].share();
-  motors_[kRight].pull = sled_.rightTension() * radius() * climbs_[kRight].share();
+  motors_[kLeft].pull = sled_.leftTension() * radius();
+  motors_[kRight].pull = sled_.rightTension() * radius();
 }
 
 }  // namespace world

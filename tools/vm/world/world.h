@@ -9,7 +9,6 @@
 #include <string>
 
 #include "world/chain_across.h"
-#include "world/climb.h"
 #include "world/motor.h"
 #include "world/sheet.h"
 #include "world/sled.h"
@@ -65,8 +64,6 @@ class World {
   // Changes by hand, and faults.
   /// Lays the chains on other teeth: the sprockets do not turn, but the links on them change.
   void slip(Axis axis, double links_mm) { laid_[axis] += links_mm; }
-  /// From now on a chain climbs over a tooth; it needs half a link of the sprocket's travel.
-  void climb(Axis axis) { climbs_[axis].begin(turned(axis)); }
   /// Sets the chains so that this sled's bit is at a place [mm].
   void hangAt(const Eigen::Vector2d& place);
   /// Takes the sled off and hooks the chain of a motor on the other motor's sprocket, `beyond` [mm]
@@ -76,9 +73,8 @@ class World {
   /// Hangs the sled on its chains again.
   void unhook();
   const ChainAcross& across() const { return across_; }
-  /// Gives a number of the judge's machine a new value, or lets it creep by an amount each second.
+  /// Gives a number of the judge's machine a new value.
   void set(const std::string& number, double value) { sled_.set(number, value); }
-  void creep(const std::string& number, double per_second) { creeps_[number] = per_second; }
   Wires& wires(Axis axis) { return motors_[axis].wires; }
   /// Somebody pays out so much of a chain while its motor has no power.
   void pull(Axis axis, double mm_per_second) {
@@ -92,10 +88,6 @@ class World {
   void hang();
   void tighten();
   double radius() const;  // [m] of a sprocket
-  /// [mm] What the sprocket's turns since the world began pay out.
-  double turned(Axis axis) const { return motors_[axis].turns() * per_turn_[axis]; }
-  void goOnClimbing(double seconds);
-  void pullOnMotors();
   /// Whether the sled has moved enough, or waited long enough, to be hung again.
   bool isDue(double step);
 
@@ -103,12 +95,10 @@ class World {
   ChainAcross across_;
   Sheet sheet_;
   std::array<Motor, kAxisCount> motors_;
-  std::array<Climb, kAxisCount> climbs_;
   std::array<int, kAxisCount> duties_ = {{0, 0, 0}};
   std::array<double, kAxisCount> per_turn_;  // [mm]
   std::array<int, kAxisCount> senses_;       // +1, or -1 for a motor that turns the other way
   std::array<double, kAxisCount> laid_;      // [mm] of travel when the motors began
-  std::map<std::string, double> creeps_;     // change of each number in a second
   Eigen::Vector2d hung_on_ = Eigen::Vector2d::Zero();  // [mm] both chains when the sled was hung
   double seconds_ = 0, hung_ = 0, looked_ = 0, probe_height_ = -1e9;
   double lacking_ = 0;  // [V] of the motors' supply
