@@ -1,4 +1,4 @@
-"""Each sender with each brain at its port, and the table of what works."""
+"""Each sender with each brain at its port."""
 
 import re
 import sys
@@ -68,18 +68,3 @@ def pytest_collection_modifyitems(config, items):
     ]
     items[:] = [item for item in items if item not in lacking]
     config.hook.pytest_deselected(items=lacking)
-
-
-def pytest_terminal_summary(terminalreporter):
-    """Print the table of features and senders: W where all passed, F where one failed."""
-    cells: dict[tuple[str, str], str] = {}
-    for ending, letter in (("passed", "W"), ("failed", "F"), ("error", "F")):
-        for report in terminalreporter.stats.get(ending, ()):
-            if named := feature_of(getattr(report, "nodeid", "")):
-                cells[named] = letter
-    if not cells:
-        return
-    terminalreporter.write_sep("=", "features and senders")
-    for feature in dict.fromkeys(feature for feature, _ in cells):
-        row = " | ".join(cells.get((feature, name), "-") for name in SENDERS)
-        terminalreporter.write_line(f"{feature:44} {row}")
