@@ -1,21 +1,26 @@
-"""Runs the parts of tools/test side by side and sums up; what each says is in .pio/results."""
+"""Runs the parts of tools/test side by side, shows how far each is, and sums up."""
 
 import os
+import re
 import shutil
 import signal
 import sys
 import threading
 import time
 import xml.etree.ElementTree as ElementTree
+from collections import deque
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
-from subprocess import DEVNULL, STDOUT, Popen
+from subprocess import DEVNULL, PIPE, STDOUT, Popen
 
 ROOT = Path(__file__).resolve().parents[2]
 RESULTS = ROOT / ".pio/results"
 PIO = ROOT / ".venv/bin/pio"
+CORES = os.cpu_count() or 1
+NEWS_EVERY = 20.0  # [s] between two looks at how far the parts are
 BAD = {"failure", "error", "skipped"}  # what a case of JUnit's holds that did not pass
+LOOP = ["sh", "-c", "while :; do :; done"]
 TAIL = 40  # lines of a failed part's log
 ENVIRONMENT = {
     "PLUMB_WARNINGS": "error",
@@ -31,6 +36,13 @@ ENVIRONMENT = {
     "PYTHONDONTWRITEBYTECODE": "",
 }
 CHECKS = sorted((ROOT / "tools/checks").glob("[!t]*.py"))  # all but tree.py, which they share
+# The tests that wait for a browser, a port or a simulated machine.
+WAITING = [f"tools/tests/{room}" for room in ("lab", "line", "vm", "firmware", "senders")]
+# How pytest's workers and PlatformIO report the end of a test.
+ENDED = re.compile(
+    r"^\[gw\d+\] \[ *\d+%\] (?P<way>PASSED|FAILED|ERROR|SKIPPED) (?P<name>.*)"
+    r"|^(?P<suite>\S.*?)\t\[(?P<end>PASSED|FAILED|ERRORED|SKIPPED)\]"
+)
 
 
 @dataclass
@@ -42,23 +54,49 @@ class Part:
     junit: Path | None = None
     passed: int = 0
     failed: int = 0
-    process: Popen[bytes] | None = None
+    began: float = 0.0
+    wall: float = 0.0  # [s]
+    cpu: float = 0.0  # [s] of the commands and all that they started
+    said: deque[str] = field(default_factory=lambda: deque(maxlen=TAIL))  # the end of the output
+    process: Popen[str] | None = None
 
     def run(self) -> None:
-        """Run the commands, then print how long they took, how many passed, and why some failed."""
-        began, log = time.monotonic(), RESULTS / f"{self.name}.log"
-        with log.open("w") as said:
-            for command in self.commands:
-                how = {"stdin": DEVNULL, "stdout": said, "stderr": STDOUT, "cwd": ROOT}
-                self.process = Popen(command, start_new_session=True, **how)
-                status = self.process.wait()
-                good, bad = counts(self.junit, status) if self.junit else (not status, bool(status))
-                self.passed, self.failed = self.passed + good, self.failed + bad
-        clock = "{:3}:{:02}".format(*divmod(int(time.monotonic() - began), 60))
-        print(f"{self.name:14}{clock} {self.passed:6} passed {self.failed:5} failed", flush=True)
-        if self.failed:
-            end = log.read_text(errors="replace").splitlines()[-TAIL:]
-            print(f"=== the end of {log} ===", *end, "===", sep="\n", flush=True)
+        """Run the commands; the counts are final when this returns."""
+        self.began = time.monotonic()
+        for command in self.commands:
+            status = self._said_by([str(word) for word in command])
+            if self.junit:
+                self.passed, self.failed = counts(self.junit, status)
+            else:
+                self._count(Path(command[-1]).stem, "FAILED" if status else "PASSED")
+        self.wall = time.monotonic() - self.began
+
+    def _said_by(self, command: Sequence[str]) -> int:
+        """Return the exit code of a command, whose output goes to the part's log."""
+        how = {"text": True, "errors": "replace", "start_new_session": True}
+        self.process = Popen(command, stdin=DEVNULL, stdout=PIPE, stderr=STDOUT, cwd=ROOT, **how)
+        with (RESULTS / f"{self.name}.log").open("a", buffering=1) as log:
+            for line in self.process.stdout:
+                log.write(line)
+                self.said.append(line)
+                if self.junit and (ended := ENDED.match(line)):
+                    self._count(ended["name"] or ended["suite"], ended["way"] or ended["end"])
+        _, waited, used = os.wait4(self.process.pid, 0)
+        self.process.returncode = os.waitstatus_to_exitcode(waited)
+        self.cpu += used.ru_utime + used.ru_stime
+        return self.process.returncode
+
+    def _count(self, test: str, ending: str) -> None:
+        self.passed += ending == "PASSED"
+        self.failed += ending != "PASSED"
+        if ending != "PASSED":
+            print(f"FAILED {self.name}: {test.strip()}", flush=True)
+
+    def row(self) -> str:
+        """Return how long it has run, and what it came to so far."""
+        clock = "{:3}:{:02}".format(*divmod(int(self.wall or time.monotonic() - self.began), 60))
+        ending = f"{self.cpu:6.0f} s of CPU" if self.wall else "..."
+        return f"{self.name:14}{clock} {self.passed:6} passed {self.failed:5} failed  {ending}"
 
 
 def counts(junit: Path, status: int) -> tuple[int, int]:
@@ -86,23 +124,23 @@ def lanes(what: str) -> list[list[Part]]:
     """Return the parts; those of a lane run one after the other, the lanes side by side."""
     python, native = RESULTS / "python.xml", RESULTS / "native.xml"
     # Twice as many workers as cores, as some tests wait for a server or a browser.
-    workers = ["-n", str(2 * (os.cpu_count() or 1)), "--dist", "worksteal"]
+    workers = ["-n", str(2 * CORES), "--dist", "worksteal"]
     pytest = [sys.executable, "-u", "-m", "pytest", "-v", "--junitxml", python, *workers]
     chosen = [] if what == "all" else ["-m", "not slow"]
+    rooms = WAITING if what == "busy" else ["tools/tests"]
+    tests = [Part("Python tests", [[*pytest, *chosen, *rooms]], python)]
+    if what == "busy":
+        return [tests]
     host = [
         Part("host tests", [[PIO, "test", "-e", "native", "--junit-output-path", native]], native),
         Part("fuzz", [["nice", ROOT / "test/fuzz/run"]]),
         Part("bench", [[ROOT / "tools/bench/run"]]),
     ]
-    return [
-        [Part("Python tests", [[*pytest, *chosen, "tools/tests"]], python)],
-        host,
-        [Part("checks", [[sys.executable, check] for check in CHECKS])],
-    ]
+    return [tests, host, [Part("checks", [[sys.executable, check] for check in CHECKS])]]
 
 
 def run(work: Sequence[Sequence[Part]]) -> None:
-    """Run the lanes side by side."""
+    """Run the lanes side by side, and print now and then how far they are."""
 
     def in_turn(lane: Sequence[Part]) -> None:
         for part in lane:
@@ -112,20 +150,33 @@ def run(work: Sequence[Sequence[Part]]) -> None:
     for thread in threads:
         thread.start()
     for thread in threads:
-        thread.join()
+        while thread.join(NEWS_EVERY) or thread.is_alive():
+            running = [part for lane in work for part in lane if part.began and not part.wall]
+            print(*(part.row() for part in running), sep="\n", flush=True)
+
+
+def sum_up(parts: Sequence[Part]) -> int:
+    """Print the end of what failed, each part and the sum; return 0 if all passed."""
+    for part in (part for part in parts if part.failed):
+        print(f"\n=== {part.name}: the end of its output ===", "".join(part.said), sep="\n")
+    print("\n=== summary; the whole output of each part is in .pio/results ===")
+    passed, failed = sum(part.passed for part in parts), sum(part.failed for part in parts)
+    print(*(part.row() for part in parts), f"{passed} passed, {failed} failed", sep="\n")
+    return int(failed > 0 or passed == 0)
 
 
 def main() -> int:
     """Run what is asked, which tools/test has looked at; 0 if all of it passed."""
+    what = sys.argv[1] if sys.argv[1:] else "fast"
     os.environ |= ENVIRONMENT
     # A shell may have told its background jobs to ignore Ctrl-C.
     signal.signal(signal.SIGINT, signal.default_int_handler)
     signal.signal(signal.SIGTERM, signal.default_int_handler)
     shutil.rmtree(RESULTS, ignore_errors=True)
     RESULTS.mkdir(parents=True)
-    firmware = Part("firmware", [[PIO, "run", "-e", "megaatmega2560"]])
-    work = lanes(sys.argv[1] if sys.argv[1:] else "fast")
+    firmware, work = Part("firmware", [[PIO, "run", "-e", "megaatmega2560"]]), lanes(what)
     parts = [firmware, *(part for lane in work for part in lane)]
+    loops = [Popen(LOOP) for _ in range(CORES)] if what == "busy" else []
     try:
         # Alone, as two runs of PlatformIO would empty each other's folder. If it does not build,
         # the tests that flash it say so, and everything else is tested all the same.
@@ -136,9 +187,11 @@ def main() -> int:
             if part.process and part.process.returncode is None:
                 os.killpg(part.process.pid, signal.SIGTERM)
         return 130
-    passed, failed = sum(part.passed for part in parts), sum(part.failed for part in parts)
-    print(f"{passed} passed, {failed} failed")
-    return int(failed > 0 or passed == 0)
+    finally:
+        for loop in loops:
+            loop.kill()
+            loop.wait()
+    return sum_up(parts)
 
 
 if __name__ == "__main__":

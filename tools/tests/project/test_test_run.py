@@ -25,15 +25,29 @@ def results(tmp_path, monkeypatch):
     return tmp_path
 
 
-def test_a_failure_is_shown_with_its_end_and_leaves_the_other_parts_running(capsys):
+def summed(capsys, *lanes: list[Part]) -> tuple[int, list[str]]:
+    run.run(lanes)
+    code = run.sum_up([part for lane in lanes for part in lane])
+    return code, capsys.readouterr().out.splitlines()
+
+
+def test_a_failure_is_named_at_once_shown_at_the_end_and_leaves_the_other_parts_running(capsys):
     lane = [Part("a", [["sh", "-c", "echo why; exit 3"]]), Part("b", [["true"], ["true"]])]
-    run.run([lane, [Part("c", [["echo", "fine"]])]])
-    shown = capsys.readouterr().out.splitlines()
-    rows = [" ".join(line.split()) for line in shown]
+    code, shown = summed(capsys, lane, [Part("c", [["echo", "fine"]])])
+    assert code == 1 and shown[0] == "FAILED a: echo why; exit 3"
     assert "why" in shown and "fine" not in shown
-    assert {"a 0:00 0 passed 1 failed", "b 0:00 2 passed 0 failed", "c 0:00 1 passed 0 failed"} <= {
-        *rows
-    }
+    assert shown[-2].split()[:3] == ["c", "0:00", "1"] and shown[-1] == "3 passed, 1 failed"
+
+
+def test_tests_are_counted_by_the_file_of_results_and_named_as_they_fail(capsys, results):
+    junit = results / "some.xml"
+    lines = (
+        "[gw0] [ 25%] FAILED tools/tests/x.py::test_b[1 2] \\nTile.Law/Soft\\t[FAILED]\\nother\\n"
+    )
+    junit.write_text(f"<testsuite name='x' timestamp='0'>{GOOD}{GOOD}{FAILED}</testsuite>")
+    code, shown = summed(capsys, [Part("x", [["printf", "%b", lines]], junit)])
+    assert shown[:2] == ["FAILED x: tools/tests/x.py::test_b[1 2]", "FAILED x: Tile.Law/Soft"]
+    assert code == 1 and shown[-1] == "2 passed, 1 failed"
 
 
 @pytest.mark.parametrize(
@@ -69,28 +83,32 @@ def test_the_usual_run_leaves_out_only_what_is_slow_and_a_word_it_does_not_know_
     ]
     assert changed == ["Python tests"]
     done = subprocess.run([ROOT / "tools/test", "fats"], capture_output=True, text=True)
-    assert done.returncode == 2 and "use tools/test or tools/test all" in done.stderr
+    assert (
+        done.returncode == 2 and "use tools/test, tools/test all or tools/test busy" in done.stderr
+    )
 
 
-def test_a_run_counts_all_its_parts_and_one_that_is_interrupted_ends_all_that_it_started(results):
+def test_a_run_that_is_interrupted_ends_all_that_it_started(results):
+    """Also the busy loops: none of its children is left when it has ended."""
     script = (
         f"import sys; sys.path[:0] = [{str(ROOT / 'tools/steps')!r}]; import run_tests as run\n"
         "from pathlib import Path\n"
         f"run.RESULTS = Path({str(results / 'r')!r})\n"
         "run.PIO = 'true'\n"
-        "run.lanes = lambda what: [[run.Part('x', [['sh', '-c', f'echo begun; {what}']])]]\n"
-        "sys.exit(run.main())\n"
+        "run.lanes = lambda what: [[run.Part('x', [['sh', '-c', 'echo begun; sleep 100']])]]\n"
+        "sys.argv[1:] = ['busy']; sys.exit(run.main())\n"
     )
-    command = [sys.executable, "-c", script]
-    done = subprocess.run([*command, "exit 1"], capture_output=True, text=True)
-    assert (done.returncode, done.stdout.splitlines()[-1]) == (1, "1 passed, 1 failed")
-    (results / "r/x.log").unlink()
-    nap = f"sleep 1{os.getpid()}"
-    work = subprocess.Popen([*command, nap], start_new_session=True)
+    work = subprocess.Popen([sys.executable, "-c", script], start_new_session=True)
     log = results / "r/x.log"
     while not (log.is_file() and log.read_text()):
         assert work.poll() is None
+    group = subprocess.run(
+        ["ps", "-o", "pid=", "--sid", str(work.pid)], capture_output=True, text=True
+    )
+    assert len(group.stdout.split()) == 1 + run.CORES
     os.kill(work.pid, signal.SIGINT)
     assert work.wait() == 130
-    left = subprocess.run(["ps", "-A", "-o", "args="], capture_output=True, text=True)
-    assert nap not in left.stdout
+    left = subprocess.run(
+        ["ps", "-o", "pid=", "--sid", str(work.pid)], capture_output=True, text=True
+    )
+    assert left.stdout.split() == []
