@@ -41,7 +41,7 @@ def measure() -> Figures:
     (BUILD / "effect_cases.h").write_text(registry.cases(), encoding="utf-8")
     elf = linked()
     symbols, stack = output("avr-nm", "-C", elf), {}
-    for part in ("inverse", "forward", "reach"):
+    for part in ("inverse", "forward"):
         # A function dissolved into its caller would have no stack to measure.
         if not re.search(rf"kinematics::{part}<float>", symbols):
             raise ToolError(f"board_program.cpp: the compiler dissolved {part}() into its caller")
@@ -67,7 +67,7 @@ def linked(effects: str = "") -> Path:
         shutil.copytree(KINEMATICS, kinematics)
         (kinematics / "effects.h").write_text(effects, encoding="utf-8")
     includes = [f"-I{folder}" for folder in (kinematics, BENCH, BUILD)]
-    names = ("Kinematics", "reach", "quadrilateral")
+    names = ("Kinematics", "quadrilateral")
     sources = [BENCH / "board_program.cpp", *(kinematics / f"{name}.cpp" for name in names), FLOAT]
     output("avr-g++", *AVR_FLAGS, *includes, *sources, "-o", elf)
     return elf

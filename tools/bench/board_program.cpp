@@ -6,7 +6,6 @@
 #include "Kinematics.h"
 #include "cases.h"
 #include "quadrilateral.h"
-#include "reach.h"
 
 using namespace kinematics;
 
@@ -20,9 +19,6 @@ __attribute__((always_inline)) inline void mark(uint8_t number) {
 }
 
 volatile float sink, other_sink, tilt_sink;
-// noinline: called from a single place, the compiler would inline it there.
-Reached<float> (*volatile const askReach)(const Machine<float>&, Point<float>,
-                                          const ReachLimits<float>&) = reach<float>;
 
 /// Fills in the typical size of each effect in a case.
 struct TypicalSizes {
@@ -104,12 +100,6 @@ void timeOne(uint8_t number, const Machine<float>& machine, Point<float> place) 
     const Point<float> guess = what == bench::kForwardFar ? far : near;
     mark(number + 1);
     sink = forward(machine, chains, guess).sled.x;
-  } else if (what == bench::kReach) {
-    const ReachLimits<float> limits;
-    mark(number + 1);
-    const Reached<float> here = askReach(machine, place, limits);
-    sink = here.give.xx;
-    other_sink = float(here.verdict);
   } else {
     mark(number + 1);
     sink = place.x;

@@ -11,7 +11,6 @@ enum What : uint8_t {
   kForward,
   kForwardFar,
   kForwardNear,
-  kReach,
   // Of a sled with two brackets, without a guess, and from the tilt 0.15 mm before.
   kTiltedInverse,
   kTiltedInverseNear,
@@ -46,7 +45,6 @@ const Case kCases[] = {
     {"forward, no guess", kForward, kSagStretchPitch, kUsual, 0},
     {"forward, guess in the far corner", kForwardFar, kSagStretchPitch, kUsual, 0},
     {"forward, guess 0.1 mm off (tracking)", kForwardNear, kSagStretchPitch, kUsual, 0},
-    {"reach, sag, stretch and pitch", kReach, kSagStretchPitch, kUsual, 0},
     {"inverse, two brackets, no guess", kTiltedInverse, kNone, kUsual, 0},
     {"inverse, two brackets, tilt of 0.15 mm before", kTiltedInverseNear, kNone, kUsual, 0},
     {"forward, two brackets, no guess", kTiltedForward, kNone, kUsual, 0},

@@ -58,6 +58,7 @@ class HostBrain : public Brain,
   void letTicksFallAnywhere(uint32_t seed) { chance_ = seed | 1; }
   /// The firmware's machine, between its start and the end of its power.
   const machine::Machine* machine() const { return ticked_; }
+  const SimulatedEeprom& memory() const { return eeprom_; }
 
  private:
   struct PowerGone {};
