@@ -9,11 +9,11 @@
 -> B06 L1710 R1710
 <* position loaded at:
 <* ok
--> M106
-<* ok
 -> $17=2
 <- ok
 -> M3
+<* ok
+-> M106
 <* ok
 -> G1 X500 Y0 F600
 ~~ wait 2
@@ -34,5 +34,6 @@
 ~~ undriven from now
 ~~ wake 6
 <- ALARM: The firmware was busy for too long*
+<- Turning Spindle Off
 ~~ wait 1
 ~~ undriven
