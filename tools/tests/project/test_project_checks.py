@@ -183,6 +183,33 @@ def test_generated_reports_a_stale_page(tmp_path):
     assert said_of == ["stale.py --check: docs/effects.md is stale"]
 
 
+@pytest.mark.parametrize(
+    ("name", "line", "word"),
+    [
+        ("lib/Motion/src/Motion.h", "x = max (a, b);", "max is a macro"),
+        ("lib/Motion/src/Motion.h", "x = 2 * PI;", "PI is a macro"),
+        ("lib/Motion/src/Motion.h", "int B0;", "B0 is a macro"),
+    ],
+)
+def test_names_refuse(tmp_path, name, line, word):
+    code, out = said("names", plant(tmp_path, {**GOOD, name: f"\n{line}\n"}))
+    assert code == 1 and out.startswith(f"{name}:2:") and word in out, out
+
+
+@pytest.mark.parametrize(
+    ("text", "word"),
+    [
+        ("const float kTick = 1;\n", "kTick"),
+        ("struct Motor {\n};\n", "Motor"),
+        ("Plain cruising() {\n}\n", "cruising"),
+    ],
+)
+def test_names_refuse_a_name_that_two_files_of_a_suite_define(tmp_path, text, word):
+    plant(tmp_path, {"test/test_motion/test_mover.cpp": text})
+    expected = f"test_mover.cpp defines {word} too"
+    refused("names", tmp_path, "test/test_motion/test_stops.cpp", text, expected)
+
+
 def test_checks_pass_over_what_gitignore_names_and_need_no_git(tmp_path):
     ignored = {".gitignore": "/lib/built/\n*.gen.h\n"}
     ignored |= {"lib/built/a.h": LONELY, "lib/b.gen.h": LONELY, ".git/lib/a.h": LONELY}
