@@ -129,8 +129,7 @@ def out_of_view(page, step, wanted):
             yield f"{at}: {act.inner_text()} is hidden: {hidden}"
         is_first = size == WIDE or (size == NARROW and step in ON_PHONE)
         if wanted == WANTED.get(step) and step in FIRST and is_first:
-            box = page.locator(FIRST[step]).first.bounding_box()
-            if box["y"] + box["height"] > page.locator(".way-on").bounding_box()["y"]:
+            if page.locator(FIRST[step]).first.evaluate(HIDDEN):
                 yield f"{at}: {FIRST[step]} is below the first screen"
             expect(page.get_by_role("heading", level=1)).to_be_in_viewport(ratio=1)
         bars = page.evaluate(BARS)
