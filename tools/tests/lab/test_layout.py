@@ -96,6 +96,13 @@ HIDDEN = """(act) => {
   const outside = left < 0 || top < 0 || right > innerWidth || bottom > innerHeight;
   return [...(outside ? [`from ${top} to ${bottom}`] : []), ...[[x, y], ...corners].filter(hidden)];
 }"""
+# A computer's page does not scroll, and Stop is in the same corner of each screen.
+MOVED = """() => {
+  const { scrollHeight } = document.documentElement;
+  const stop = document.querySelector(".stop")?.getBoundingClientRect();
+  if (stop && (stop.bottom > 52 || innerWidth - stop.right > 16)) return "Stop has left its corner";
+  return scrollHeight > innerHeight ? `it scrolls, ${scrollHeight} px` : "";
+}"""
 # How much of the window the bars take that stay while the screen scrolls.
 BARS = """() => [...document.querySelectorAll("header, nav, .act, .way-on, .machine-bar")]
   .filter((each) => ["sticky", "fixed"].includes(getComputedStyle(each).position))
@@ -132,6 +139,8 @@ def out_of_view(page, step, wanted):
             if page.locator(FIRST[step]).first.evaluate(HIDDEN):
                 yield f"{at}: {FIRST[step]} is below the first screen"
             expect(page.get_by_role("heading", level=1)).to_be_in_viewport(ratio=1)
+        if size == WIDE and (moved := page.evaluate(MOVED)):
+            yield f"{at}: {moved}"
         bars = page.evaluate(BARS)
         if size == NARROW and wanted != LOST and bars > 0.15 * size["height"]:
             yield f"{at}: bars of {bars:.0f} px"

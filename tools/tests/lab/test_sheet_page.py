@@ -79,6 +79,8 @@ def test_states_are_compared_by_keys_and_by_buttons(verdict):
     page = verdict
     states = page.get_by_role("group", name="What is drawn").get_by_role("radio")
     last = states.count() - 1
+    small = [each.get_attribute("d") for each in page.locator(".states path").all()]
+    assert len(set(small)) == states.count() and {each.count("L") for each in small} == {23}
     # Where the model fails is seen first: what the fitted frame leaves.
     expect(states.nth(1)).to_be_checked()
     page.locator(FRAME).focus()
