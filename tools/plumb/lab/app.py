@@ -8,7 +8,7 @@ from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
 from pathlib import Path
 
-from fastapi import Depends, FastAPI, Request
+from fastapi import FastAPI, Request
 from fastapi.exceptions import RequestValidationError
 from fastapi.responses import JSONResponse
 from fastapi.staticfiles import StaticFiles
@@ -16,7 +16,7 @@ from starlette.exceptions import HTTPException
 from starlette.types import ASGIApp, Receive, Scope, Send
 
 from plumb.lab.background import LiveBoards
-from plumb.lab.guard import Address, Editor, Guard, OtherTabError, may_change
+from plumb.lab.guard import Address, Guard
 from plumb.lab.guide_desk import GuideDesk
 from plumb.lab.machine_line import MachineLine
 from plumb.lab.project import ChangedError, Project
@@ -79,13 +79,11 @@ def lab_app(folder: Path, *, address: Address, token: str) -> ASGIApp:
     app.state.project = Project(folder)
     app.state.live_boards = LiveBoards()
     app.state.guide_desk = GuideDesk()
-    app.state.editor = Editor()
     for router in ROUTERS:
-        app.include_router(router, prefix="/api", dependencies=[Depends(may_change)])
+        app.include_router(router, prefix="/api")
     app.add_exception_handler(InputError, _refusal)
     app.add_exception_handler(ValueError, _refusal)
     app.add_exception_handler(ChangedError, _changed)
-    app.add_exception_handler(OtherTabError, _other_tab)
     app.add_exception_handler(RequestValidationError, _misunderstood)
     app.add_exception_handler(OSError, _unable)
     app.add_exception_handler(HTTPException, _unknown)
@@ -114,11 +112,6 @@ async def _refusal(request: Request, error: Exception) -> JSONResponse:
 async def _changed(request: Request, error: Exception) -> JSONResponse:
     """Return a file that another program changed."""
     return JSONResponse({"error": str(error)}, 409)
-
-
-async def _other_tab(request: Request, error: Exception) -> JSONResponse:
-    """Return a change by a tab that does not edit."""
-    return JSONResponse({"error": str(error)}, 423)
 
 
 async def _misunderstood(request: Request, error: Exception) -> JSONResponse:

@@ -76,7 +76,7 @@ def body_after_header(lab):
     """How long the body of an answer comes after its header [s]."""
     with socket.create_connection(("127.0.0.1", lab.port)) as line:
         head = f"GET /api/project HTTP/1.1\r\nHost: 127.0.0.1:{lab.port}\r\n"
-        line.sendall(f"{head}X-Plumb-Token: {lab.token}\r\nX-Plumb-Tab: t\r\n\r\n".encode())
+        line.sendall(f"{head}X-Plumb-Token: {lab.token}\r\n\r\n".encode())
         text = b""
         while b"\r\n\r\n" not in text:
             text += line.recv(65536)

@@ -4,7 +4,6 @@ import { inTime, READ_MS, SAVE_MS, WORK_MS } from "./patience";
 import { begin } from "./rest";
 
 import type { components } from "./schema";
-import { tab } from "./tab";
 import { token } from "./token";
 
 export type Schemas = components["schemas"];
@@ -45,7 +44,7 @@ async function answered(path: string, { patienceMs, ...request }: Asking): Promi
       const answer = await fetch(`api/${path}`, {
         ...request,
         signal,
-        headers: { ...request.headers, "X-Plumb-Token": token(), "X-Plumb-Tab": tab() },
+        headers: { ...request.headers, "X-Plumb-Token": token() },
       });
       return [answer, await answer.blob()];
     });

@@ -1,5 +1,4 @@
 // The line on top: the folder, what waits to be saved, and the unit in which lengths are shown and typed.
-import { useReadOnly } from "./editor";
 import { useOutbox } from "./kept";
 import { waitingPlaces } from "./outbox";
 import { SILENT, useProject } from "./project";
@@ -24,7 +23,7 @@ export function Header() {
       <span class="waits" role="status">
         {waits && "What you typed is kept in this browser until the lab answers."}
       </span>
-      <fieldset class="segments units" disabled={useReadOnly()}>
+      <fieldset class="segments units">
         <legend>Lengths in</legend>
         {(["mm", "inch"] as const).map((unit) => (
           <label key={unit}>

@@ -1,11 +1,9 @@
 // The lab: the way at the side, the screen in the middle, trouble on top.
 import { useEffect, useRef, useState } from "preact/hooks";
-import { useReadOnly } from "./editor";
 import { Header } from "./Header";
 import { Held } from "./Held";
 import { MachineBar } from "./MachineBar";
 import { MachineContext, useLiveMachine } from "./machine";
-import { OtherTab } from "./OtherTab";
 import { type Loaded, ProjectContext, type Shared, useSharedProject } from "./project";
 import { Screen } from "./Screen";
 import { ROOMS, STEPS, type Step } from "./steps";
@@ -66,7 +64,6 @@ function Main({ step, shared, loaded }: { step: Step; shared: Shared; loaded: Lo
   const { project } = shared;
   const trouble = loaded.trouble || project.trouble;
   const missing = step.needs(project);
-  const readOnly = useReadOnly();
   const place = useRef<HTMLElement>(null);
   const first = useRef(true);
   useEffect(() => {
@@ -88,21 +85,16 @@ function Main({ step, shared, loaded }: { step: Step; shared: Shared; loaded: Lo
             {trouble}
           </p>
         )}
-        <OtherTab />
-        <fieldset class="editing" disabled={readOnly}>
-          <Held />
-        </fieldset>
+        <Held />
       </div>
-      <fieldset class="editing" disabled={readOnly}>
-        {missing ? (
-          <section class="screen">
-            <h1>{step.title}</h1>
-            <p class="soft">This screen opens later: {missing}.</p>
-          </section>
-        ) : (
-          <Screen key={step.id} />
-        )}
-      </fieldset>
+      {missing ? (
+        <section class="screen">
+          <h1>{step.title}</h1>
+          <p class="soft">This screen opens later: {missing}.</p>
+        </section>
+      ) : (
+        <Screen key={step.id} />
+      )}
       <WayOn project={project} here={step.id} />
     </main>
   );

@@ -1,9 +1,8 @@
 // A value that somebody edits and the server keeps: shown at once, kept in this browser until the server has it, sent
 // again when the server was away, and laid on what the file holds by now.
 import { useEffect, useReducer, useRef, useState } from "preact/hooks";
-import { useReadOnly } from "./editor";
 import { editOf, forget, isUnderWay, keep, listen } from "./outbox";
-import { type Edited, rebased, same } from "./rebase";
+import { collides, type Edited, rebased, same } from "./rebase";
 import { type Sending, useSending } from "./sending";
 
 /** Where a value stands between the person and the disk. */
@@ -23,7 +22,7 @@ export interface KeptParts<Value> {
   save: (value: Value) => Promise<Value>;
   /** Asks for what is on disk now, so that `saved` becomes that. */
   reload: () => Promise<unknown>;
-  /** Whether somebody is asked when the file changes while he types; else what he typed holds. */
+  /** Whether somebody is asked when the file holds something else where he types; else what he typed holds. */
   asks?: boolean;
   /** How long to wait after the last change [ms]; a quarter of a second for what is typed. */
   pause?: number;
@@ -31,7 +30,6 @@ export interface KeptParts<Value> {
 
 export function useKept<Value>(parts: KeptParts<Value>): Kept<Value> {
   useOutbox();
-  const readOnly = useReadOnly();
   const { place, saved, asks } = parts;
   const edit = editOf(place) as Edited<Value> | undefined;
   const underWay = isUnderWay(place);
@@ -40,7 +38,7 @@ export function useKept<Value>(parts: KeptParts<Value>): Kept<Value> {
   const refused = refusal && same(refusal.value, value) ? refusal.line : "";
   // What was typed and taken back while a save is under way has to be sent after it.
   const done = edit !== undefined && !underWay && same(value, saved);
-  const changed = !!asks && edit !== undefined && !underWay && !done && !same(edit.was, saved);
+  const changed = !!asks && edit !== undefined && !underWay && !done && collides(edit, saved);
   useEffect(() => {
     if (done) forget(place);
   }, [done, place]);
@@ -48,7 +46,7 @@ export function useKept<Value>(parts: KeptParts<Value>): Kept<Value> {
   const sending: Sending<Value> = {
     ...parts,
     value,
-    ready: edit !== undefined && !done && !changed && !refused && !readOnly,
+    ready: edit !== undefined && !done && !changed && !refused,
     refuse: (value, line) => setRefusal({ value, line }),
   };
   useSending(sending);

@@ -1,9 +1,7 @@
 // The live line to the lab: it says how the machine is, each second at least, and takes Stop and Hold.
 import { Refusal, type Schemas, send } from "../api/client";
 import { begin } from "../api/rest";
-import { tab } from "../api/tab";
 import { token } from "../api/token";
-import { setEditor } from "./editor";
 import type { Way } from "./presses";
 
 type Answer = Schemas["MachineAnswer"];
@@ -26,7 +24,7 @@ export class Live {
   }
 
   open(): void {
-    const address = new URL(`api/live?tab=${tab()}`, location.href.replace(/^http/, "ws"));
+    const address = new URL("api/live", location.href.replace(/^http/, "ws"));
     this.over = false;
     const socket = new WebSocket(address, ["plumb", token()]);
     this.socket = socket;
@@ -78,11 +76,10 @@ export class Live {
     });
   }
 
-  private take(said: Answer | { press: number; error: string } | { editor: string }): void {
+  private take(said: Answer | { press: number; error: string }): void {
     this.heardAt = Date.now();
     this.greeted();
-    if ("editor" in said) setEditor(said.editor);
-    else if ("press" in said) {
+    if ("press" in said) {
       this.waiting.get(said.press)?.(said.error);
       this.waiting.delete(said.press);
     } else this.hear(said);

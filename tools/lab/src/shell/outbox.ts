@@ -1,6 +1,5 @@
 // Edits that the server has not confirmed yet. They lie in this browser, by folder, so that no crash, reload or dead
 // server loses what somebody typed.
-import { isEditor, isReadOnly, listenToEditor } from "./editor";
 
 /** What somebody wants a place to hold, and what it held when the editing began. */
 export interface Edit {
@@ -14,17 +13,11 @@ const edits = new Map<string, Edit>(); // of this tab, by place; the storage hol
 const listeners = new Set<() => void>();
 const underWay = new Set<string>(); // places whose value is on its way to the server
 
-/** Names the folder whose edits these are. */
+/** Names the folder whose edits these are, and takes up what an earlier tab left behind. */
 export function openOutbox(key: string): void {
   if (key === folder) return;
   folder = key;
   edits.clear();
-  takeUp();
-}
-
-/** Takes up what an earlier tab left behind, as soon as this tab edits. */
-function takeUp(): void {
-  if (!folder || !isEditor()) return;
   for (const name of storedNames()) {
     const edit = stored(name);
     const place = name.slice(storedAs("").length);
@@ -32,8 +25,6 @@ function takeUp(): void {
   }
   tell();
 }
-
-listenToEditor(takeUp);
 
 /** The edit of a place that still waits, if any. */
 export function editOf(place: string): Edit | undefined {
@@ -55,7 +46,7 @@ export function keep(place: string, edit: Edit): void {
 export function forget(place: string): void {
   edits.delete(place);
   try {
-    if (!isReadOnly()) localStorage.removeItem(storedAs(place));
+    localStorage.removeItem(storedAs(place));
   } catch {
     // Nothing was kept there.
   }

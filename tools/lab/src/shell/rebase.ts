@@ -28,6 +28,17 @@ export function rebased<Value>({ value, was }: Edited<Value>, saved: Value): Val
   return together as Value;
 }
 
+/** Whether a name holds something else by now than both what it held and what was typed there. */
+export function collides<Value>({ value, was }: Edited<Value>, saved: Value): boolean {
+  if (!isRecord(value) || !isRecord(was) || !isRecord(saved)) return !same(was, saved);
+  return names(was, value).some(
+    (name) =>
+      !same(was[name], value[name]) &&
+      !same(was[name], saved[name]) &&
+      !same(value[name], saved[name]),
+  );
+}
+
 function isRecord(value: unknown): value is Record<string, unknown> {
   return typeof value === "object" && value !== null && !Array.isArray(value);
 }

@@ -10,7 +10,6 @@ import { rebased, same } from "./rebase";
 const PAUSE_MS = 250; // after the last key
 const AGAIN_MS = 3000; // after a server that did not answer
 const CHANGED = 409;
-const OTHER_TAB = 423;
 
 export interface Sending<Value> extends KeptParts<Value> {
   value: Value;
@@ -83,7 +82,7 @@ async function answered<Value>(sending: Sending<Value>): Promise<boolean> {
   } catch (error) {
     setUnderWay(place, false);
     const status = error instanceof Refusal ? error.status : 0;
-    if (status === CHANGED || status === OTHER_TAB) await reload();
+    if (status === CHANGED) await reload();
     else if (status >= 400 && status < 500) refuse(value, (error as Refusal).message);
     else return false;
   }

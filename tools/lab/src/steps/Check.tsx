@@ -4,7 +4,6 @@ import { useEffect } from "preact/hooks";
 import { type Project, type Schemas, send } from "../api/client";
 import { shownLength } from "../controls/lengths";
 import { useDo } from "../shell/doing";
-import { useReadOnly } from "../shell/editor";
 import { isConnected, isReady, type Machine, useMachine } from "../shell/machine";
 import { useNewest } from "../shell/newest";
 import { useProject } from "../shell/project";
@@ -155,8 +154,7 @@ function nextOf(answer: CheckAnswer, machine: Machine): Next {
 /** Has the diary note a result, once it is there. */
 function useNoted(answer: CheckAnswer | undefined): void {
   const { take } = useProject();
-  const readOnly = useReadOnly();
-  const isNew = !readOnly && !!answer?.sentence && !answer.is_noted;
+  const isNew = !!answer?.sentence && !answer.is_noted;
   useEffect(() => {
     if (!isNew) return;
     // Who looks at the result next time has it noted then.

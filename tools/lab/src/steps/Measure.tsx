@@ -3,7 +3,6 @@ import { useState } from "preact/hooks";
 import { useNewest } from "../shell/newest";
 import { useProject } from "../shell/project";
 import { Screen } from "../shell/Screen";
-import { Additions } from "./measure/Additions";
 import { EffectList } from "./measure/EffectList";
 import { Layouts } from "./measure/Layouts";
 import { MarksMap } from "./measure/MarksMap";
@@ -78,7 +77,6 @@ export function Measure() {
         <>
           <Sum plan={plan} looking={looking} />
           <EffectList plan={plan} />
-          <Additions plan={plan} layout={id} places={places} />
         </>
       )}
     </Screen>

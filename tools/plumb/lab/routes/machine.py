@@ -18,7 +18,7 @@ from plumb.diary.file import write_and_keep
 from plumb.firmware.settings import digest_of_numbers, every_setting, machine_of_numbers
 from plumb.job.dry_run import refuse_what_is_no_program
 from plumb.lab.broken_cut import end_virtual
-from plumb.lab.guard import PROTOCOL, Editor, editor_of
+from plumb.lab.guard import PROTOCOL
 from plumb.lab.machine_line import MachineLine, Port, TheLine, line_of, ports, refuse_foreign_fit
 from plumb.lab.project import Project, save_choices
 from plumb.lab.routes.project import ProjectAnswer, TheProject, show
@@ -279,32 +279,15 @@ PRESS = re.compile(r"(stop|hold) (\d{1,9})")  # what is pressed, and the number 
 
 @router.websocket("/live")
 async def live(websocket: WebSocket) -> None:
-    """Says how the machine is when something changes, and each second; answers what is pressed.
-
-    It says, too, which tab edits.
-    """
-    line, editor = line_of(websocket), editor_of(websocket)
-    tab = websocket.query_params.get("tab", "")[:64]
+    """Says how the machine is when something changes, and each second; answers what is pressed."""
+    line = line_of(websocket)
     await websocket.accept(subprotocol=PROTOCOL)
-    editor.opened(tab)
-    try:
-        await _say(websocket, line, editor)
-    finally:
-        editor.closed(tab)
-
-
-async def _say(websocket: WebSocket, line: MachineLine, editor: Editor) -> None:
-    """Says what changes, until the page has left."""
     answers: list[str] = []
     gone = asyncio.create_task(_heard(websocket, line, answers))
     said: MachineAnswer | None = None
-    said_editor: str | None = None
     said_at = 0.0
     while not gone.done():
         now = machine(line)
-        if editor.tab != said_editor:
-            said_editor = editor.tab
-            await websocket.send_text(json.dumps({"editor": said_editor}))
         for answer in _taken(answers):
             await websocket.send_text(answer)
         if now != said or monotonic() - said_at >= SAID_EVERY:

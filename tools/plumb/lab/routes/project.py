@@ -10,12 +10,11 @@ from pathlib import Path
 from tempfile import NamedTemporaryFile
 from typing import Annotated
 
-from fastapi import APIRouter, Depends, Header, Request, UploadFile
+from fastapi import APIRouter, Depends, Request, UploadFile
 from pydantic import BaseModel
 
 from plumb.diagnosis.readings import Doubted, doubted_readings
 from plumb.fit.inputs import Inputs, settings_in
-from plumb.lab.guard import TheEditor
 from plumb.lab.known import refuse_absurd_known, stated
 from plumb.lab.project import (
     FILE,
@@ -158,24 +157,6 @@ def machine_of(settings: MachineSettings, file: str) -> Machine:
         frame=dict(settings.frame),
         effects={name: dict(numbers) for name, numbers in settings.effects.items()},
     )
-
-
-# The right to edit the folder goes from tab to tab.
-
-
-class EditorAnswer(BaseModel):
-    """The tab that edits; the live line says it, too."""
-
-    editor: str
-
-
-@router.post("/editor")
-def take_over(
-    editor: TheEditor, x_plumb_tab: Annotated[str, Header(max_length=64)]
-) -> EditorAnswer:
-    """Let the tab that asks edit; the tab that did so far only shows."""
-    editor.take_over(x_plumb_tab)
-    return EditorAnswer(editor=editor.tab)
 
 
 # Readings that disagree, asked for after each that is typed.
