@@ -1,4 +1,4 @@
-"""`plumb lab`: the lab in the browser, served on this computer alone."""
+"""`plumb lab`: the lab in the browser, on this computer and, if it is shared, on phones."""
 
 from __future__ import annotations
 
@@ -14,6 +14,7 @@ def run(arguments: argparse.Namespace) -> int:
         Path(arguments.folder),
         port=arguments.port,
         browser=not arguments.no_browser,
+        sharing=arguments.share,
         say=lambda url: print(url, flush=True),
     )
     return 0
@@ -24,6 +25,7 @@ def run(arguments: argparse.Namespace) -> int:
 EXAMPLES = (
     "plumb lab my-maslow",
     "plumb lab my-maslow --port 8080 --no-browser",
+    "plumb lab my-maslow --share",
 )
 EXIT = "Exit: 0 ended with Ctrl-C; 2 it cannot be started."
 PORT = 8450
@@ -43,6 +45,15 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument(
         "--no-browser", action="store_true", help="print the address, open no browser"
+    )
+    parser.add_argument(
+        "--share",
+        choices=("hands", "move"),
+        nargs="?",
+        const="hands",
+        default="no",
+        help="let phones in this network be paired by a PIN: they look, type readings, hold and "
+        "stop; move: they move the machine too, without a word from the computer",
     )
 
 

@@ -19,6 +19,7 @@ from plumb.lab.background import LiveBoards
 from plumb.lab.guard import Address, Guard
 from plumb.lab.guide_desk import GuideDesk
 from plumb.lab.machine_line import MachineLine
+from plumb.lab.phones import Phones
 from plumb.lab.project import ChangedError, Project
 from plumb.lab.routes import (
     bench,
@@ -31,6 +32,7 @@ from plumb.lab.routes import (
     machine,
     next,
     papers,
+    phones,
     plan,
     project,
     readings,
@@ -59,12 +61,14 @@ ROUTERS = tuple(
         diary,
         bench,
         papers,
+        phones,
     )
 )
 
 
-def lab_app(folder: Path, *, address: Address, token: str) -> ASGIApp:
+def lab_app(folder: Path, *, address: Address, token: str, paired: Phones | None = None) -> ASGIApp:
     """Return the lab of a folder, for a server on this address whose page knows the token."""
+    paired = paired or Phones()
     line = MachineLine()
 
     @asynccontextmanager
@@ -75,7 +79,7 @@ def lab_app(folder: Path, *, address: Address, token: str) -> ASGIApp:
     app = FastAPI(
         title="plumb lab", docs_url=None, redoc_url=None, openapi_url=None, lifespan=lifespan
     )
-    app.state.line = line
+    app.state.line, app.state.phones = line, paired
     app.state.project = Project(folder)
     app.state.live_boards = LiveBoards()
     app.state.guide_desk = GuideDesk()
@@ -90,7 +94,7 @@ def lab_app(folder: Path, *, address: Address, token: str) -> ASGIApp:
     app.add_exception_handler(Exception, _failed)
     app.add_middleware(_ForPage)
     app.mount("/", StaticFiles(directory=PAGE, html=True))
-    return Guard(app, address=address, token=token)
+    return Guard(app, address=address, token=token, phones=paired)
 
 
 class _ForPage:

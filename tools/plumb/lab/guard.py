@@ -2,7 +2,8 @@
 
 Any web site can make a browser send requests to this computer. So a request must name this server
 as its host and come from no other site. Only the page's files can be had without the token, which
-is a part of the URL that `plumb lab` prints.
+is a part of the URL that `plumb lab` prints. A phone has no token: it names the address at which
+it found this computer, and its cookie holds the key that it got for the PIN.
 """
 
 from __future__ import annotations
@@ -11,10 +12,13 @@ import asyncio
 import hmac
 from collections.abc import Awaitable, Callable
 from dataclasses import dataclass
+from http.cookies import CookieError, SimpleCookie
 
 from starlette.datastructures import Headers, MutableHeaders
 from starlette.responses import JSONResponse
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
+
+from plumb.lab.phones import COOKIE, PAIR, Phones, may_ask
 
 LARGEST_BODY = 6_000_000  # bytes; a file of marks may have five million
 LARGEST_HEADER = 16_384  # bytes, all of them together
@@ -33,10 +37,17 @@ class Address:
     host: str
     port: int
 
-    @property
-    def hosts(self) -> tuple[str, ...]:
-        """What a browser may name as the host."""
+    def hosts(self, scope: Scope) -> tuple[str, ...]:
+        """Return what a browser may name as the host: for a phone, the address to which it is
+        connected, as a number; a name could be anybody's.
+        """
+        if self.is_phone(scope):
+            return (f"{scope['server'][0]}:{self.port}",)
         return (f"{self.host}:{self.port}", f"localhost:{self.port}")
+
+    def is_phone(self, scope: Scope) -> bool:
+        """Return whether a request came to another address of this computer: by the network."""
+        return scope["server"][0] != self.host
 
 
 class Refusal(JSONResponse):
@@ -50,15 +61,15 @@ class Refusal(JSONResponse):
 class Guard:
     """Refuses what does not come from our page; adds the headers that bind the page."""
 
-    def __init__(self, app: ASGIApp, *, address: Address, token: str) -> None:
-        self.app, self.address, self.token = app, address, token
+    def __init__(self, app: ASGIApp, *, address: Address, token: str, phones: Phones) -> None:
+        self.app, self.address, self.token, self.phones = app, address, token, phones
         self.live = 0  # live lines that are open
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         if scope["type"] == "lifespan":
             await self.app(scope, receive, send)
             return
-        send = self._bound(send) if scope["type"] == "http" else send
+        send = self._bound(send, scope) if scope["type"] == "http" else send
         refusal = self._refusal(scope)
         if not refusal and scope["type"] == "http" and scope["method"] not in SAFE:
             receive, refusal = await _received(receive)
@@ -80,7 +91,7 @@ class Guard:
     def _refusal(self, scope: Scope) -> Refusal | None:
         """Return the answer to a request that is not for us."""
         headers = Headers(scope=scope)
-        hosts = self.address.hosts
+        hosts = self.address.hosts(scope)
         if sum(len(name) + len(value) for name, value in headers.raw) > LARGEST_HEADER:
             return Refusal(431, "the headers are too large")
         if headers.getlist("host") not in [[host] for host in hosts]:
@@ -93,16 +104,34 @@ class Guard:
             return None if reads else Refusal(405, "the page's files are only read")
         if headers.get("sec-fetch-site", "none") not in ("same-origin", "none"):
             return Refusal(403, "this request comes from another site")
-        if not self._knows_token(scope, headers):
-            return Refusal(
-                403, "open the lab by the address that plumb lab printed: it holds the key"
-            )
+        if refusal := self._without_key(scope, headers):
+            return refusal
         if scope["type"] == "websocket" and self.live >= MOST_LIVE:
             return Refusal(503, "too many tabs are open")
         declared = headers.get("content-length", "0")
         if not declared.isascii() or not declared.isdigit():
             return Refusal(400, "content-length is no number")
         return _too_large() if int(declared) > LARGEST_BODY else None
+
+    def _without_key(self, scope: Scope, headers: Headers) -> Refusal | None:
+        """Return the answer to who has no key, or not the key for this."""
+        if not self.address.is_phone(scope):
+            knows = self._knows_token(scope, headers)
+            line = "open the lab by the address that plumb lab printed: it holds the key"
+            return None if knows else Refusal(403, line)
+        method = scope.get("method", "GET")
+        if (method, scope["path"]) == ("POST", PAIR):
+            return None
+        scope["key"] = _cookie(headers)
+        scope["phone"] = phone = self.phones.of(scope["key"])
+        if phone is None:
+            return Refusal(401, "this phone is not paired: scan the code on the computer")
+        if not may_ask(phone, method, scope["path"]):
+            line = (
+                "this phone looks, types readings, holds and stops; the computer can let it do more"
+            )
+            return Refusal(403, line)
+        return None
 
     def _knows_token(self, scope: Scope, headers: Headers) -> bool:
         given = headers.get(TOKEN_HEADER, "")
@@ -111,9 +140,9 @@ class Guard:
             given = words[1] if len(words) == 2 and words[0] == PROTOCOL else ""
         return hmac.compare_digest(given.encode(), self.token.encode())
 
-    def _bound(self, send: Send) -> Send:
+    def _bound(self, send: Send, scope: Scope) -> Send:
         """Send each answer with the headers that keep other sites and foreign scripts out."""
-        sockets = " ".join(f"ws://{host}" for host in self.address.hosts)
+        sockets = " ".join(f"ws://{host}" for host in self.address.hosts(scope))
         policy = (
             "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data: blob:; "
             f"font-src 'self'; connect-src 'self' {sockets}; base-uri 'none'; form-action 'none'; "
@@ -132,6 +161,15 @@ class Guard:
             await send(message)
 
         return sending
+
+
+def _cookie(headers: Headers) -> str:
+    """Return the key in the cookie of a phone; empty if there is none."""
+    try:
+        kept = SimpleCookie(headers.get("cookie", "")).get(COOKIE)
+    except CookieError:
+        return ""
+    return kept.value if kept else ""
 
 
 def _too_large() -> Refusal:

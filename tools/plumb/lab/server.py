@@ -1,4 +1,4 @@
-"""Serves the lab on this computer: 127.0.0.1 alone, behind a token."""
+"""Serves the lab on this computer, behind a token; if it is shared, to paired phones too."""
 
 from __future__ import annotations
 
@@ -21,9 +21,10 @@ from uvicorn.protocols.http.h11_impl import H11Protocol
 
 from plumb.lab.app import lab_app
 from plumb.lab.guard import Address
+from plumb.lab.phones import Phones, Sharing
 from plumb.text.errors import InputError
 
-HOST = "127.0.0.1"
+HOST, NETWORK = "127.0.0.1", "0.0.0.0"  # the second takes what comes by the network too
 TOKEN_FILE = ".lab.token"  # keeps the token, so that an open page survives a restart
 IDLE_S = 15  # a connection on which nothing happens is closed
 LARGEST_MESSAGE = 65_536  # bytes of the page's live line
@@ -31,7 +32,9 @@ MOST_MESSAGES = 16  # that wait to be taken
 TOKEN = re.compile(r"[A-Za-z0-9_-]{43}")
 
 
-def serve(folder: Path, *, port: int, browser: bool, say: Callable[[str], None]) -> None:
+def serve(
+    folder: Path, *, port: int, browser: bool, sharing: Sharing = "no", say: Callable[[str], None]
+) -> None:
     """Serve the lab of a folder until Ctrl-C; port 0 takes any. Raises InputError."""
     if not folder.exists():
         try:
@@ -42,14 +45,16 @@ def serve(folder: Path, *, port: int, browser: bool, say: Callable[[str], None])
     if not folder.is_dir():
         raise InputError(folder, "is a file", remedy="name a folder")
     token = _token(folder)
-    with _listening(port) as listener:
+    with _listening(HOST if sharing == "no" else NETWORK, port) as listener:
         address = Address(HOST, listener.getsockname()[1])
         url = f"http://{HOST}:{address.port}/?token={token}"
         say("The lab is at this address; Ctrl-C ends it.")
         say(url)
+        phones = Phones(sharing, port=address.port, say=say)
         if browser:
             Thread(target=_open, args=(url, say), daemon=True).start()
-        server = uvicorn.Server(_settings(lab_app(folder, address=address, token=token)))
+        app = lab_app(folder, address=address, token=token, paired=phones)
+        server = uvicorn.Server(_settings(app))
         with suppress(KeyboardInterrupt):  # Ctrl-C is how the lab ends
             server.run([listener])
 
@@ -79,8 +84,8 @@ def _open(url: str, say: Callable[[str], None]) -> None:
         say("No browser opened; copy the address into yours.")
 
 
-def _listening(port: int) -> socket.socket:
-    """Return a socket on the port, of this computer alone.
+def _listening(host: str, port: int) -> socket.socket:
+    """Return a socket on the port.
 
     It says that it is TCP: asyncio sends the body of an answer at once only where it knows that.
     Else each answer waits for the browser's receipt of its header, 40 ms.
@@ -88,7 +93,7 @@ def _listening(port: int) -> socket.socket:
     listener = socket.socket(socket.AF_INET, socket.SOCK_STREAM, socket.IPPROTO_TCP)
     listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
     try:
-        listener.bind((HOST, port))
+        listener.bind((host, port))
     except OSError as error:
         listener.close()
         reason = error.strerror or str(error)

@@ -47,10 +47,10 @@ class ServedLab:
 PLUMB = (sys.executable, hurried_plumb.__file__)
 
 
-def serve(folder, *, port=0, command=PLUMB):
+def serve(folder, *, port=0, command=PLUMB, options=()):
     """Start `plumb lab` on a folder; comes back when it answers."""
     process = subprocess.Popen(
-        [*command, "lab", str(folder), "--no-browser", "--port", str(port)],
+        [*command, "lab", str(folder), "--no-browser", "--port", str(port), *options],
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
         text=True,

@@ -25,11 +25,12 @@ def fitted_machine(folder):
     return chosen(folder)
 
 
-def type_off(page, mark, x, y):
+def type_off(lab, page, mark, x, y):
     """Type a check mark that lies so far [mm] right of its target, and so far below it."""
-    for edge, off in (("left", x), ("top", y)):
+    meant = got(lab.client().get("/api/check"))["meant"][mark - 1]
+    for edge, place, off in zip(("left", "top"), meant, (x, y), strict=True):
         field = page.get_by_label(f"Mark {mark} from the {edge}, mm", exact=True)
-        field.fill(str(float(field.get_attribute("placeholder")) + off))
+        field.fill(f"{place + off:.6f}")
 
 
 def where(page):
@@ -45,8 +46,8 @@ def test_two_check_marks_hold_then_miss_and_others_are_planned(lab, page):
     page.get_by_label("Mark 2 from the left, mm").wait_for(timeout=PATIENCE)
     first = where(page)
     assert "G1" in (lab.folder / "check.nc").read_text()
-    type_off(page, 1, 0.3, 0.1)
-    type_off(page, 2, -0.2, 0.4)
+    type_off(lab, page, 1, 0.3, 0.1)
+    type_off(lab, page, 2, -0.2, 0.4)
     expect(page.locator(JUDGED)).to_contain_text("The settings hold.", timeout=PATIENCE)
     within = page.locator(".sheet .arrow.within")
     expect(within).to_have_count(2)
@@ -63,7 +64,7 @@ def test_two_check_marks_hold_then_miss_and_others_are_planned(lab, page):
     assert all(0 < float(off.removesuffix(" mm")) < 1.5 for off in offs) and len(offs) == 2
     fallen = page.locator(".off-target td").all_inner_texts()
     assert [text.strip() for text in fallen] == ["8.95 mm", "0.39 mm"]
-    type_off(page, 2, -4, 0.4)
+    type_off(lab, page, 2, -4, 0.4)
     expect(page.locator(JUDGED)).to_contain_text("More than noise, at mark 2", timeout=PATIENCE)
     expect(within).to_have_count(1)
     beyond = page.locator(".sheet svg > g > g .arrow.beyond")

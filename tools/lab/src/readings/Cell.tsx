@@ -60,7 +60,6 @@ export function Cell(parts: CellParts) {
               aria-label={`Mark ${name} from the ${from[axis]}, ${units}`}
               aria-invalid={reason !== ""}
               aria-describedby={reason ? reasonId : undefined}
-              placeholder={lengthText(mark.meant[axis], units)}
               value={text}
               onInput={(event) => type(axis, event.currentTarget.value)}
               onKeyDown={(event) => {

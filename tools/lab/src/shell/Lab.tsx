@@ -1,5 +1,8 @@
 // The lab: the way at the side, the screen in the middle, trouble on top.
 import { useEffect, useRef, useState } from "preact/hooks";
+import { isPhone } from "../phones/here";
+import { Pair } from "../phones/Pair";
+import { Hands } from "../phones/Phones";
 import { Header } from "./Header";
 import { Held } from "./Held";
 import { MachineBar } from "./MachineBar";
@@ -43,10 +46,11 @@ export function Lab() {
   const { shared, trouble } = loaded;
   const id = useAddress();
   const live = useLiveMachine();
+  if (loaded.isStranger) return <Pair paired={loaded.reload} />;
   if (!shared) {
     return <main>{trouble ? <p role="alert">{trouble}</p> : <p>Loading …</p>}</main>;
   }
-  const first = STEPS[0] as Step;
+  const first = STEPS.find((each) => each.id === (isPhone ? "readings" : "open")) as Step;
   const step = id === "" ? first : ([...STEPS, ...ROOMS].find((each) => each.id === id) ?? NOWHERE);
   return (
     <ProjectContext.Provider value={shared}>
@@ -85,6 +89,7 @@ function Main({ step, shared, loaded }: { step: Step; shared: Shared; loaded: Lo
             {trouble}
           </p>
         )}
+        {isPhone && <Hands />}
         <Held />
       </div>
       {missing ? (

@@ -26,7 +26,7 @@ export class Live {
   open(): void {
     const address = new URL("api/live", location.href.replace(/^http/, "ws"));
     this.over = false;
-    const socket = new WebSocket(address, ["plumb", token()]);
+    const socket = new WebSocket(address, ["plumb", ...(token() ? [token()] : [])]); // a phone has a cookie instead
     this.socket = socket;
     this.greeted = begin();
     socket.onmessage = (message) => this.take(JSON.parse(message.data));

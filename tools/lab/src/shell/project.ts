@@ -1,7 +1,7 @@
 // The project that all screens share: what is on disk, and how a screen changes it.
 import { createContext } from "preact";
 import { useCallback, useContext, useEffect, useRef, useState } from "preact/hooks";
-import { type Choices, get, type Project, send } from "../api/client";
+import { type Choices, get, type Project, Refusal, send } from "../api/client";
 import { LOOK_MS } from "../api/patience";
 import { type Kept, useKept } from "./kept";
 import { editOf, openOutbox } from "./outbox";
@@ -32,6 +32,7 @@ export function useProject(): Shared {
 }
 
 const LOOK_AGAIN_MS = 3000; // so work of another tab or of the command line shows up
+const UNPAIRED = 401;
 export const SILENT = "The lab does not answer";
 
 /** What the frame knows: the project once it is loaded, and choices that may still wait. */
@@ -39,12 +40,15 @@ export interface Loaded {
   shared: Shared | undefined;
   choices: Kept<Choices>;
   trouble: string;
+  /** This phone is not paired, or was sent away: the server answers it nothing. */
+  isStranger: boolean;
+  reload: () => Promise<void>;
 }
 
 /** Loads the project and keeps it fresh. */
 export function useSharedProject(): Loaded {
   const [trouble, setTrouble] = useState("");
-  const { project, take, reload } = useLoadedProject(setTrouble);
+  const { project, take, reload, isStranger } = useLoadedProject(setTrouble);
   const newest = useRef(project);
   newest.current = project;
   const choices = useKept<Choices>({
@@ -69,14 +73,16 @@ export function useSharedProject(): Loaded {
     trouble,
     setTrouble,
   };
-  return { shared, choices, trouble: trouble || choices.refused };
+  return { shared, choices, trouble: trouble || choices.refused, isStranger, reload };
 }
 
 function useLoadedProject(setTrouble: (change: (line: string) => string) => void) {
   const [project, setProject] = useState<Project>();
+  const [isStranger, setStranger] = useState(false);
   const turns = useRef(new Turns()).current;
   const show = useCallback((answer: Project) => {
     openOutbox(answer.key);
+    setStranger(false);
     // What is as before stays the same object, so that no screen asks again for what it shows.
     setProject((before) => (same(before, answer) ? before : answer));
   }, []);
@@ -95,7 +101,9 @@ function useLoadedProject(setTrouble: (change: (line: string) => string) => void
       if (turns.counts(question)) show(answer);
       setTrouble((line) => (line.startsWith(SILENT) ? "" : line));
     } catch (error) {
-      setTrouble(() => (error instanceof Error ? error.message : String(error)));
+      const isUnpaired = error instanceof Refusal && error.status === UNPAIRED;
+      setStranger(isUnpaired);
+      setTrouble(() => (isUnpaired ? "" : error instanceof Error ? error.message : String(error)));
     }
   }, [turns, show, setTrouble]);
   useEffect(() => {
@@ -111,7 +119,7 @@ function useLoadedProject(setTrouble: (change: (line: string) => string) => void
     const timer = setInterval(() => document.hidden || void look(), LOOK_AGAIN_MS);
     return () => clearInterval(timer);
   }, [reload]);
-  return { project, take, reload };
+  return { project, take, reload, isStranger };
 }
 
 /** Changes choices, and ends when they are saved or wait for the person. */

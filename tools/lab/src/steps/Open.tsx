@@ -5,6 +5,8 @@ import { namedLength } from "../controls/lengths";
 import { Connection } from "../machine/Connection";
 import { BeginStep, FirstDay, useGuide } from "../machine/Guide";
 import { MachinePicture } from "../machine/MachinePicture";
+import { isPhone } from "../phones/here";
+import { Phones } from "../phones/Phones";
 import { useDo } from "../shell/doing";
 import { useMachine } from "../shell/machine";
 import { useProject } from "../shell/project";
@@ -43,6 +45,7 @@ export function Open() {
       <SettingsFile />
       <Connection />
       {connected && !first && <FirstDay {...guide} isNext={false} />}
+      {!isPhone && <Phones />}
     </Screen>
   );
 }

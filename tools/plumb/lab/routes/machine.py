@@ -286,7 +286,7 @@ async def live(websocket: WebSocket) -> None:
     gone = asyncio.create_task(_heard(websocket, line, answers))
     said: MachineAnswer | None = None
     said_at = 0.0
-    while not gone.done():
+    while not gone.done() and not _is_sent_away(websocket):
         now = machine(line)
         for answer in _taken(answers):
             await websocket.send_text(answer)
@@ -294,6 +294,12 @@ async def live(websocket: WebSocket) -> None:
             await websocket.send_text(TypeAdapter(MachineAnswer).dump_json(now).decode())
             said, said_at = now, monotonic()
         await asyncio.wait([gone], timeout=LOOK_EVERY)
+
+
+def _is_sent_away(websocket: WebSocket) -> bool:
+    """Return whether the phone at the other end is not paired any more."""
+    is_phone = websocket.scope.get("phone") is not None
+    return is_phone and websocket.app.state.phones.of(websocket.scope["key"]) is None
 
 
 def _taken(answers: list[str]) -> list[str]:

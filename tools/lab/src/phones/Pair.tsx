@@ -1,0 +1,56 @@
+// The first sight of the lab on a phone: with the PIN of the computer it is paired, by itself if it scanned the code.
+import { useEffect, useState } from "preact/hooks";
+import { type Schemas, send } from "../api/client";
+import { useDo } from "../shell/doing";
+import { kindOfPhone } from "./here";
+
+const SCANNED = /^#\/pair\/(\d{6})$/;
+
+export function Pair({ paired }: { paired: () => Promise<void> }) {
+  const [pin, setPin] = useState("");
+  const [busy, run, refusal] = useDo();
+  const pair = (typed: string) =>
+    run(async () => {
+      const body = { pin: typed, kind: kindOfPhone() };
+      await send<Schemas["PhoneAnswer"]>("POST", "phones/pair", body);
+      await paired();
+    });
+  useEffect(() => {
+    const scanned = SCANNED.exec(location.hash)?.[1];
+    location.hash = "#/readings"; // the PIN does not stay in the address line
+    if (scanned) void pair(scanned);
+  }, []);
+  return (
+    <main id="screen">
+      <section class="screen">
+        <h1>Pair this phone</h1>
+        <p class="say">
+          Scan the code that the lab shows on the computer, or type the PIN that stands beside it.
+        </p>
+        <form
+          class="row"
+          onSubmit={(event) => {
+            event.preventDefault();
+            void pair(pin);
+          }}
+        >
+          <label>
+            PIN{" "}
+            <input
+              inputMode="numeric"
+              autocomplete="one-time-code"
+              maxLength={6}
+              size={6}
+              value={pin}
+              onInput={(event) => setPin(event.currentTarget.value)}
+            />
+          </label>
+          <button type="submit" class="primary" disabled={busy || pin.length < 6}>
+            Pair
+          </button>
+        </form>
+        {refusal}
+      </section>
+    </main>
+  );
+}

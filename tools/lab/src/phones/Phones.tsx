@@ -1,0 +1,64 @@
+// The phones of this lab, on the computer: how the next is paired, and what each may do.
+import type { Schemas } from "../api/client";
+import { Refusal } from "../shell/doing";
+import { useWatched } from "../shell/watched";
+import "./phones.css";
+
+type Answer = Schemas["PhonesAnswer"];
+const SELDOM = { path: "phones", works: () => false, oftenMs: 1000 };
+const MINE = { ...SELDOM, path: "phones/me" };
+
+export function Phones() {
+  const { state: answer, press, busy, refused } = useWatched<Answer>(SELDOM);
+  if (!answer) return null;
+  return (
+    <details class="phones" open={answer.phones.length > 0}>
+      <summary>Your phone at the machine</summary>
+      {!answer.is_shared && (
+        <p>
+          Start the lab with <code>plumb lab --share</code>, and a phone in your network types
+          readings, holds and stops.
+        </p>
+      )}
+      {answer.is_shared && !answer.address && <p>This computer is in no network.</p>}
+      {answer.code && (
+        <p class="invitation">
+          <img src={answer.code} alt="The address and the PIN as a QR code" />
+          <span>
+            Scan it, or open {answer.address} and type <b>{answer.pin}</b>. Whoever is in your
+            network can read what is sent.
+          </span>
+        </p>
+      )}
+      <ul>
+        {answer.phones.map(({ number, name, may_move }) => (
+          <li key={number} class="row">
+            <b>{name}</b> {may_move ? "moves the machine too." : "looks, types, holds and stops."}
+            <button
+              type="button"
+              disabled={busy}
+              onClick={() => void press(`${number}/let`, { may_move: !may_move })}
+            >
+              {may_move ? `${name} is not to move the machine` : `Let ${name} move the machine`}
+            </button>
+            <button type="button" disabled={busy} onClick={() => void press(`${number}/send-away`)}>
+              Send {name} away
+            </button>
+          </li>
+        ))}
+      </ul>
+      {refused && <Refusal line={refused} />}
+    </details>
+  );
+}
+
+/** What this phone may do, where that is not all. */
+export function Hands() {
+  const { state: me } = useWatched<Schemas["PhoneAnswer"]>(MINE);
+  if (!me || me.may_move) return null;
+  return (
+    <p class="hands soft" role="status">
+      {me.name}: look, type readings, hold and stop. The computer can let it move the machine.
+    </p>
+  );
+}

@@ -1,0 +1,91 @@
+"""Phones as a second pair of hands: how the next is paired, which there are, what they may do."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+from fastapi import APIRouter, Depends, Request, Response
+from pydantic import BaseModel, Field
+
+from plumb.lab.phones import COOKIE, Phone, Phones
+
+router = APIRouter(tags=["phones"])
+
+
+class PhonesAnswer(BaseModel):
+    """The phones of this lab."""
+
+    is_shared: bool
+    address: str  # for a phone's browser; empty: this computer is in no network
+    pin: str
+    code: str  # the address and the PIN as a QR code, the source of an image
+    phones: list[Phone]
+
+
+class PhoneAnswer(BaseModel):
+    """What the asking browser is, and may do."""
+
+    name: str  # empty on the computer itself
+    may_move: bool
+
+
+class Pairing(BaseModel):
+    """What a phone sends to be paired."""
+
+    pin: str = Field(max_length=12)
+    kind: Literal["iPhone", "iPad", "Android", "phone"] = "phone"
+
+
+class Permission(BaseModel):
+    """Whether a phone may move the machine, and change what else there is."""
+
+    may_move: bool
+
+
+def _phones(request: Request) -> Phones:
+    phones = request.app.state.phones
+    assert isinstance(phones, Phones)
+    return phones
+
+
+ThePhones = Annotated[Phones, Depends(_phones)]
+
+
+@router.get("/phones")
+def show_phones(phones: ThePhones) -> PhonesAnswer:
+    """Return the phones, and how to pair another."""
+    if phones.sharing == "no":
+        return PhonesAnswer(is_shared=False, address="", pin="", code="", phones=[])
+    now = phones.invitation
+    return PhonesAnswer(
+        is_shared=True, address=now.address, pin=now.pin, code=now.picture, phones=phones.paired
+    )
+
+
+@router.post("/phones/pair")
+def pair(asked: Pairing, phones: ThePhones, response: Response) -> PhoneAnswer:
+    """Pair the phone that asks: its browser gets a key of its own."""
+    key, phone = phones.pair(asked.pin, asked.kind)
+    response.set_cookie(COOKIE, key, httponly=True, samesite="strict")
+    return PhoneAnswer(name=phone.name, may_move=phone.may_move)
+
+
+@router.get("/phones/me")
+def who_asks(request: Request) -> PhoneAnswer:
+    """Return what the asking browser may do."""
+    phone: Phone | None = request.scope.get("phone")
+    return PhoneAnswer(name=phone.name if phone else "", may_move=phone.may_move if phone else True)
+
+
+@router.post("/phones/{number}/let")
+def let(number: int, permission: Permission, phones: ThePhones) -> PhonesAnswer:
+    """Let a phone move the machine, or no longer."""
+    phones.let(number, may_move=permission.may_move)
+    return show_phones(phones)
+
+
+@router.post("/phones/{number}/send-away")
+def send_away(number: int, phones: ThePhones) -> PhonesAnswer:
+    """Send a phone away."""
+    phones.send_away(number)
+    return show_phones(phones)
