@@ -47,7 +47,7 @@ class Address:
 
     def is_phone(self, scope: Scope) -> bool:
         """Return whether a request came to another address of this computer: by the network."""
-        return scope["server"][0] != self.host
+        return str(scope["server"][0]) != self.host
 
 
 class Refusal(JSONResponse):

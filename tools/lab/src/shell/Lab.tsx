@@ -1,12 +1,12 @@
 // The lab: the way at the side, the screen in the middle, trouble on top.
 import { useEffect, useRef, useState } from "preact/hooks";
-import { isPhone } from "../phones/here";
-import { Pair } from "../phones/Pair";
-import { Hands } from "../phones/Phones";
+import { isPhone } from "../api/here";
+import { Hands } from "./Hands";
 import { Header } from "./Header";
 import { Held } from "./Held";
 import { MachineBar } from "./MachineBar";
 import { MachineContext, useLiveMachine } from "./machine";
+import { Pair } from "./Pair";
 import { type Loaded, ProjectContext, type Shared, useSharedProject } from "./project";
 import { Screen } from "./Screen";
 import { ROOMS, STEPS, type Step } from "./steps";

@@ -1,12 +1,12 @@
 // Step 1: which machine is it? A file of settings, a port, or a virtual machine.
 import { useState } from "preact/hooks";
 import { type Project, sendFile } from "../api/client";
+import { isPhone } from "../api/here";
 import { namedLength } from "../controls/lengths";
 import { Connection } from "../machine/Connection";
 import { BeginStep, FirstDay, useGuide } from "../machine/Guide";
 import { MachinePicture } from "../machine/MachinePicture";
-import { isPhone } from "../phones/here";
-import { Phones } from "../phones/Phones";
+import { Phones } from "../machine/Phones";
 import { useDo } from "../shell/doing";
 import { useMachine } from "../shell/machine";
 import { useProject } from "../shell/project";

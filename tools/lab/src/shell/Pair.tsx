@@ -1,8 +1,8 @@
 // The first sight of the lab on a phone: with the PIN of the computer it is paired, by itself if it scanned the code.
 import { useEffect, useState } from "preact/hooks";
 import { type Schemas, send } from "../api/client";
-import { useDo } from "../shell/doing";
-import { kindOfPhone } from "./here";
+import { kindOfPhone } from "../api/here";
+import { useDo } from "./doing";
 
 const SCANNED = /^#\/pair\/(\d{6})$/;
 

@@ -6,7 +6,6 @@ import "./phones.css";
 
 type Answer = Schemas["PhonesAnswer"];
 const SELDOM = { path: "phones", works: () => false, oftenMs: 1000 };
-const MINE = { ...SELDOM, path: "phones/me" };
 
 export function Phones() {
   const { state: answer, press, busy, refused } = useWatched<Answer>(SELDOM);
@@ -49,16 +48,5 @@ export function Phones() {
       </ul>
       {refused && <Refusal line={refused} />}
     </details>
-  );
-}
-
-/** What this phone may do, where that is not all. */
-export function Hands() {
-  const { state: me } = useWatched<Schemas["PhoneAnswer"]>(MINE);
-  if (!me || me.may_move) return null;
-  return (
-    <p class="hands soft" role="status">
-      {me.name}: look, type readings, hold and stop. The computer can let it move the machine.
-    </p>
   );
 }

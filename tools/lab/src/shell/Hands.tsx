@@ -1,0 +1,15 @@
+// On a phone: what it may do, where that is not all.
+import type { Schemas } from "../api/client";
+import { useWatched } from "./watched";
+
+const MINE = { path: "phones/me", works: () => false, oftenMs: 1000 };
+
+export function Hands() {
+  const { state: me } = useWatched<Schemas["PhoneAnswer"]>(MINE);
+  if (!me || me.may_move) return null;
+  return (
+    <p class="hands soft" role="status">
+      {me.name}: look, type readings, hold and stop. The computer can let it move the machine.
+    </p>
+  );
+}
