@@ -13,6 +13,7 @@ from fastapi.exceptions import RequestValidationError
 from fastapi.responses import JSONResponse
 from fastapi.staticfiles import StaticFiles
 from starlette.exceptions import HTTPException
+from starlette.middleware.gzip import GZipMiddleware
 from starlette.types import ASGIApp, Receive, Scope, Send
 
 from plumb.lab.background import LiveBoards
@@ -93,6 +94,7 @@ def lab_app(folder: Path, *, address: Address, token: str, paired: Phones | None
     app.add_exception_handler(HTTPException, _unknown)
     app.add_exception_handler(Exception, _failed)
     app.add_middleware(_ForPage)
+    app.add_middleware(GZipMiddleware)
     app.mount("/", StaticFiles(directory=PAGE, html=True))
     return Guard(app, address=address, token=token, phones=paired)
 
