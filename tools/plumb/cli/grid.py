@@ -160,7 +160,7 @@ def _could_tell(arguments: argparse.Namespace) -> Preview:
     except marks_grid.GridError as error:
         raise InputError(str(error)) from None
     plan = as_read(marks_grid.touches_of(grid, machine), marks_grid.spans_of(grid))
-    return preview(settings_in(arguments.settings), plan, sigma=USUAL_SIGMA, is_quick=True)
+    return preview(settings_in(arguments.settings), plan, sigma=USUAL_SIGMA)
 
 
 def _told(outlook: Preview) -> str:

@@ -18,10 +18,8 @@ from pydantic import computed_field
 
 from plumb.diagnosis.answer import NOTHING
 from plumb.diagnosis.explanation import FEWEST_NUMBERS, Board, Explanation
-from plumb.diagnosis.posterior import posterior_of
 from plumb.diagnosis.priors import chance_of, largest_met
 from plumb.diagnosis.sizes import hidden_share
-from plumb.fit.inputs import Stated
 from plumb.fit.observations import different_numbers, model_and_observations
 from plumb.fit.problem import PRIORS
 from plumb.grid.options import APPROACH
@@ -29,14 +27,9 @@ from plumb.grid.pattern import Touch
 from plumb.marks.read import Distance, Mark, Measurements
 from plumb.model.catalogue import effect_names, parameter_words
 from plumb.model.plain import ranked
-from plumb.plan.case import Case, Planned, hidden_hypotheses
-from plumb.plan.options import many_marks, options
-from plumb.plan.outlook import Outlooks
-from plumb.plan.planned_visits import Visits
-from plumb.plan.proposal import AGAIN
 from plumb.plan.separation import apart
 from plumb.settings.machine import MachineSettings
-from plumb.text.answers import Internal, Matrix, key, meant
+from plumb.text.answers import Matrix, key
 from plumb.text.errors import InputError
 
 Array = np.ndarray
@@ -76,24 +69,6 @@ class Outline:
 
 
 @dataclass(frozen=True)
-class PlanAddition:
-    """What could be added to the plan, and what that brings."""
-
-    kind: str
-    title: str
-    do: tuple[str, ...]  # in sentences
-    minutes: float
-    visits: Internal[Visits]
-    named: Annotated[int, meant("Effects that could then be named in their usual size.")]
-    bits: Annotated[float, meant("Expected information on which effect acts.")]
-
-    @property
-    def rate(self) -> float:
-        """The order: information per minute."""
-        return self.bits / (self.minutes + AGAIN)
-
-
-@dataclass(frozen=True)
 class Preview:
     """What a plan could tell."""
 
@@ -104,7 +79,6 @@ class Preview:
     # (e, e) [sigmas] of the row beyond frame and column; diagonal: beyond the frame
     matrix: Annotated[Matrix, key("snr")]
     outlines: tuple[Outline, ...]  # in the order of the effects
-    additions: Internal[tuple[PlanAddition, ...]]  # best first
 
     @computed_field
     @property
@@ -126,24 +100,12 @@ def preview(
     sigma: float,
     controller: str | None = None,
     priors: Mapping[str, float] = PRIORS,
-    is_quick: bool = False,
 ) -> Preview:
     """Return what marks at the targets of a plan could tell; sigma [mm] of one coordinate or
     distance.
-
-    is_quick: without the additions, which take most of the time.
     """
     frame = _as_planned(settings, plan, sigma, controller, priors)
     names, matrix = effect_names(), _matrix(frame, frame.slopes)
-    case = Case(
-        settings=settings,
-        controller=controller or plan.controller or settings.controller,
-        verdict="nothing_provable",
-        posterior=posterior_of(frame.board, Stated(sigma, is_final=True)),
-        frame=frame,
-        best=frame,
-        hypotheses=hidden_hypotheses(frame),
-    )
     rows = frame.board.rows
     return Preview(
         sigma=sigma,
@@ -152,7 +114,6 @@ def preview(
         effects=names,
         matrix=matrix,
         outlines=tuple(_outline(frame, i, matrix) for i in range(len(names))),
-        additions=() if is_quick else _additions(case),
     )
 
 
@@ -250,12 +211,6 @@ def _is_distinct(matrix: Array, i: int) -> bool:
     return bool((matrix[i] >= APART).all())
 
 
-def _named(board: Board, matrix: Array) -> int:
-    """Return how many effects could be named in their usual size."""
-    smallest = (_smallest(board, name, matrix[i, i]) for i, name in enumerate(effect_names()))
-    return sum(_is_seen(size) and _is_distinct(matrix, i) for i, size in enumerate(smallest))
-
-
 def _needed(board: Board, effect: str, seen: float) -> float:
     """Sigmas that an effect must draw to be named in POWER of all cases; `seen` are those that it
     draws in its typical size.
@@ -274,15 +229,3 @@ def _needed(board: Board, effect: str, seen: float) -> float:
         each.append(2 * (log_odds + np.log(2) + price) * (1 + squared) / squared)
     threshold = min(each)
     return float(np.sqrt(scipy.special.chndtrinc(threshold, len(columns), 1 - POWER)))
-
-
-def _additions(case: Case) -> tuple[PlanAddition, ...]:
-    """Return everything that could be added, by what it does for all cells."""
-    blind, outlooks = many_marks(case), Outlooks(case)
-    additions = []
-    for option in [*options(case), *([blind] if blind else [])]:
-        planned = Planned(option.visits, option.checks)
-        then = _matrix(case.frame, planned.ahead(case.frame).slopes)
-        what = (option.kind, option.title, option.do, option.minutes, option.visits)
-        additions.append(PlanAddition(*what, _named(case.board, then), outlooks.of(planned).bits))
-    return tuple(ranked(additions, lambda addition: -addition.rate))

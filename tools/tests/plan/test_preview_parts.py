@@ -1,4 +1,4 @@
-"""What a plan could tell: sizes that are seen, effects that look alike, and what to add."""
+"""What a plan could tell: sizes that are seen, and effects that look alike."""
 
 from dataclasses import replace
 
@@ -14,7 +14,6 @@ from plumb.fit.observations import model_and_observations
 from plumb.marks.read import Mark, Measurements
 from plumb.model.catalogue import EVERY_MACHINE
 from plumb.plan.preview import APART, POWER, preview
-from plumb.plan.proposal import AGAIN
 from synthetic import grid
 
 
@@ -37,7 +36,7 @@ def outline(seen, effect):
 
 @pytest.mark.parametrize("effect", ["sheet_skew", "chain_plane"])
 def test_the_smallest_size_is_named_with_the_power_that_is_said(effect):
-    seen = preview(MACHINE, plan_of(5, 5), sigma=SIGMA, is_quick=True)
+    seen = preview(MACHINE, plan_of(5, 5), sigma=SIGMA)
     model, rows = model_and_observations(MACHINE, plan_of(5, 5))
     frame = explain(Board.of(model, rows, sigma=SIGMA))
     board = LinearBoard.of(frame, (*EVERY_MACHINE, effect))
@@ -67,16 +66,7 @@ def test_effects_are_alike_that_the_marks_cannot_part(nine):
     assert "frame_lean" in outline(nine, "chain_sag").alike
 
 
-def test_additions_are_worth_the_information_that_they_bring(nine):
-    kinds = [each.kind for each in nine.additions]
-    assert {"marks", "weight", "many", "frame", "repeats"} <= {*kinds}
-    rates = [each.rate for each in nine.additions]
-    assert rates == sorted(rates, reverse=True) and min(rates) >= 0
-    for each in nine.additions:
-        assert each.rate == pytest.approx(each.bits / (each.minutes + AGAIN))
-        assert each.bits <= np.log2(len(nine.effects))
-        assert each.named >= nine.named
-    assert max(each.named for each in nine.additions) > nine.named
+def test_what_shows_and_looks_like_nothing_else_is_counted_as_named(nine):
     named = [
         each.effect
         for each, row in zip(nine.outlines, nine.matrix, strict=True)
@@ -85,10 +75,3 @@ def test_additions_are_worth_the_information_that_they_bring(nine):
     assert nine.named == len(named)
     smallest = [each.smallest for each in nine.outlines if each.smallest is not None]
     assert nine.seen == sum(size <= 1 for size in smallest) < sum(size <= 2 for size in smallest)
-    # All marks of the addition at once are a plan like any other.
-    many = next(each for each in nine.additions if each.kind == "many")
-    marks = plan_of(3, 3, approach=(0.0, 1.0)).marks + tuple(
-        replace(mark, sled_weight=None) for mark in many.visits.marks(many.visits.targets)
-    )
-    whole = preview(MACHINE, Measurements(marks), sigma=SIGMA, is_quick=True)
-    assert whole.named == pytest.approx(many.named, abs=1)

@@ -2,10 +2,8 @@
 import { useState } from "preact/hooks";
 import type { Schemas } from "../api/client";
 import { lengthText, noLength, typedLength, type Unit } from "../controls/lengths";
-import { forgetHalf, type HalfPlace, halfOf, keepHalf } from "./halves";
+import { type HalfPlace, halfOf, keepHalf, type Texts } from "./halves";
 import type { Place } from "./useReadings";
-
-type Texts = readonly [string, string];
 
 interface CellParts {
   mark: Schemas["AskedMark"];
@@ -23,11 +21,10 @@ interface CellParts {
   /** Goes on to the mark after it. */
   next: () => void;
   change: (value: Place | undefined) => void;
-  paste: (text: string) => boolean;
 }
 
 export function Cell(parts: CellParts) {
-  const { mark, value, units, from, edges, place, doubted, again, next, change, paste } = parts;
+  const { mark, value, units, from, edges, place, doubted, again, next, change } = parts;
   const [texts, setTexts] = useState<Texts | undefined>(() => halfOf(place, edges));
   const saysValue = texts && (value ? means(texts, value, units) : !complete(texts, units));
   const said = saysValue ? texts : undefined;
@@ -41,8 +38,7 @@ export function Cell(parts: CellParts) {
     const isHalf = !read && typed.some((each) => each.trim() !== "");
     // Half a reading is none: the number before it does not count any more.
     if (read || value) change(read);
-    if (isHalf) keepHalf(place, edges, typed);
-    else forgetHalf(place);
+    keepHalf(place, isHalf ? { edges, texts: typed } : undefined);
   };
   return (
     <fieldset class={doubted ? "cell box doubted" : "cell box"} id={`mark-${mark.index}`}>
@@ -69,9 +65,6 @@ export function Cell(parts: CellParts) {
                 const field = after?.querySelector("input");
                 if (field) field.focus();
                 else next();
-              }}
-              onPaste={(event) => {
-                if (paste(event.clipboardData?.getData("text") ?? "")) event.preventDefault();
               }}
             />
             {reason && (

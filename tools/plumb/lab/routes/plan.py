@@ -30,7 +30,7 @@ from plumb.marks.model import tape_sigma
 from plumb.model.plain import noun_of
 from plumb.model.predict import REACH_WORDS
 from plumb.model.reach import Give, Pull, Survey, conclusion_of, percent, survey_sheet
-from plumb.plan.preview import PlanAddition, Preview, as_read, preview
+from plumb.plan.preview import Preview, as_read, preview
 from plumb.settings.machine import MachineSettings
 from plumb.text.errors import InputError
 from plumb.text.values import shown_in, worded
@@ -143,10 +143,7 @@ def layout_advice(project: TheProject) -> AdviceAnswer:
     quickest.
     """
     settings, choices = opened(project), project.choices
-    previews = {
-        layout: _looked(settings, choices, PlanRequest(layout=layout), is_quick=True)
-        for layout in TITLES
-    }
+    previews = {layout: _looked(settings, choices, PlanRequest(layout=layout)) for layout in TITLES}
     minutes = {layout: planned(settings, layout, ()).minutes for layout in TITLES}
     worth = {layout: (each.named, each.seen, -minutes[layout]) for layout, each in previews.items()}
     best = max(TITLES, key=lambda layout: worth[layout])
@@ -176,9 +173,7 @@ class Desk:
     def __init__(self) -> None:
         self._lock, self._newest = Lock(), 0
 
-    def look(
-        self, settings: MachineSettings, choices: Choices, request: PlanRequest, *, is_quick: bool
-    ) -> Preview:
+    def look(self, settings: MachineSettings, choices: Choices, request: PlanRequest) -> Preview:
         """Return what a plan could tell. Raises InputError for a plan that a newer plan has
         overtaken.
         """
@@ -187,15 +182,13 @@ class Desk:
         with self._lock:
             if mine != self._newest:
                 raise InputError("another plan came meanwhile")
-            return _looked(settings, choices, request, is_quick=is_quick)
+            return _looked(settings, choices, request)
 
 
-def _looked(
-    settings: MachineSettings, choices: Choices, request: PlanRequest, *, is_quick: bool
-) -> Preview:
+def _looked(settings: MachineSettings, choices: Choices, request: PlanRequest) -> Preview:
     priors = tuple(sorted(planned_priors(possible(choices, settings)).items()))
     places, sigma = tuple(request.places), tape_sigma(choices.fineness)
-    return _look(_Same(settings), request.layout, places, sigma, priors, is_quick)
+    return _look(_Same(settings), request.layout, places, sigma, priors)
 
 
 class _Same:
@@ -218,14 +211,13 @@ def _look(
     places: tuple[Place, ...],
     sigma: float,
     priors: tuple[tuple[str, float], ...],
-    is_quick: bool,
 ) -> Preview:
     plan = planned(same.settings, layout, places)
     marks = as_read(plan.touches, plan.spans)
-    return preview(same.settings, marks, sigma=sigma, priors=dict(priors), is_quick=is_quick)
+    return preview(same.settings, marks, sigma=sigma, priors=dict(priors))
 
 
-DESK, SLOW_DESK = Desk(), Desk()  # what takes seconds holds up nobody who drags a mark
+DESK = Desk()
 
 
 @router.post("/preview")
@@ -234,7 +226,7 @@ def preview_plan(request: PlanRequest, project: TheProject) -> PlanAnswer:
     settings = opened(project)
     choices = project.choices
     plan = planned(settings, request.layout, request.places)
-    outlook = DESK.look(settings, choices, request, is_quick=True)
+    outlook = DESK.look(settings, choices, request)
     form, file = next_names(project)
     made = grid_command(project, possible(choices, settings), plan, form=form, program=file)
     return PlanAnswer(
@@ -248,13 +240,6 @@ def preview_plan(request: PlanRequest, project: TheProject) -> PlanAnswer:
         trouble=_trouble(settings, request),
         command=made,
     )
-
-
-@router.post("/preview/additions")
-def additions(request: PlanRequest, project: TheProject) -> list[PlanAddition]:
-    """Return what could be measured in addition, best first; takes some seconds."""
-    outlook = SLOW_DESK.look(opened(project), project.choices, request, is_quick=False)
-    return list(outlook.additions[:4])
 
 
 @router.get("/reach")

@@ -7,6 +7,5 @@ export namespace Layout {
   export type Layout = Schemas["LayoutAnswer"];
   export type Plan = Schemas["PlanAnswer"];
   export type Advice = Schemas["AdviceAnswer"];
-  export type Addition = Schemas["PlanAddition"];
   export type Id = Layout["id"];
 }
