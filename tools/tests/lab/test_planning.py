@@ -46,6 +46,7 @@ def test_marks_are_chosen_added_and_taken_away(lab, opened):
     page.get_by_label(re.compile("^Nine marks")).check()
     at_rest(page)
     assert shows(page) == nine
+    page.get_by_text("Other marks").click()
     page.get_by_label("x from the middle").fill("-100,5")
     page.get_by_label("y from the middle").fill("20")
     page.get_by_role("button", name="Add a mark").click()

@@ -41,7 +41,7 @@ function Staircase({ stairs, units }: { stairs: Stairs; units: Unit }) {
         {stairs.stairs.map((stair, i) => (
           <tr key={`${i} ${stair.noun}`} class={stair.only_fit ? "only-fit" : ""}>
             <th scope="row">
-              {stair.noun}
+              {stair.noun}{" "}
               {stair.only_fit && <strong class="wrong">Only the fit got better.</strong>}
             </th>
             <td class="bars">

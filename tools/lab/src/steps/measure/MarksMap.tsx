@@ -38,26 +38,29 @@ export function MarksMap({ places, spans, keep }: MapParts) {
       >
         <Spans places={places} spans={spans} />
       </Sheet>
-      <form class="row" onSubmit={add}>
-        {AXES.map((axis, i) => (
-          <label key={axis}>
-            {axis} from the middle, {units}{" "}
-            <input
-              inputMode={units === "mm" ? "decimal" : "text"}
-              value={typed[i]}
-              onInput={({ currentTarget: { value } }) =>
-                setTyped(typed.map((text, j) => (i === j ? value : text)))
-              }
-            />
-          </label>
-        ))}
-        <button type="submit" disabled={x === undefined || y === undefined}>
-          Add a mark
-        </button>
-        <button type="button" disabled={selected === undefined} onClick={takeAway}>
-          {selected === undefined ? "Take away: choose a mark" : `Take mark ${selected + 1} away`}
-        </button>
-      </form>
+      <details>
+        <summary>Other marks: by their place, or without one</summary>
+        <form class="row" onSubmit={add}>
+          {AXES.map((axis, i) => (
+            <label key={axis}>
+              {axis} from the middle, {units}{" "}
+              <input
+                inputMode={units === "mm" ? "decimal" : "text"}
+                value={typed[i]}
+                onInput={({ currentTarget: { value } }) =>
+                  setTyped(typed.map((text, j) => (i === j ? value : text)))
+                }
+              />
+            </label>
+          ))}
+          <button type="submit" disabled={x === undefined || y === undefined}>
+            Add a mark
+          </button>
+          <button type="button" disabled={selected === undefined} onClick={takeAway}>
+            {selected === undefined ? "Take away: choose a mark" : `Take mark ${selected + 1} away`}
+          </button>
+        </form>
+      </details>
     </>
   );
 }
