@@ -61,6 +61,13 @@ def test_a_size_held_by_hand_is_used_and_said(client):
     posted(client, "fit", {**PITCH, "held": {"chain_pitch.left": "much"}}, 422)
 
 
+def test_each_effect_says_what_would_be_left_with_it(client):
+    left = posted(client, "gains", PITCH)
+    assert "chain_pitch" not in left and len(left) > 8
+    both = {"effects": ["chain_pitch", "tape_scale"]}
+    assert left["tape_scale"] == pytest.approx(posted(client, "fit", both)["fit_rms"], abs=1e-3)
+
+
 def test_another_board_is_not_answered_from_the_old(client, tmp_path):
     before = posted(client, "fit", {"effects": []})["fit_rms"]
     marks = tmp_path / "marks.toml"

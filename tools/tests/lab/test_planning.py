@@ -1,4 +1,4 @@
-"""What is known, the reach, and marks that are planned, by the routes and by mouse and keys."""
+"""What is known, the reach, and marks that are planned, by the routes and on the page."""
 
 import json
 import re
@@ -6,6 +6,7 @@ import tomllib
 
 import pytest
 from folder import EXAMPLE, asked, choose, got
+from playwright.sync_api import expect
 from plumb.cli.main import main
 from plumb.line.sender import cleaned
 from screens import at_rest, await_question
@@ -33,7 +34,7 @@ def shows(page):
     return int(re.search(r"(\d+) would show", text)[1])
 
 
-def test_marks_are_chosen_dragged_added_and_taken_away(lab, opened):
+def test_marks_are_chosen_added_and_taken_away(lab, opened):
     page = opened
     page.goto(f"{lab.site}#/measure")
     page.locator(".sum", has_text="would show").wait_for(timeout=PATIENCE)
@@ -45,27 +46,22 @@ def test_marks_are_chosen_dragged_added_and_taken_away(lab, opened):
     page.get_by_label(re.compile("^Nine marks")).check()
     at_rest(page)
     assert shows(page) == nine
-    first = page.get_by_role("button", name=re.compile(r"^Mark 1 at"))
-    box = first.bounding_box()
-    page.mouse.move(box["x"] + box["width"] / 2, box["y"] + box["height"] / 2)
-    page.mouse.down()
-    page.mouse.move(box["x"] + 90, box["y"] + 80, steps=4)
-    page.mouse.up()
+    page.get_by_text("Other marks").click()
+    page.get_by_label("x from the middle").fill("-100,5")
+    page.get_by_label("y from the middle").fill("20")
+    page.get_by_role("button", name="Add a mark").click()
     at_rest(page)
     assert choices(lab)["layout"] == "own"
-    moved = choices(lab)["planned"]
-    assert len(moved) == 9 and moved[1] == [0, 509.6]
-    assert moved[0][0] > -1119 and moved[0][1] < 509
-    first.focus()
-    page.keyboard.press("ArrowRight")
+    planned = choices(lab)["planned"]
+    assert len(planned) == 10 and planned[1] == [0, 509.6] and planned[-1] == [-100.5, 20]
+    page.locator(".sheet .frame").focus()
+    page.keyboard.press("Home")
+    page.get_by_role("button", name="Take mark 1 away").click()
     at_rest(page)
-    assert choices(lab)["planned"][0][0] == moved[0][0] + 25
-    page.keyboard.press("Delete")
-    at_rest(page)
-    assert len(choices(lab)["planned"]) == 8
-    page.get_by_role("button", name="Add a mark in the middle").click()
-    at_rest(page)
-    assert choices(lab)["planned"][-1] == [0, 0]
+    assert choices(lab)["planned"] == planned[1:]
+    page.get_by_label("x from the middle").fill("9000")
+    page.get_by_role("button", name="Add a mark").click()
+    expect(page.get_by_role("alert")).to_contain_text("sheet")
 
 
 def test_the_recommended_plan_is_a_click_away(lab, opened):

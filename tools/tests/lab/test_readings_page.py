@@ -72,6 +72,19 @@ def test_what_is_typed_is_saved_and_a_reload_keeps_the_rest(lab, page):
     await_saved(lab, page, {"1": (98.5, 106.5), "4": (1783, 109.5), "5": (2344.5, 106.5)})
 
 
+def test_columns_of_a_spreadsheet_are_pasted_from_a_cell_on(lab, page):
+    with_form(lab, example_form())
+    open_readings(lab, page)
+    page.get_by_label(LEFT.format(1), exact=True).click()
+    page.evaluate(
+        """() => { const data = new DataTransfer();
+        data.setData("text", "98\\t106,5\\n659.5\\t110");
+        document.activeElement.dispatchEvent(
+          new ClipboardEvent("paste", {clipboardData: data, bubbles: true, cancelable: true})); }"""
+    )
+    await_saved(lab, page, {"1": (98, 106.5), "2": (659.5, 110)})
+
+
 def test_fractions_of_an_inch_stay_as_they_were_typed(lab, page):
     with_form(lab, example_form())
     open_readings(lab, page)
@@ -120,7 +133,6 @@ def test_each_distance_that_is_asked_has_its_field(lab, page):
     fields.nth(2).press("Enter")
     page.get_by_text("2 of 3 distances are read.").wait_for()
     expect(fields.nth(1)).to_have_attribute("aria-invalid", "true")
-    page.get_by_text("More distances (0)").wait_for()
     assert not page.get_by_label(LEFT.format(1), exact=True).is_visible()
     assert not page.get_by_label("Measured from").count()
     read = read_marks(lab.folder / "marks.toml", sheet=SHEET).distances
@@ -130,29 +142,35 @@ def test_each_distance_that_is_asked_has_its_field(lab, page):
     page.get_by_text("1 of 3 distances are read.").wait_for()
 
 
+FEW = ("2", "4", 1123.5), ("4", "12", 1415.0), ("8", "12", 757.0)
+
+
+def distances(*lines):
+    """Distances as a form has them."""
+    return "".join(
+        f'\n[[distance]]\nbetween = ["{first}", "{second}"]\nmm = {length}\n'
+        for first, second, length in lines
+    )
+
+
 def test_a_slip_in_a_distance_is_named_and_its_correction_taken(lab, page):
-    with_form(lab, example_form(read=23))
+    with_form(lab, example_form(read=23) + distances(*FEW))
     open_readings(lab, page)
-    page.get_by_text("Distances between marks (0)").click()
-    ends = page.get_by_label("from mark"), page.get_by_label("to mark")
-    assert "1" not in ends[0].locator("option").all_inner_texts()  # it is at two places
-    for first, second, length in (("2", "4", "1123,5"), ("4", "12", "1415"), ("8", "12", "757")):
-        ends[0].select_option(first)
-        ends[1].select_option(second)
-        page.locator(".distances form input").fill(length)
-        page.get_by_role("button", name="Add the distance").click()
-        page.get_by_text(f"{first} to {second}: ").wait_for(timeout=PATIENCE)
     disagreeing(page).get_by_text("Distance 4 to 12").wait_for(timeout=PATIENCE)
-    assert page.locator(".distances li.doubted").inner_text().startswith("4 to 12: 1415.0 mm")
+    doubted = page.get_by_label("Distance 4 to 12, mm", exact=True)
+    expect(page.locator(".spans li.doubted")).to_have_text("4 to 12")
     disagreeing(page).get_by_role("button", name="Look at it").click()
-    change = page.locator("#distance-1 button")
-    expect(change).to_be_focused()
+    expect(doubted).to_be_focused()
     disagreeing(page).get_by_role("button", name="Take 1515").click()
     disagreeing(page).wait_for(state="detached", timeout=PATIENCE)
     at_rest(page)
     read = read_marks(lab.folder / "marks.toml", sheet=SHEET)
     assert [each.length for each in read.distances] == [1123.5, 1515.0, 757.0]
     assert read.distances[1].between == ("4", "12")
+    page.get_by_label("Distance 8 to 12, mm", exact=True).fill("")
+    page.keyboard.press("Tab")
+    at_rest(page)
+    assert len(read_marks(lab.folder / "marks.toml", sheet=SHEET).distances) == 2
 
 
 @pytest.fixture
@@ -174,11 +192,10 @@ def twenty_five(lab):
     assert main([*words, *map(str, files)]) == 0
 
 
-def test_on_a_phone_the_mark_that_is_typed_is_open_and_the_others_are_a_map(lab, phone):
+def test_on_a_phone_the_mark_that_is_typed_is_open_and_the_sheet_opens_another(lab, phone):
     twenty_five(lab)
     open_readings(lab, phone)
-    marks = phone.get_by_role("group", name="Marks on the sheet")
-    assert marks.get_by_role("button").count() == 25 and phone.locator(".cell").count() == 1
+    assert phone.locator(".cell").count() == 1
     assert phone.evaluate("document.documentElement.scrollHeight") < 1800
     phone.get_by_label(LEFT.format(1), exact=True).click()
     for number in ("98", "106,5", "659.5", "110"):  # Enter goes on, from mark to mark
@@ -187,13 +204,15 @@ def test_on_a_phone_the_mark_that_is_typed_is_open_and_the_others_are_a_map(lab,
     await_saved(lab, phone, {"1": (98, 106.5), "2": (659.5, 110)})
     third = phone.get_by_label(LEFT.format(3), exact=True)
     assert third.evaluate("input => input === document.activeElement")
-    read = marks.get_by_role("button", name="Mark 2: read")
-    assert read.get_attribute("aria-pressed") == "false"
-    assert marks.get_by_role("button", name=re.compile("waits")).count() == 23
-    read.click()
+    assert phone.locator(".sheet circle.waits").count() == 23
     again = phone.get_by_label(LEFT.format(2), exact=True)
+    phone.locator(".sheet circle.place").nth(1).click(force=True)
+    expect(again).to_be_focused()
     assert again.input_value() == "659.5"
-    assert again.evaluate("input => input === document.activeElement")
+    phone.locator(".sheet .frame").focus()
+    phone.keyboard.press("Home")
+    phone.keyboard.press("Enter")
+    expect(phone.get_by_label(LEFT.format(1), exact=True)).to_be_focused()
 
 
 def test_on_a_phone_a_reading_that_disagrees_opens(lab, phone):
@@ -201,7 +220,6 @@ def test_on_a_phone_a_reading_that_disagrees_opens(lab, phone):
     open_readings(lab, phone)
     disagreeing(phone).get_by_text("Mark 8").wait_for(timeout=PATIENCE)
     assert phone.get_by_label(LEFT.format(8), exact=True).count() == 0
-    assert phone.get_by_role("button", name="Mark 8: look again").count() == 1
     disagreeing(phone).get_by_role("button", name="Look at it").first.click()
     field = phone.get_by_label(LEFT.format(8), exact=True)
     assert field.evaluate("input => input === document.activeElement")
@@ -282,19 +300,15 @@ def test_a_file_that_went_back_before_the_page_looked_is_loaded_again(lab, readi
     expect(page.locator(".count")).to_contain_text("23 of 23 marks are read")
 
 
-LEFT, TOP = "Mark {} from the left, mm", "Mark {} from the top, mm"
-FEW = ("2", "4", "1123.5"), ("4", "12", "1515"), ("8", "12", "757")
-
-
 @pytest.fixture
 def form(lab, page):
     """The form of the example with a few readings, on the page."""
     (lab.folder / "groundcontrol.ini").write_bytes((EXAMPLE / "groundcontrol.ini").read_bytes())
-    (lab.folder / "marks.toml").write_text(example_form(read=5))
+    (lab.folder / "marks.toml").write_text(f"{spans_line([('2', '4')])}\n{example_form(read=5)}")
     choices = {"settings": "groundcontrol.ini", "marks": ["marks.toml"]}
     (lab.folder / "lab.json").write_text(json.dumps(choices))
     page.goto(f"{lab.url}#/readings")
-    page.get_by_text("Distances between marks (0)").click()
+    page.get_by_label("Distance 2 to 4, mm").wait_for()
     return page
 
 
@@ -308,13 +322,6 @@ def late(form):
             lambda route: waiting.append(route) if route.request.method == "PUT" else None,
         )
     return waiting
-
-
-def add(page, first, second, length):
-    page.get_by_label("from mark").select_option(first)
-    page.get_by_label("to mark").select_option(second)
-    page.locator(".distances form input").fill(length)
-    page.get_by_role("button", name="Add the distance").click()
 
 
 def read(lab):
@@ -333,7 +340,8 @@ def test_a_reading_a_distance_and_the_tape_are_saved_together(lab, form, late):
     form.get_by_label("Finest lines of the tape").select_option("1")
     form.get_by_label(LEFT.format(6), exact=True).fill("98")
     form.get_by_label(TOP.format(6), exact=True).fill("360")
-    add(form, *FEW[0])
+    form.get_by_label("Distance 2 to 4, mm").fill("1123.5")
+    form.keyboard.press("Tab")
     let_go(form, late, 3)
     at_rest(form)
     assert len(read(lab).readings) == 6 and read(lab).distances

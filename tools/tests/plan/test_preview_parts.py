@@ -1,4 +1,4 @@
-"""What a plan could tell: sizes that are seen, effects that look alike, and what to add."""
+"""What a plan could tell: sizes that are seen, and effects that look alike."""
 
 from dataclasses import replace
 

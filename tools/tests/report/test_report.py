@@ -101,15 +101,6 @@ def test_all_that_can_be_pressed_does_something_and_leads_nowhere(made, opened, 
         page.locator(".key.laid").wait_for()
 
 
-def test_what_is_saved_of_the_sheet_is_a_file(made, opened):
-    page = opened(made("cannot_tell")[2])
-    page.locator(".tools summary").click()
-    for name, start in (("CSV", b"state,"), ("SVG", b"<svg"), ("PNG", b"\x89PNG")):
-        with page.expect_download() as download:
-            page.get_by_role("button", name=name).click()
-        assert Path(download.value.path()).read_bytes().startswith(start)
-
-
 def test_the_numbers_are_those_of_add(made, opened):
     words, answer, path = made("cannot_tell")
     said = asked("add", *words, "--effect", "auto")
@@ -121,7 +112,7 @@ def test_the_numbers_are_those_of_add(made, opened):
         after = f"{change.after} ± {change.margin} {change.unit}"
         sizes[change.noun] = [change.before, after]
     rows = table(opened(path), "The numbers")
-    assert len(rows) == 4 and [row[1:3] for row in rows] == [sizes[row[0]] for row in rows]
+    assert len(rows) == 4 and all([row[1], row[2].split("\n")[0]] == sizes[row[0]] for row in rows)
 
 
 def test_a_slip_changes_no_number_and_has_its_mark(made, opened):

@@ -1,14 +1,15 @@
 // The bench for effects: add and take away, and see at once what is left of the errors.
-import { useMemo, useState } from "preact/hooks";
-import { type Project, send } from "../api/client";
+import { useMemo, useRef, useState } from "preact/hooks";
+import { Trouble } from "../controls/Trouble";
+import { useUnits } from "../controls/units";
 import { Residuals } from "../residuals/Residuals";
 import { useDrawn } from "../residuals/useDrawn";
-import { useDo } from "../shell/doing";
+import { Do } from "../shell/doing";
 import { useNewest } from "../shell/newest";
-import { useProject } from "../shell/project";
+import { useProject, useTell } from "../shell/project";
 import { Screen } from "../shell/Screen";
 import { EffectCard } from "./EffectCard";
-import { type Bench as Board, type Choice, useLive, useStairs } from "./live";
+import { type Bench as Board, type Choice, useGains, useLive, useStairs } from "./live";
 import { Fall } from "./Staircase";
 import "./bench.css";
 
@@ -24,12 +25,18 @@ const ARROWS =
 
 function OpenBench({ bench }: { bench: Board }) {
   const { project, choose } = useProject();
-  const units = project.choices.units ?? "mm";
+  const units = useUnits();
   const kept = keptChoice(project.choices.bench);
   const [moving, setMoving] = useState<Choice>(); // while a slider is being moved
   const choice = moving ?? kept;
   const live = useLive(choice, kept, bench.board);
   const stairs = useStairs(kept, bench.board);
+  const gains = useGains(kept, bench.board);
+  // By what each would leave at first: a row does not move away from the hand that ticks it.
+  const first = useRef(gains);
+  first.current ??= gains;
+  const rank = ({ name }: { name: string }) => first.current?.[name] ?? 0;
+  const effects = [...bench.effects].sort((a, b) => rank(a) - rank(b));
   const change = (next: Choice, keep: boolean) => {
     setMoving(keep ? undefined : next);
     if (keep) void choose({ bench: next });
@@ -54,33 +61,29 @@ function OpenBench({ bench }: { bench: Board }) {
         doubted={bench.doubted}
         doubtedSpans={bench.doubted_spans}
         drawn={drawn}
-        sheet={bench.sheet}
       />
     );
   }, [bench, frame, now, previous, drawn]);
   return (
     <Screen
       title="Effects bench"
-      say={`Add an effect: all else is refitted at once. ${hasMarks ? ARROWS : ""}Nothing goes to the machine.`}
+      say={`Add an effect: each row says what would be left with it [${units}]. ${hasMarks ? ARROWS : ""}Nothing goes to the machine.`}
       why={<Why />}
       {...(now ? { command: now.fit.command } : {})}
       stage={stage}
       act={<Write bench={bench} choice={kept} />}
     >
-      {live.refusal && (
-        <p class="trouble" role="alert">
-          {live.refusal}
-        </p>
-      )}
-      <Fall live={live} stairs={stairs} units={units} />
+      <Trouble>{live.refusal}</Trouble>
+      <Fall live={live} stairs={stairs} />
       <div>
         <h2>Effects</h2>
-        {bench.effects.map((effect) => (
+        {effects.map((effect) => (
           <EffectCard
             key={effect.name}
             effect={effect}
             choice={choice}
             fit={now?.fit}
+            left={gains?.[effect.name]}
             change={change}
             isLaid={laid === effect.name}
             lay={hasMarks ? () => lay(laid === effect.name ? "" : effect.name) : undefined}
@@ -103,22 +106,21 @@ function OpenBench({ bench }: { bench: Board }) {
 
 /** The button that writes the file of the new machine. */
 function Write({ bench, choice }: { bench: Board; choice: Choice }) {
-  const { project, take } = useProject();
-  const [busy, run, refusal] = useDo();
+  const { project } = useProject();
+  const tell = useTell();
   const [written, setWritten] = useState("");
   const key = JSON.stringify(choice);
   const write = async () => {
     const read = project.files[bench.new_machine] ?? "";
-    take(await send<Project>("POST", "bench/machine", { ...choice, read }));
+    await tell("bench/machine", { ...choice, read });
     setWritten(key);
   };
   return (
     <>
-      <button type="button" class="primary" disabled={busy} onClick={() => void run(write)}>
+      <Do isNext work={write}>
         Write these numbers to {bench.new_machine}
-      </button>{" "}
+      </Do>{" "}
       <span role="status">{written === key && `${bench.new_machine} is written.`}</span>
-      {refusal}
     </>
   );
 }

@@ -1,4 +1,6 @@
 // An effect that can be added: its checkbox, and a slider for each of its sizes.
+import { shownLength } from "../controls/lengths";
+import { useUnits } from "../controls/units";
 import type { Choice, Effect, Fit } from "./live";
 import { SizeSlider } from "./SizeSlider";
 
@@ -6,6 +8,8 @@ interface EffectCardParts {
   effect: Effect;
   choice: Choice;
   fit: Fit | undefined;
+  /** What would be left with it [mm], where it is not added. */
+  left: number | undefined;
   /** Shows a choice; `keep` says that the hand is off the slider. */
   change: (choice: Choice, keep: boolean) => void;
   /** Whether what it draws lies over the marks. */
@@ -13,7 +17,8 @@ interface EffectCardParts {
   lay: (() => void) | undefined; // undefined: there is no mark
 }
 
-export function EffectCard({ effect, choice, fit, change, isLaid, lay }: EffectCardParts) {
+export function EffectCard({ effect, choice, fit, left, change, isLaid, lay }: EffectCardParts) {
+  const units = useUnits();
   const added = choice.effects.includes(effect.name);
   const toggle = () => {
     const effects = added
@@ -35,6 +40,12 @@ export function EffectCard({ effect, choice, fit, change, isLaid, lay }: EffectC
           {effect.where !== "firmware" && <small>no setting holds it</small>}
         </span>
       </label>
+      {!added && left !== undefined && (
+        <output>
+          <span class="spoken">would leave</span>
+          <span aria-hidden="true">→</span> {shownLength(left, units, 2)}
+        </output>
+      )}
       {lay && (
         <button
           type="button"

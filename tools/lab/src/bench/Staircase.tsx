@@ -1,21 +1,23 @@
 // How the error falls: what is left now in large figures, and each stair down to it with its bar.
+import { Head } from "../controls/Head";
 import { namedLength, shownLength, type Unit } from "../controls/lengths";
+import { useUnits } from "../controls/units";
 import type { Live, Stairs } from "./live";
 
 interface FallParts {
   live: Live;
   stairs: Stairs | undefined;
-  units: Unit;
 }
 
 /** The error that is left, which follows a slider at once; the stairs follow when it rests. */
-export function Fall({ live, stairs, units }: FallParts) {
+export function Fall({ live, stairs }: FallParts) {
+  const units = useUnits();
   const fit = live.now?.fit;
   const before = live.frame?.fit_rms;
   return (
     <section class="fall-now" aria-busy={!fit} aria-label="The error that is left">
-      <p class="large soft">
-        <output>{fit ? namedLength(fit.fit_rms, units, 2) : "…"}</output> left
+      <p class="soft">
+        <output class="large">{fit ? namedLength(fit.fit_rms, units, 2) : "…"}</output> left
       </p>
       {fit && (
         <p class="soft">
@@ -28,34 +30,18 @@ export function Fall({ live, stairs, units }: FallParts) {
   );
 }
 
-const MEANINGS = {
-  fit: "What is left of the marks that were fitted.",
-  noise: "What noise alone would leave of this fit.",
-  checked: "How well each mark is predicted by a fit that did not see it: the line in the bar.",
-};
-
 function Staircase({ stairs, units }: { stairs: Stairs; units: Unit }) {
   const highest = Math.max(...stairs.stairs.map((stair) => stair.fit_rms), 1e-9);
   const number = (mm: number | null) => (mm === null ? "–" : shownLength(mm, units, 2));
   return (
     <table class="stairs">
       <caption>How the error falls [{units}]</caption>
-      <thead>
-        <tr>
-          <th scope="col">With</th>
-          <td class="bars" />
-          {Object.entries(MEANINGS).map(([name, meaning]) => (
-            <th key={name} scope="col" title={meaning}>
-              {name}
-            </th>
-          ))}
-        </tr>
-      </thead>
+      <Head names={["with", "", "fit", "noise", "checked"]} />
       <tbody>
         {stairs.stairs.map((stair, i) => (
           <tr key={`${i} ${stair.noun}`} class={stair.only_fit ? "only-fit" : ""}>
             <th scope="row">
-              {stair.noun}
+              {stair.noun}{" "}
               {stair.only_fit && <strong class="wrong">Only the fit got better.</strong>}
             </th>
             <td class="bars">

@@ -1,7 +1,7 @@
 // The bench's questions to the server: the fit of a choice, the stairs to it, and what an effect would draw.
 import { useEffect, useRef, useState } from "preact/hooks";
 import { type Schemas, send } from "../api/client";
-import { later } from "../api/rest";
+import { useAsked } from "../shell/asked";
 
 export type Bench = Schemas["BenchAnswer"];
 export type Effect = Schemas["BenchEffect"];
@@ -28,23 +28,13 @@ export interface Live {
 /** Fits a choice again whenever it changes: never two at once, and the newest last. */
 export function useLive(choice: Choice, kept: Choice, board: string): Live {
   const [now, setNow] = useState<Fitted>();
-  const [frame, setFrame] = useState<Fit>();
+  const alone = () => send<Fit>("POST", "bench/fit", { effects: [], held: {} });
+  const asked = useAsked(alone, board);
+  const frame = asked.looking ? undefined : asked.answer;
   const [refusal, setRefusal] = useState("");
   const wanted = useRef<Choice | undefined>(undefined);
   const busy = useRef(false);
   const key = JSON.stringify(choice);
-  useEffect(() => {
-    setFrame(undefined);
-    let stale = false;
-    const alone = { effects: [], held: {} };
-    send<Fit>("POST", "bench/fit", alone).then(
-      (answer) => stale || setFrame(answer),
-      (error) => stale || setRefusal(error.message),
-    );
-    return () => {
-      stale = true;
-    };
-  }, [board]);
   useEffect(() => {
     wanted.current = choice;
     if (busy.current) return;
@@ -89,22 +79,14 @@ function usePrevious(now: Fitted | undefined, kept: Choice): Fitted | undefined 
   return previous;
 }
 
-/** The stairs to a choice, once it rests. */
+/** The stairs to a choice, once it rests; the fit of the same choice says why there are none. */
 export function useStairs(kept: Choice, board: string): Stairs | undefined {
-  const [stairs, setStairs] = useState<Stairs>();
-  const key = JSON.stringify(kept);
-  useEffect(() => {
-    let stale = false;
-    const giveUp = later(() => {
-      send<Stairs>("POST", "bench/stairs", kept).then(
-        (answer) => stale || setStairs(answer),
-        () => undefined, // the fit of the same choice says why
-      );
-    }, REST_MS);
-    return () => {
-      stale = true;
-      giveUp();
-    };
-  }, [key, board]);
-  return stairs;
+  const climb = () => send<Stairs>("POST", "bench/stairs", kept);
+  return useAsked(climb, JSON.stringify([kept, board]), REST_MS).answer;
+}
+
+/** What each effect more would leave of the errors [mm], once the choice rests. */
+export function useGains(kept: Choice, board: string): Record<string, number> | undefined {
+  const gain = () => send<Record<string, number>>("POST", "bench/gains", kept);
+  return useAsked(gain, JSON.stringify([kept, board]), REST_MS).answer;
 }

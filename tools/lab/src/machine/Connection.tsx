@@ -1,12 +1,12 @@
 // Connects a machine: a board at a port, or a virtual machine to try; afterwards its settings can be read.
 import { useState } from "preact/hooks";
-import { get, type Project, send } from "../api/client";
+import { get, send } from "../api/client";
 import { LOOK_MS } from "../api/patience";
 import { later } from "../api/rest";
-import { useDo } from "../shell/doing";
+import { Do } from "../shell/doing";
 import { type Machine, subject, useMachine } from "../shell/machine";
 import { Ports } from "../shell/Ports";
-import { useProject } from "../shell/project";
+import { useProject, useTell } from "../shell/project";
 import "./connection.css";
 
 export function Connection() {
@@ -30,18 +30,18 @@ function Ways() {
 const MACHINES = 1_000_000; // that can be drawn
 
 function VirtualStart() {
-  const { project, take } = useProject();
+  const { project } = useProject();
+  const tell = useTell();
   const [hides, setHides] = useState<"random" | "nothing">("random");
   const [speed, setSpeed] = useState(100);
   const [number, setNumber] = useState("");
-  const [busy, run, refusal] = useDo();
   const start = async () => {
     const drawn = Math.floor(Math.random() * MACHINES);
     const seed = /^\d{1,6}$/.test(number) ? Number(number) : drawn;
     await send("POST", "machine/virtual", { hides, seed, speed });
     if (project.machine) return;
     await ready();
-    take(await send<Project>("POST", "machine/settings"));
+    await tell("machine/settings");
   };
   return (
     <section class="box">
@@ -80,10 +80,9 @@ function VirtualStart() {
           />
         </label>
       </details>
-      <button type="button" disabled={busy} onClick={() => void run(start)}>
-        {busy ? "It starts …" : "Start a virtual machine"}
-      </button>
-      {refusal}
+      <Do work={start} meanwhile="It starts …">
+        Start a virtual machine
+      </Do>
     </section>
   );
 }
@@ -98,9 +97,7 @@ async function ready(): Promise<void> {
 }
 
 function Connected({ machine }: { machine: Machine }) {
-  const { take } = useProject();
-  const [busy, run, refusal] = useDo();
-  const readSettings = async () => take(await send<Project>("POST", "machine/settings"));
+  const tell = useTell();
   const isLost = machine.phase === "lost";
   return (
     <section class="connected box">
@@ -108,22 +105,17 @@ function Connected({ machine }: { machine: Machine }) {
       {isLost ? (
         <p>What you cut and typed is kept. Connect it again in the bar below.</p>
       ) : (
-        <button
-          type="button"
-          disabled={busy || machine.phase !== "ready"}
-          onClick={() => void run(readSettings)}
+        <Do
+          disabled={machine.phase !== "ready"}
+          meanwhile="It is asked …"
+          work={() => tell("machine/settings")}
         >
-          {busy ? "It is asked …" : "Read its settings; nothing moves"}
-        </button>
+          Read its settings; nothing moves
+        </Do>
       )}{" "}
-      <button
-        type="button"
-        disabled={busy}
-        onClick={() => void run(() => send("POST", "machine/disconnect"))}
-      >
+      <Do work={() => send("POST", "machine/disconnect")}>
         {isLost ? "Let go of it" : "Disconnect"}
-      </button>
-      {refusal}
+      </Do>
       {machine.said.length > 0 && (
         <details>
           <summary>What the machine said</summary>

@@ -1,10 +1,10 @@
 // A machine's first day, step by step; each can be left and taken up again.
 import { useEffect } from "preact/hooks";
 import type { Schemas } from "../api/client";
+import { Trouble } from "../controls/Trouble";
 import { Refusal } from "../shell/doing";
 import { isReady, useMachine } from "../shell/machine";
 import { useProject } from "../shell/project";
-import { Silence } from "../shell/Silence";
 import { useWatched } from "../shell/watched";
 import { GuideQuestion } from "./GuideQuestion";
 import "./guide.css";
@@ -24,11 +24,7 @@ export interface Guide {
 
 export function useGuide(): Guide {
   const { reload } = useProject();
-  const { state, silent, press, busy, refused } = useWatched<Answer>({
-    path: "guide",
-    works: isUnderWay,
-    oftenMs: LOOK_MS,
-  });
+  const { state, silent, press, busy, refused } = useWatched<Answer>("guide", isUnderWay, LOOK_MS);
   const here = state?.here;
   useEffect(() => {
     if (here) return () => void reload(); // what the step wrote
@@ -69,7 +65,9 @@ export function FirstDay({ isNext, ...all }: Guide & { isNext: boolean }) {
     <section class="guide" aria-labelledby="guide-title">
       <h2 id="guide-title">Its first day, step by step</h2>
       <p>Nothing moves before you press a button that says what moves and how far.</p>
-      <Silence silent={silent} />
+      <Trouble>
+        {silent && "The lab does not answer, so this may be old. It is asked again and again."}
+      </Trouble>
       {refused && <Refusal line={refused} />}
       <ol class="plain">
         {guide.steps.map((step, index) => (
@@ -115,11 +113,7 @@ export function FirstDay({ isNext, ...all }: Guide & { isNext: boolean }) {
         ))}
       </ol>
       {!guide.here && guide.said.length > 0 && <Said text={guide.said.join("\n")} />}
-      {!guide.here && guide.trouble && (
-        <p class="trouble" role="alert">
-          {guide.trouble}
-        </p>
-      )}
+      <Trouble>{!guide.here && guide.trouble}</Trouble>
       {place < 0 && (
         <p>
           <strong>All steps are done.</strong> <a href="#/measure">Choose marks</a>

@@ -1,5 +1,4 @@
 // The machine from the front, to scale: motors, chains, sheet and sled; a distance may be marked on it.
-import type { ComponentChildren } from "preact";
 import type { Schemas } from "../api/client";
 import { useMachine } from "../shell/machine";
 import "./picture.css";
@@ -19,10 +18,9 @@ interface PictureParts {
   marked?: Distance | undefined;
   /** What stands at it. */
   words?: string;
-  children?: ComponentChildren;
 }
 
-export function MachinePicture({ machine, marked, words = "", children }: PictureParts) {
+export function MachinePicture({ machine, marked, words = "" }: PictureParts) {
   const [width, height] = machine.sheet;
   const gap = machine.frame.motor_gap ?? width;
   const up = machine.frame.motor_height ?? height;
@@ -51,7 +49,6 @@ export function MachinePicture({ machine, marked, words = "", children }: Pictur
       <circle class="ring" cx={sled[0]} cy={sled[1]} r={ring} />
       <circle class="bit" cx={sled[0]} cy={sled[1]} r={16} />
       {marked && <Marked {...{ marked, words, width, height, gap, up, ring, sled }} />}
-      {children}
     </svg>
   );
 }

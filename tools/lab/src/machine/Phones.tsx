@@ -5,10 +5,9 @@ import { useWatched } from "../shell/watched";
 import "./phones.css";
 
 type Answer = Schemas["PhonesAnswer"];
-const SELDOM = { path: "phones", works: () => false, oftenMs: 1000 };
 
 export function Phones() {
-  const { state: answer, press, busy, refused } = useWatched<Answer>(SELDOM);
+  const { state: answer, press, busy, refused } = useWatched<Answer>("phones");
   if (!answer) return null;
   return (
     <details class="phones" open={answer.phones.length > 0}>

@@ -2,7 +2,8 @@
 import { useState } from "preact/hooks";
 import { type Schemas, send } from "../api/client";
 import { namedLength } from "../controls/lengths";
-import { useDo } from "../shell/doing";
+import { useUnits } from "../controls/units";
+import { Do } from "../shell/doing";
 import { useProject } from "../shell/project";
 import { Screen } from "../shell/Screen";
 
@@ -11,7 +12,6 @@ const SECRET = "practice.json";
 export function Practice() {
   const { project } = useProject();
   const [revealed, setRevealed] = useState<Schemas["Revealed"]>();
-  const [busy, run, refusal] = useDo();
   const hides = SECRET in project.files;
   const reveal = async () => setRevealed(await send("POST", "practice/reveal"));
   return (
@@ -31,9 +31,9 @@ export function Practice() {
       }
     >
       {hides ? (
-        <button type="button" disabled={busy || !project.machine} onClick={() => void run(reveal)}>
+        <Do disabled={!project.machine} work={reveal}>
           Reveal what was hidden
-        </button>
+        </Do>
       ) : (
         <>
           <p class="soft">No virtual machine was started in this folder.</p>
@@ -42,14 +42,13 @@ export function Practice() {
           </a>
         </>
       )}
-      {refusal}
       {revealed && <Score {...revealed} />}
     </Screen>
   );
 }
 
 function Score({ hidden, sentence, before_mm, after_mm }: Schemas["Revealed"]) {
-  const units = useProject().project.choices.units ?? "mm";
+  const units = useUnits();
   return (
     <section aria-label="Score">
       <p>

@@ -2,10 +2,8 @@
 import { useState } from "preact/hooks";
 import type { Schemas } from "../api/client";
 import { lengthText, noLength, typedLength, type Unit } from "../controls/lengths";
-import { forgetHalf, type HalfPlace, halfOf, keepHalf } from "./halves";
+import { type HalfPlace, halfOf, keepHalf, type Texts } from "./halves";
 import type { Place } from "./useReadings";
-
-type Texts = readonly [string, string];
 
 interface CellParts {
   mark: Schemas["AskedMark"];
@@ -23,6 +21,7 @@ interface CellParts {
   /** Goes on to the mark after it. */
   next: () => void;
   change: (value: Place | undefined) => void;
+  /** Takes columns of a spreadsheet; whether the text was such. */
   paste: (text: string) => boolean;
 }
 
@@ -41,8 +40,7 @@ export function Cell(parts: CellParts) {
     const isHalf = !read && typed.some((each) => each.trim() !== "");
     // Half a reading is none: the number before it does not count any more.
     if (read || value) change(read);
-    if (isHalf) keepHalf(place, edges, typed);
-    else forgetHalf(place);
+    keepHalf(place, isHalf ? { edges, texts: typed } : undefined);
   };
   return (
     <fieldset class={doubted ? "cell box doubted" : "cell box"} id={`mark-${mark.index}`}>

@@ -35,7 +35,7 @@ export function Doubts({ form, doubts, readings, units }: DoubtsParts) {
                 Take {corrected.map((mm) => lengthText(mm, units)).join(", ")}
               </button>
             )}
-            <button type="button" onClick={() => lookAt(doubt)}>
+            <button type="button" onClick={() => lookAt(doubt, readings)}>
               Look at it
             </button>
           </li>
@@ -46,12 +46,9 @@ export function Doubts({ form, doubts, readings, units }: DoubtsParts) {
 }
 
 /** Brings the reading into view, ready to be changed. */
-function lookAt({ is_mark, index }: Doubt): void {
-  const place = is_mark ? `#mark-${index} input` : `#distance-${index} :is(button, input)`;
-  const shown = document.querySelector<HTMLElement>(place);
-  if (shown) shown.focus();
-  // On a phone its cell opens first.
-  else document.querySelector<HTMLElement>(`#pick-${index}`)?.click();
+function lookAt({ is_mark, index }: Doubt, { pick }: TypedForm): void {
+  if (is_mark) pick(index);
+  else document.querySelector<HTMLElement>(`#distance-${index} input`)?.focus();
 }
 
 function nameOf(doubt: Doubt, form: Form): string {

@@ -1,9 +1,7 @@
-// The cells in the order of the marks on the sheet; on a phone the open mark's cell, and a map of all to pick from.
-import { useLayoutEffect, useRef, useState } from "preact/hooks";
+// The cells of the marks, row by row as they lie on the sheet; on a phone that of the open mark, and the sheet opens others.
+import { useUnits } from "../controls/units";
 import { useProject } from "../shell/project";
 import { Cell } from "./Cell";
-import { isAgain, layoutOf } from "./layout";
-import { MarkPicker } from "./MarkPicker";
 import { pasted } from "./paste";
 import { useNarrow } from "./useNarrow";
 import type { Form, TypedForm } from "./useReadings";
@@ -17,84 +15,54 @@ interface GridParts {
 }
 
 export function Grid({ form, readings, doubted }: GridParts) {
-  const { project } = useProject();
-  const units = project.choices.units ?? "mm";
-  const { edges } = form;
+  const { key } = useProject().project;
+  const { kept, open, pick } = readings;
+  const { edges, file, marks } = form;
   const [upright, across] = edges.split("-") as [string, string];
-  const layout = layoutOf(form.marks);
-  const { kept } = readings;
-  const isFolded = useNarrow() && form.marks.length > FEW;
-  const { open, pick } = useOpenMark(form);
-  const spots = isFolded
-    ? layout.spots.filter((spot) => spot.marks.some((mark) => mark.index === open))
-    : layout.spots;
-  const order = layout.spots.flatMap((spot) => spot.marks.map((mark) => mark.index));
+  const units = useUnits();
+  const order = [...marks].sort(
+    ({ target: [x, y] }, { target: [x2, y2] }) => y2 - y || x - x2, // a repeat stays behind
+  );
+  const isFolded = useNarrow() && marks.length > FEW;
   const next = (index: number) => {
-    const after = order[order.indexOf(index) + 1];
-    if (after !== undefined) pick(after);
+    const after = order[order.findIndex((mark) => mark.index === index) + 1];
+    if (after) pick(after.index);
   };
   return (
     <div class="cells tiles">
       <p class="from soft">
         In each cell: {units} from the <b>{across}</b> edge, then from the <b>{upright}</b> edge.
+        {isFolded && " Touch a mark on the sheet to open it."}
       </p>
-      {spots.map((spot) => (
-        <div key={`${spot.row}/${spot.column}`}>
-          {spot.marks.map((mark) => (
-            <Cell
-              key={`${form.file}/${mark.index}/${edges}`}
-              mark={mark}
-              value={kept.value[mark.index]}
-              units={units}
-              from={[across, upright]}
-              edges={edges}
-              place={{ key: project.key, file: form.file, index: mark.index }}
-              doubted={doubted.has(mark.index)}
-              again={isAgain(form.marks, form.marks.indexOf(mark))}
-              next={() => next(mark.index)}
-              change={(value) =>
-                kept.put((typed) => {
-                  const { [mark.index]: _, ...others } = typed;
-                  return value ? { ...others, [mark.index]: value } : others;
-                })
-              }
-              paste={(text) => {
-                const more = pasted(text, form.marks, mark.index, units);
-                if (more) kept.put((typed) => ({ ...typed, ...more }));
-                return more !== undefined;
-              }}
-            />
-          ))}
-        </div>
-      ))}
-      {isFolded && (
-        <MarkPicker
-          form={form}
-          layout={layout}
-          typed={kept.value}
-          doubted={doubted}
-          open={open}
-          pick={pick}
-        />
-      )}
+      {order.map((mark, i) => {
+        const { index, name } = mark;
+        if (isFolded && index !== open) return null;
+        return (
+          <Cell
+            key={`${file}/${index}/${edges}`}
+            mark={mark}
+            value={kept.value[index]}
+            units={units}
+            from={[across, upright]}
+            edges={edges}
+            place={{ key, file, index }}
+            doubted={doubted.has(index)}
+            again={order.findIndex((other) => other.name === name) < i}
+            next={() => next(index)}
+            change={(value) =>
+              kept.put((typed) => {
+                const { [index]: _, ...others } = typed;
+                return value ? { ...others, [index]: value } : others;
+              })
+            }
+            paste={(text) => {
+              const more = pasted(text, marks, index, units);
+              if (more) kept.put((typed) => ({ ...typed, ...more }));
+              return more !== undefined;
+            }}
+          />
+        );
+      })}
     </div>
   );
-}
-
-/** The mark that is typed now: at first a mark that waits. Who picks another can type at once. */
-function useOpenMark(form: Form) {
-  const [picked, setPicked] = useState<{ file: string; index: number }>();
-  const begin = useRef({ file: "", index: 0 });
-  if (begin.current.file !== form.file) {
-    const waiting = form.marks.find((mark) => !mark.read) ?? form.marks[0];
-    begin.current = { file: form.file, index: waiting?.index ?? 0 };
-  }
-  // At once, so that the next key is for it.
-  useLayoutEffect(() => {
-    if (picked) document.querySelector<HTMLElement>(`#mark-${picked.index} input`)?.focus();
-  }, [picked]);
-  return {
-    open: picked?.file === form.file ? picked.index : begin.current.index,
-    pick: (index: number) => setPicked({ file: form.file, index }),
-  };
 }

@@ -1,18 +1,20 @@
 // The readings on the sheet: an arrow from where each mark was sent to where it is.
 import { useMemo } from "preact/hooks";
 import { lengthText } from "../controls/lengths";
+import { useUnits } from "../controls/units";
 import { Sheet } from "../sheet/Sheet";
 import { useScale } from "../sheet/scale";
-import { useProject } from "../shell/project";
 import type { Form } from "./useReadings";
 
 interface MapParts {
   form: Form;
   doubted: ReadonlySet<number>;
+  /** Opens the fields of a mark. */
+  pick: (index: number) => void;
 }
 
-export function ReadingsMap({ form, doubted }: MapParts) {
-  const units = useProject().project.choices.units ?? "mm";
+export function ReadingsMap({ form, doubted, pick }: MapParts) {
+  const units = useUnits();
   const read = form.marks.filter((mark) => mark.place);
   const [width, height] = form.sheet;
   const fromEdges = form.spans.length === 0 || read.length > 0;
@@ -39,8 +41,6 @@ export function ReadingsMap({ form, doubted }: MapParts) {
     <Sheet
       size={form.sheet}
       label={`${read.length} readings on the sheet`}
-      name="readings"
-      units={units}
       marks={marks}
       {...(read.length > 0 ? { states } : {})}
       {...(fromEdges
@@ -51,20 +51,12 @@ export function ReadingsMap({ form, doubted }: MapParts) {
             },
           }
         : {})}
-      press={lookAt}
+      press={(mark) => pick(form.marks[mark]?.index ?? mark)}
     >
       {fromEdges && <Edges size={form.sheet} zero={zero} />}
       <Taped form={form} />
     </Sheet>
   );
-
-  /** Opens the fields of a mark. */
-  function lookAt(mark: number): void {
-    const index = form.marks[mark]?.index;
-    const field = document.querySelector<HTMLElement>(`#mark-${index} input`);
-    if (field) field.focus();
-    else document.querySelector<HTMLElement>(`#pick-${index}`)?.click();
-  }
 }
 
 /** The edges that the tape measures from. */

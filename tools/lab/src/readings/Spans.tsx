@@ -1,8 +1,8 @@
-// The distances that a form asks for, in the order in which they are measured: a field for each.
+// Distances between marks: those that a form asks for, in the order in which they are measured, then all others.
 import { useEffect, useRef, useState } from "preact/hooks";
 import { lengthText, noLength, typedLength } from "../controls/lengths";
-import { useProject } from "../shell/project";
-import { lengthBetween, withLength } from "./distances";
+import { useUnits } from "../controls/units";
+import { beyond, lengthBetween, withInstead, withLength } from "./distances";
 import { useDistances } from "./useDistances";
 import type { Doubt } from "./useDoubts";
 import type { Form } from "./useReadings";
@@ -15,20 +15,31 @@ interface SpansParts {
 
 export function Spans({ form, take, doubts }: SpansParts) {
   const save = useDistances(form, take);
+  const { file, spans, distances } = form;
   const doubted = new Set(doubts.filter((doubt) => !doubt.is_mark).map((doubt) => doubt.index));
+  const others = beyond(distances, spans);
+  if (spans.length + others.length === 0) return null;
   return (
     <ol class="spans" aria-label="Distances to measure">
-      {form.spans.map((span) => {
-        const measured = lengthBetween(form.distances, span);
-        const index = measured ? form.distances.indexOf(measured) : -1;
+      {[
+        ...spans.map((span) => ({ span, measured: lengthBetween(distances, span), isAsked: true })),
+        ...others.map((measured) => ({ span: measured.between, measured, isAsked: false })),
+      ].map(({ span, measured, isAsked }, i) => {
+        const index = measured ? distances.indexOf(measured) : -1;
         return (
           <Span
-            key={`${form.file}/${span.join(" to ")}`}
+            key={`${file}/${i}`}
             name={span.join(" to ")}
             index={index}
             length={measured?.length}
             doubted={doubted.has(index)}
-            keep={(length) => void save((all) => withLength(all, span, length))}
+            keep={(length) =>
+              void save((all) =>
+                isAsked || !measured
+                  ? withLength(all, span, length)
+                  : withInstead(all, measured, ...(length ? [{ ...measured, length }] : [])),
+              )
+            }
           />
         );
       })}
@@ -46,7 +57,7 @@ interface SpanParts {
 }
 
 function Span({ name, index, length, doubted, keep }: SpanParts) {
-  const units = useProject().project.choices.units ?? "mm";
+  const units = useUnits();
   const saved = length === undefined ? "" : lengthText(length, units);
   const [text, setText] = useState(saved);
   const typed = typedLength(text, units);

@@ -1,6 +1,6 @@
 // Half a reading, or a text that is no length yet: kept in this browser until it is whole. It does not count.
 const PREFIX = "plumb-half:";
-type Texts = readonly [string, string];
+export type Texts = readonly [string, string];
 
 /** A mark of a form, in the folder with this key. */
 export interface HalfPlace {
@@ -15,54 +15,34 @@ interface Half {
 }
 
 /** What is typed of a mark from these edges. */
-export function halfOf(place: HalfPlace, edges: string): Texts | undefined {
-  const half = halfIn(nameOf(place));
+export function halfOf({ key, file, index }: HalfPlace, edges: string): Texts | undefined {
+  const half = stored(key)[`${file}:${index}`];
   return half?.edges === edges ? half.texts : undefined;
 }
 
-export function keepHalf(place: HalfPlace, edges: string, texts: Texts): void {
+/** Keeps half a reading; without one it is forgotten. */
+export function keepHalf({ key, file, index }: HalfPlace, half: Half | undefined): void {
+  const { [`${file}:${index}`]: _, ...others } = stored(key);
+  const all = half ? { ...others, [`${file}:${index}`]: half } : others;
   try {
-    localStorage.setItem(nameOf(place), JSON.stringify({ edges, texts } satisfies Half));
+    localStorage.setItem(PREFIX + key, JSON.stringify(all));
   } catch {
     // A browser without room keeps it as long as the tab is open.
   }
 }
 
-export function forgetHalf(place: HalfPlace): void {
-  try {
-    localStorage.removeItem(nameOf(place));
-  } catch {
-    // Nothing was kept there.
-  }
-}
-
 /** The marks of a folder of which half a reading waits here. */
-export function allHalves(key: string): HalfPlace[] {
-  const start = `${PREFIX}${key}:`;
-  return stored()
-    .filter((name) => name.startsWith(start))
-    .map((name) => {
-      const [file = "", index = ""] = name.slice(start.length).split(":");
-      return { key, file, index: Number(index) };
-    });
+export function allHalves(key: string): { file: string; index: number }[] {
+  return Object.keys(stored(key)).map((name) => {
+    const [file = "", index = ""] = name.split(":");
+    return { file, index: Number(index) };
+  });
 }
 
-function nameOf({ key, file, index }: HalfPlace): string {
-  return `${PREFIX}${key}:${file}:${index}`;
-}
-
-function halfIn(name: string): Half | undefined {
+function stored(key: string): Record<string, Half> {
   try {
-    return JSON.parse(localStorage.getItem(name) ?? "null") ?? undefined;
+    return JSON.parse(localStorage.getItem(PREFIX + key) ?? "{}");
   } catch {
-    return undefined; // a browser that forbids the storage
-  }
-}
-
-function stored(): string[] {
-  try {
-    return Object.keys(localStorage);
-  } catch {
-    return [];
+    return {}; // a browser that forbids the storage
   }
 }

@@ -6,13 +6,14 @@ import { useProject } from "../shell/project";
 import { same } from "../shell/rebase";
 import { Turns } from "../shell/turns";
 import { type Form, savesOf } from "./saves";
+import { type OpenMark, useOpenMark } from "./useOpenMark";
 
 export type { Form };
 export type Place = readonly [number, number];
 /** A reading [mm from the chosen edges] for each mark by its number in the form. */
 export type Typed = Record<string, Place>;
 
-export interface TypedForm {
+export interface TypedForm extends OpenMark {
   form: Form | undefined;
   kept: Kept<Typed>;
   /** Shows what a save left, unless another form is open by now. */
@@ -96,7 +97,7 @@ export function useReadings(first = ""): TypedForm {
     reload: load,
     asks: true,
   });
-  return { form, kept, take, chooseFile: setFile };
+  return { form, kept, take, chooseFile: setFile, ...useOpenMark(form) };
 }
 
 /** The readings that a form has. */

@@ -1,4 +1,5 @@
 // Each mark with its error, for who holds the report as paper and cannot point at a mark.
+import { Head } from "../controls/Head";
 import { shownLength, type Unit } from "../controls/lengths";
 import type { VerdictParts } from "../steps/verdict/words";
 
@@ -17,15 +18,7 @@ export function MarkTable({ verdict, units }: { verdict: VerdictParts; units: Un
         what {left?.title} leaves, on the sheet and as left and right chain.
       </p>
       <table class="readings-read">
-        <thead>
-          <tr>
-            {["mark", "target", "read", "off by", "left", "chains"].map((word) => (
-              <th key={word} scope="col">
-                {word}
-              </th>
-            ))}
-          </tr>
-        </thead>
+        <Head names={["mark", "target", "read", "off by", "left", "chains"]} />
         <tbody>
           {verdict.marks.map((mark, i) => (
             <tr key={i} class={verdict.doubted.includes(i) ? "doubted" : ""}>

@@ -1,7 +1,9 @@
 // A saved report: the verdict as the lab shows it, the numbers, and where all of it is from. It asks nobody.
 import type { Project, Schemas } from "../api/client";
-import { ProjectContext } from "../shell/project";
+import { Head } from "../controls/Head";
+import { Shares } from "../shell/Shares";
 import { ByHand, Why } from "../steps/Correct";
+import { NumberTable } from "../steps/correct/NumberTable";
 import { Course } from "../steps/diary/Course";
 import { Errors } from "../steps/diary/Errors";
 import { Verdict } from "../steps/Verdict";
@@ -28,7 +30,7 @@ export function Report({ answers }: { answers: Readonly<Record<string, unknown>>
   const units = project.choices.units ?? "mm";
   const shared = { project, take: stays, choose: stays, reload: stays, trouble: "" };
   return (
-    <ProjectContext.Provider value={{ ...shared, setTrouble: stays }}>
+    <Shares shared={{ ...shared, setTrouble: stays }}>
       <main class="report">
         <p class="about soft">
           <b>{about.title}</b> {about.said}
@@ -49,7 +51,7 @@ export function Report({ answers }: { answers: Readonly<Record<string, unknown>>
         {verdict && verdict.marks.length > 0 && <MarkTable verdict={verdict} units={units} />}
         <Sources about={about} />
       </main>
-    </ProjectContext.Provider>
+    </Shares>
   );
 }
 
@@ -57,32 +59,7 @@ function Numbers({ made }: { made: Schemas["CorrectionParts"] }) {
   return (
     <section>
       <h2>{made.nothing || "The numbers, before and after"}</h2>
-      {made.numbers.length > 0 && (
-        <table>
-          <thead>
-            <tr>
-              <th scope="col">number</th>
-              <th scope="col">before</th>
-              <th scope="col">after</th>
-              <th scope="col">real machines have</th>
-            </tr>
-          </thead>
-          <tbody>
-            {made.numbers.map((each) => (
-              <tr key={each.name}>
-                <th scope="row">{each.noun}</th>
-                <td>{each.before}</td>
-                <td>
-                  <b>{each.after}</b> ± {each.margin} {each.unit}
-                </td>
-                <td class={each.possible ? "" : "wrong"}>
-                  {each.range_said} {!each.possible && "(impossible: something else looks like it)"}
-                </td>
-              </tr>
-            ))}
-          </tbody>
-        </table>
-      )}
+      {made.numbers.length > 0 && <NumberTable numbers={made.numbers} />}
       {made.stops.length > 0 && <ByHand title="Do not write these numbers" said={made.stops} />}
       {made.cures.length > 0 && <ByHand title="By hand" said={made.cures} />}
       <Why made={made} />
@@ -95,13 +72,7 @@ function Sources({ about }: { about: About }) {
     <section>
       <h2>Where this comes from</h2>
       <table>
-        <thead>
-          <tr>
-            <th scope="col">file</th>
-            <th scope="col">name</th>
-            <th scope="col">fingerprint (SHA-256)</th>
-          </tr>
-        </thead>
+        <Head names={["file", "name", "fingerprint (SHA-256)"]} />
         <tbody>
           {about.files.map(({ what, name, digest }) => (
             <tr key={digest}>

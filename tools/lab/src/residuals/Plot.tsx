@@ -1,7 +1,6 @@
 // A picture of numbers against numbers, with axes: errors of the chains, of a coordinate, or against noise.
 
-import { pointIn } from "../sheet/useZoom";
-import { nearest, type Pair, ticks, tickText } from "../sheet/view";
+import { nearest, type Pair, pointIn, ticks, tickText } from "../sheet/view";
 
 const WIDTH = 190;
 const HEIGHT = 136;
@@ -44,7 +43,7 @@ export function Plot(parts: PlotParts) {
   }));
   const pick = (event: MouseEvent) => {
     const svg = event.currentTarget as SVGSVGElement;
-    const [px, py] = pointIn(svg, event);
+    const [px, py] = pointIn(event);
     const scale = WIDTH / svg.clientWidth;
     const all = placed.flatMap((each) => each.places);
     const which = nearest([px * scale, py * scale], all, REACH);

@@ -1,8 +1,8 @@
 // Where it fails: the marks of a board in each state, on the sheet and against all that errors may depend on.
 import { useMemo, useState } from "preact/hooks";
 import type { Schemas } from "../api/client";
+import { useUnits } from "../controls/units";
 import { Sheet } from "../sheet/Sheet";
-import { useProject } from "../shell/project";
 import { type Covariate, type Left, Plots } from "./Plots";
 import { endsOf, type Span, SpanLines, SpanTable } from "./Spans";
 import type { Drawn } from "./useDrawn";
@@ -20,7 +20,6 @@ interface ResidualsParts {
   covariates: readonly Covariate[] | undefined;
   /** What effects draw, over what the frame leaves. */
   drawn: Drawn | undefined;
-  sheet: readonly [number, number];
   /** Marks whose readings disagree: they scale nothing. */
   doubted: readonly number[];
   doubtedSpans: readonly number[];
@@ -31,9 +30,9 @@ interface ResidualsParts {
 const FRAME = 1; // the state of the fitted frame
 
 export function Residuals(parts: ResidualsParts) {
-  const { marks, spans, states, ghosts, sigma, covariates, drawn, sheet } = parts;
+  const { marks, spans, states, ghosts, sigma, covariates, drawn } = parts;
   const { doubted, doubtedSpans, opensOn = "last" } = parts;
-  const units = useProject().project.choices.units ?? "mm";
+  const units = useUnits();
   const [chosen, show] = useState<number>();
   const [selected, select] = useState<number>();
   const shown = Math.min(
@@ -78,10 +77,7 @@ export function Residuals(parts: ResidualsParts) {
   return (
     <>
       <Sheet
-        size={sheet}
         label={`Errors of ${countWords(marks.length, spans.length)}, ${state.title}`}
-        name="residuals"
-        units={units}
         marks={drawnMarks}
         states={states}
         shown={shown}

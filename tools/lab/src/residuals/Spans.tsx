@@ -1,5 +1,6 @@
 // Measured distances: a line for each, the thicker the farther it is off, and the same as a table.
 import type { Schemas } from "../api/client";
+import { Head } from "../controls/Head";
 import { shownLength, type Unit } from "../controls/lengths";
 import type { Mark } from "../sheet/marks";
 import { useScale } from "../sheet/scale";
@@ -80,13 +81,7 @@ export function SpanTable({ spans, state, doubted, sigma, units }: SpanParts) {
         {doubted.length > 0 && <span class="key doubted">to be read again</span>}
       </p>
       <table>
-        <thead>
-          <tr>
-            <th scope="col">between</th>
-            <th scope="col">measured</th>
-            <th scope="col">off by</th>
-          </tr>
-        </thead>
+        <Head names={["between", "measured", "off by"]} />
         <tbody>
           {rows.map(({ span, error, kind }) => (
             <tr key={`${span.between} ${span.measured}`} class={kind}>

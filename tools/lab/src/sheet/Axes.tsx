@@ -23,13 +23,12 @@ interface AxesParts {
 }
 
 export function Axes({ units, origin }: AxesParts) {
-  const { plot, at, back } = useScale();
+  const { plot, at, ends } = useScale();
   const unit = units === "inch" ? INCH : 1;
-  const [low, high] = [back([plot.left, plot.bottom]), back([plot.right, plot.top])];
   const along = (axis: 0 | 1, room: number) => {
     const shown = (mm: number) => ((mm - origin.zero[axis]) * origin.way[axis]) / unit;
     const count = Math.max(3, Math.floor(room / APART));
-    return ticks(shown(low[axis]), shown(high[axis]), count).map((tick) => ({
+    return ticks(shown(ends[0][axis]), shown(ends[1][axis]), count).map((tick) => ({
       tick,
       mm: origin.zero[axis] + tick * unit * origin.way[axis],
     }));

@@ -1,14 +1,12 @@
 // The marks of a state: their noise, what an effect draws, their arrows, and their names.
-import { useMemo } from "preact/hooks";
 import { arrowPath } from "./Axes";
 import type { Mark, State } from "./marks";
-import { written } from "./names";
 import { useScale } from "./scale";
 import type { Pair } from "./view";
 
 export const BEYOND_NOISE = 2.45; // sigmas: noise alone makes a longer error in 5 % of the marks
-const TYPE = 14; // [px] of the names
 const FEW = 30; // marks that all have their names, if there is room
+const ROOMY = 500; // [px] of a sheet that has room for them
 
 interface MarksParts {
   marks: readonly Mark[];
@@ -71,28 +69,32 @@ export function Spot({ look, at: [x, y] }: { look: NonNullable<Mark["look"]>; at
   return <circle class={`spot ${look}`} cx={x} cy={y} r={look === "faint" ? 3 : 6} />;
 }
 
+/** All have their names where there is room; else the chosen, the doubted and those in the corners. */
 function Names({ marks, selected }: { marks: readonly Mark[]; selected: number | undefined }) {
-  const scale = useScale();
-  const { plot, at } = scale;
-  const named = useMemo(() => {
-    const seen = new Set<string>();
-    const corners = cornersOf(marks);
-    const all = marks.map((mark, i) => {
-      const first = i === selected || !!mark.isDoubted || corners.has(i);
-      const isNamed = first || (marks.length <= FEW && mark.look !== "faint");
-      const name = isNamed && !seen.has(mark.name) ? mark.name : "";
-      seen.add(mark.name);
-      return { name, at: at(mark.target), first };
-    });
-    return written(all, TYPE, 6, plot);
-  }, [marks, selected, scale]);
+  const { plot, at } = useScale();
+  const isRoomy = plot.right - plot.left > ROOMY && marks.length <= FEW;
+  const corners = cornersOf(marks);
+  const seen = new Set<string>();
   return (
     <g class="names">
-      {named.map(({ index, x, y }) => (
-        <text key={index} x={x} y={y}>
-          {marks[index]?.name}
-        </text>
-      ))}
+      {marks.map(({ name, target, look, isDoubted }, i) => {
+        const isFirst = i === selected || isDoubted || corners.has(i);
+        if (!isFirst && !(isRoomy && look !== "faint")) return null;
+        if (seen.has(name)) return null;
+        seen.add(name);
+        const [x, y] = at(target);
+        const isRight = x > (plot.left + plot.right) / 2;
+        return (
+          <text
+            key={i}
+            x={isRight ? x - 7 : x + 7}
+            y={y - 7}
+            text-anchor={isRight ? "end" : "start"}
+          >
+            {name}
+          </text>
+        );
+      })}
     </g>
   );
 }

@@ -1,4 +1,4 @@
-// Marks and their errors, as every drawing of the sheet has them; and the same as a table.
+// Marks and their errors, as every drawing of the sheet has them.
 import type { Pair } from "./view";
 
 export type Ends = readonly [number | null, number | null]; // left and right chain [mm]
@@ -25,41 +25,4 @@ export interface State {
   noise_rms?: number | null;
   /** How far off each mark may be [mm], where that is promised; else it is as far as noise alone makes it. */
   promised?: readonly number[];
-}
-
-const COLUMNS =
-  "state,name,target_x_mm,target_y_mm,measured_x_mm,measured_y_mm,error_x_mm,error_y_mm,chain_left_mm,chain_right_mm,sigma_mm";
-
-/** All states as a table with commas. */
-export function table(
-  marks: readonly Mark[],
-  states: readonly State[],
-  sigma: number | undefined,
-): string {
-  const rows = (states.length > 0 ? states : [undefined]).flatMap((state) =>
-    marks.map((mark, i) => [
-      cell(state?.title ?? "planned"),
-      cell(mark.name),
-      ...both(mark.target),
-      ...both(mark.measured),
-      ...both(state?.errors[i]),
-      ...both(state?.chains?.[i]),
-      number(sigma),
-    ]),
-  );
-  return `${[COLUMNS, ...rows.map((row) => row.join(","))].join("\n")}\n`;
-}
-
-function both(pair: readonly (number | null)[] | null | undefined): string[] {
-  return [number(pair?.[0]), number(pair?.[1])];
-}
-
-function number(value: number | null | undefined): string {
-  return value == null ? "" : String(Number(value.toFixed(4)));
-}
-
-/** A text in a cell: quoted where it could end the cell, and never a formula of a spreadsheet. */
-function cell(text: string): string {
-  const plain = /^[=+@-]/.test(text) && !/^-?\d/.test(text) ? `'${text}` : text;
-  return /[",\n]/.test(plain) ? `"${plain.replaceAll('"', '""')}"` : plain;
 }

@@ -1,45 +1,7 @@
 // Runs with `node --test`.
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import {
-  extent,
-  factorFor,
-  markAt,
-  nearest,
-  panned,
-  rounded,
-  showing,
-  ticks,
-  WHOLE,
-  zoomed,
-} from "./view.ts";
-
-const SIZE = [2440, 1220];
-
-test("what is enlarged stays where it is seen, and inside of the sheet", () => {
-  const place = [300, -200];
-  const seen = (view) => {
-    const [width, height] = extent(SIZE, view.times);
-    return [(place[0] - view.x) / width, (place[1] - view.y) / height];
-  };
-  const nearer = zoomed(SIZE, WHOLE, 2, place);
-  assert.equal(nearer.times, 2);
-  seen(nearer).forEach((share, axis) => {
-    assert.ok(Math.abs(share - seen(WHOLE)[axis]) < 1e-9);
-  });
-  assert.deepEqual(zoomed(SIZE, nearer, 1 / 9, place), WHOLE);
-  assert.equal(zoomed(SIZE, nearer, 999, place).times, 40);
-  const most = panned(SIZE, nearer, [9e5, -9e5]);
-  assert.ok(most.x + extent(SIZE, 2)[0] / 2 <= extent(SIZE, 1)[0] / 2 + 1e-9);
-  assert.ok(most.y - extent(SIZE, 2)[1] / 2 >= -extent(SIZE, 1)[1] / 2 - 1e-9);
-  assert.deepEqual(panned(SIZE, WHOLE, [50, 50]), WHOLE);
-});
-
-test("a mark that is chosen comes into view, and the view stays if it was seen", () => {
-  const view = { x: 0, y: 0, times: 4 };
-  assert.equal(showing(SIZE, view, [100, 50]), view);
-  assert.equal(showing(SIZE, view, [800, 0]).x, 800);
-});
+import { factorFor, markAt, nearest, rounded, ticks } from "./view.ts";
 
 test("arrows are the longest that a sixth of the sheet allows, by a round factor", () => {
   assert.equal(factorFor([[3, 4], null], 2440, 0), 50);

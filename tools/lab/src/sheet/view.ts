@@ -1,55 +1,9 @@
-// What part of the sheet is in view, and how its marks are drawn: arithmetic without a browser.
+// How marks are drawn and found: arithmetic of the sheet.
 export type Pair = readonly [number, number];
 
-/** The part of the sheet in view: its middle [mm], and how many times it is enlarged. */
-export interface View {
-  x: number;
-  y: number;
-  times: number;
-}
-
-export const WHOLE: View = { x: 0, y: 0, times: 1 };
-const ROOM = 0.05; // of the width on each side, for arrows that leave the sheet
-const MOST_TIMES = 40;
 const FACTORS = [1, 2, 5, 10, 20, 50, 100, 200, 500];
 const LONGEST = 0.16; // of the sheet's width, for the longest arrow
 const WIDEST = 0.06; // of the sheet's width, for the radius of a circle of noise
-
-/** Width and height [mm] that a view shows. */
-export function extent([width, height]: Pair, times: number): Pair {
-  const room = 2 * ROOM * width;
-  return [(width + room) / times, (height + room) / times];
-}
-
-/** A view that is enlarged so much, and within the sheet. */
-function inside(size: Pair, { x, y, times }: View): View {
-  const enlarged = Math.min(MOST_TIMES, Math.max(1, times));
-  const [whole, part] = [extent(size, 1), extent(size, enlarged)];
-  const within = (at: number, axis: 0 | 1) => {
-    const most = (whole[axis] - part[axis]) / 2;
-    return Math.min(most, Math.max(-most, at));
-  };
-  return { x: within(x, 0), y: within(y, 1), times: enlarged };
-}
-
-/** Enlarged by a ratio, so that a place [mm] stays where it is seen. */
-export function zoomed(size: Pair, view: View, ratio: number, [x, y]: Pair): View {
-  const times = Math.min(MOST_TIMES, Math.max(1, view.times * ratio));
-  const share = view.times / times;
-  return inside(size, { x: x + (view.x - x) * share, y: y + (view.y - y) * share, times });
-}
-
-/** Moved by so much [mm]. */
-export function panned(size: Pair, view: View, [dx, dy]: Pair): View {
-  return inside(size, { ...view, x: view.x + dx, y: view.y + dy });
-}
-
-/** A view in which a place is seen: the same if it was seen before. */
-export function showing(size: Pair, view: View, [x, y]: Pair): View {
-  const [width, height] = extent(size, view.times);
-  const isSeen = Math.abs(x - view.x) < 0.45 * width && Math.abs(y - view.y) < 0.45 * height;
-  return isSeen ? view : inside(size, { ...view, x, y });
-}
 
 /** How many times longer than life arrows are drawn: a round number at which the longest is easy to see. */
 export function factorFor(
@@ -129,4 +83,10 @@ export function nearest(
     if (gap < least) [best, least] = [i, gap];
   });
   return best;
+}
+
+/** Where somebody points in the drawing that hears of it [px]. */
+export function pointIn(event: MouseEvent): Pair {
+  const box = (event.currentTarget as SVGElement).getBoundingClientRect();
+  return [event.clientX - box.left, event.clientY - box.top];
 }

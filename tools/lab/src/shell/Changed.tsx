@@ -1,10 +1,11 @@
 // Says that a file changed on disk while somebody typed, and asks what holds.
+import { Trouble } from "../controls/Trouble";
 import type { Kept } from "./kept";
 
 export function Changed<Value>({ kept }: { kept: Kept<Value> }) {
   if (!kept.changed) return null;
   return (
-    <p class="trouble" role="alert">
+    <Trouble>
       The file has changed on disk, and what you typed is not saved.{" "}
       <button type="button" onClick={() => kept.settle(true)}>
         Keep mine
@@ -12,6 +13,6 @@ export function Changed<Value>({ kept }: { kept: Kept<Value> }) {
       <button type="button" onClick={() => kept.settle(false)}>
         Take the file's
       </button>
-    </p>
+    </Trouble>
   );
 }

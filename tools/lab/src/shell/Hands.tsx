@@ -2,10 +2,8 @@
 import type { Schemas } from "../api/client";
 import { useWatched } from "./watched";
 
-const MINE = { path: "phones/me", works: () => false, oftenMs: 1000 };
-
 export function Hands() {
-  const { state: me } = useWatched<Schemas["PhoneAnswer"]>(MINE);
+  const { state: me } = useWatched<Schemas["PhoneAnswer"]>("phones/me");
   if (!me || me.may_move) return null;
   return (
     <p class="hands soft" role="status">

@@ -1,11 +1,12 @@
 // What the connected machine and the open file say otherwise, and the question which of the two holds: nothing is cut
 // before it is answered.
 
-import { type Project, send } from "../api/client";
+import { send } from "../api/client";
+import { Head } from "../controls/Head";
 import { setting } from "../controls/settings";
-import { useDo } from "./doing";
+import { Do } from "./doing";
 import { isReady, type Machine, subject, useMachine } from "./machine";
-import { useProject } from "./project";
+import { useProject, useTell } from "./project";
 import { type HeldAnswer, useHeld } from "./useHeld";
 
 const SHOWN = 6;
@@ -25,28 +26,21 @@ export function Held() {
 }
 
 function Question({ held, machine }: { held: HeldAnswer; machine: Machine }) {
-  const { take, reload } = useProject();
-  const [busy, run, refusal] = useDo();
+  const { reload } = useProject();
+  const tell = useTell();
   const { file, numbers } = held;
-  const takeIn = async () => take(await send<Project>("POST", "machine/settings"));
   const write = async () => {
     await send("POST", "machine/numbers", { file, replaces: machine.numbers_digest });
     await reload();
   };
-  const blocked = busy || !isReady(machine);
+  const blocked = !isReady(machine);
   return (
     <section class="box trouble" role="alert" aria-label="Which numbers hold?">
       <h2>
         {subject(machine)} holds other numbers than {file}. Which hold?
       </h2>
       <table>
-        <thead>
-          <tr>
-            <th scope="col">number</th>
-            <th scope="col">{file}</th>
-            <th scope="col">the machine</th>
-          </tr>
-        </thead>
+        <Head names={["number", file, "the machine"]} />
         <tbody>
           {numbers.slice(0, SHOWN).map((each) => (
             <tr key={each.number}>
@@ -59,15 +53,14 @@ function Question({ held, machine }: { held: HeldAnswer; machine: Machine }) {
       </table>
       {numbers.length > SHOWN && <p>and {numbers.length - SHOWN} more.</p>}
       <p class="row">
-        <button type="button" disabled={blocked} onClick={() => void run(takeIn)}>
+        <Do disabled={blocked} work={() => tell("machine/settings")}>
           The machine's: take them into the folder
-        </button>
+        </Do>
         {held.is_written_here && (
-          <button type="button" disabled={blocked} onClick={() => void run(write)}>
+          <Do disabled={blocked} work={write}>
             Those of {file}: send them to the machine; nothing moves
-          </button>
+          </Do>
         )}
-        {refusal}
       </p>
       {!held.is_written_here && (
         <p>

@@ -1,14 +1,16 @@
 // The lab: the way at the side, the screen in the middle, trouble on top.
 import { useEffect, useRef, useState } from "preact/hooks";
 import { isPhone } from "../api/here";
+import { Trouble } from "../controls/Trouble";
 import { Hands } from "./Hands";
 import { Header } from "./Header";
 import { Held } from "./Held";
 import { MachineBar } from "./MachineBar";
 import { MachineContext, useLiveMachine } from "./machine";
 import { Pair } from "./Pair";
-import { type Loaded, ProjectContext, type Shared, useSharedProject } from "./project";
+import { type Loaded, type Shared, useSharedProject } from "./project";
 import { Screen } from "./Screen";
+import { Shares } from "./Shares";
 import { ROOMS, STEPS, type Step } from "./steps";
 import { Way, WayOn } from "./Way";
 
@@ -53,14 +55,14 @@ export function Lab() {
   const first = STEPS.find((each) => each.id === (isPhone ? "readings" : "open")) as Step;
   const step = id === "" ? first : ([...STEPS, ...ROOMS].find((each) => each.id === id) ?? NOWHERE);
   return (
-    <ProjectContext.Provider value={shared}>
+    <Shares shared={shared}>
       <MachineContext.Provider value={live.machine}>
         <Header />
         <MachineBar live={live} />
         <Way project={shared.project} here={step.id} />
         <Main step={step} shared={shared} loaded={loaded} />
       </MachineContext.Provider>
-    </ProjectContext.Provider>
+    </Shares>
   );
 }
 
@@ -84,11 +86,7 @@ function Main({ step, shared, loaded }: { step: Step; shared: Shared; loaded: Lo
   return (
     <main ref={place} id="screen" tabIndex={-1}>
       <div class="above">
-        {trouble && (
-          <p class="trouble" role="alert">
-            {trouble}
-          </p>
-        )}
+        <Trouble>{trouble}</Trouble>
         {isPhone && <Hands />}
         <Held />
       </div>

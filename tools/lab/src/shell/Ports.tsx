@@ -1,32 +1,16 @@
 // The serial ports of this computer, looked at again and again, so that a board that is plugged in appears; and the
 // buttons that connect a machine at them.
-import { useEffect, useState } from "preact/hooks";
-import { get, isSilence, type Schemas, send } from "../api/client";
-import { LOOK_MS } from "../api/patience";
+import { useState } from "preact/hooks";
+import { type Schemas, send } from "../api/client";
 import { useDo } from "./doing";
-import { Lookout } from "./lookout";
+import { useWatched } from "./watched";
 
 type Port = Schemas["Port"];
-const EVERY_MS = 3000;
-
-function usePorts(): Port[] {
-  const [ports, setPorts] = useState<Port[]>([]);
-  useEffect(() => {
-    const lookout = new Lookout(() => get<Port[]>("machine/ports", LOOK_MS), isSilence, {
-      state: setPorts,
-      silence: (is) => is && setPorts([]),
-      refusal: () => setPorts([]),
-    });
-    void lookout.look();
-    const timer = setInterval(() => void lookout.look(), EVERY_MS);
-    return () => clearInterval(timer);
-  }, []);
-  return ports;
-}
 
 /** What is on USB, and folded away any other port. A machine whose line was lost may come back at any of them. */
 export function Ports({ lost }: { lost?: string }) {
-  const ports = usePorts().filter(({ path }) => path !== lost);
+  const { state, silent } = useWatched<Port[]>("machine/ports");
+  const ports = silent ? [] : (state ?? []).filter(({ path }) => path !== lost);
   const [typed, setTyped] = useState("");
   const [busy, run, refusal] = useDo();
   const connect = (port: string) => run(() => send("POST", "machine/board", { port }));

@@ -1,7 +1,8 @@
 // The steps as links; those that cannot open yet say what they wait for. On a narrow page they fold.
 import { useEffect, useState } from "preact/hooks";
-import type { Project } from "../api/client";
-import { ROOMS, STEPS, type Step } from "./steps";
+import { get, type Project } from "../api/client";
+import { useAsked } from "./asked";
+import { type Form, ROOMS, STEPS, type Step } from "./steps";
 import "./way.css";
 
 interface WayParts {
@@ -12,6 +13,7 @@ interface WayParts {
 interface PlaceParts extends WayParts {
   step: Step;
   number?: number;
+  form: Form | undefined;
   chosen: () => void;
 }
 
@@ -22,7 +24,12 @@ export function Way({ project, here }: WayParts) {
   useEffect(fold, [here]);
   const number = STEPS.findIndex((step) => step.id === here) + 1;
   const title = [...STEPS, ...ROOMS].find((step) => step.id === here)?.title;
-  const shared = { project, here, chosen: fold };
+  // The newest form, for how much of it is read.
+  const { answer: form } = useAsked(
+    project.machine ? () => get<Form>("readings?file=") : undefined,
+    JSON.stringify(project.files),
+  );
+  const shared = { project, here, form, chosen: fold };
   return (
     <nav aria-label="Steps" class={open ? "open" : ""}>
       <button type="button" class="fold" aria-expanded={open} onClick={() => setOpen(!open)}>
@@ -45,8 +52,9 @@ export function Way({ project, here }: WayParts) {
   );
 }
 
-function Place({ step, project, here, number, chosen }: PlaceParts) {
+function Place({ step, project, here, number, form, chosen }: PlaceParts) {
   const missing = step.needs(project);
+  const result = step.result?.(project, form);
   const words = (
     <>
       {number && <b>{number}</b>} {step.title}
@@ -64,7 +72,7 @@ function Place({ step, project, here, number, chosen }: PlaceParts) {
           aria-current={step.id === here ? "step" : undefined}
           onClick={chosen}
         >
-          {words}
+          {words} {result && <span class="result">{result}</span>}
         </a>
       )}
     </li>

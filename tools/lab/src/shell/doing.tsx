@@ -1,5 +1,5 @@
 // One thing at a time, asked for by a control; what is refused stands at that control.
-import type { ComponentChild } from "preact";
+import type { ComponentChild, ComponentChildren } from "preact";
 import { useEffect, useState } from "preact/hooks";
 
 /** Whether something is being done, what does it, and why the last was refused: to be shown at the control. */
@@ -40,5 +40,36 @@ export function Refusal({ line }: { line: string }) {
     <span class="refusal" role="alert">
       {line}
     </span>
+  );
+}
+
+interface DoParts {
+  work: () => Promise<unknown>;
+  children: ComponentChildren;
+  /** Whether the screen wants it next. */
+  isNext?: boolean | undefined;
+  disabled?: boolean;
+  /** What is heard, where the words alone say too little. */
+  label?: string;
+  /** What the button says while it works. */
+  meanwhile?: string;
+}
+
+/** A button that does something: never twice at once, and why it was refused stands beside it. */
+export function Do({ work, children, isNext, disabled, label, meanwhile }: DoParts) {
+  const [busy, run, refusal] = useDo();
+  return (
+    <>
+      <button
+        type="button"
+        class={isNext ? "primary" : ""}
+        disabled={busy || disabled}
+        aria-label={label}
+        onClick={() => void run(work)}
+      >
+        {(busy && meanwhile) || children}
+      </button>
+      {refusal}
+    </>
   );
 }

@@ -1,42 +1,20 @@
-// A question that is asked again whenever what it depends on has changed: only the answer to the newest counts.
-import { useEffect, useRef, useState } from "preact/hooks";
-import { get, isSilence } from "../api/client";
+// What a path answers for the folder as it is now; why it does not is said on top of the page.
+import { useEffect, useRef } from "preact/hooks";
+import { get } from "../api/client";
+import { useAsked } from "./asked";
 import { useProject } from "./project";
 
-const AGAIN_MS = 3000; // after a question that nobody answered
-
-/**
- * The answer of a path for this state. The last answer stays in view until the next is there, and an answer to a
- * state that has passed is dropped, however late it comes. Without a path nothing is asked.
- */
+/** The answer of a path for this state. Without a path nothing is asked. */
 export function useNewest<Answer>(path: string, state: string): Answer | undefined {
   const { setTrouble } = useProject();
-  const [answer, setAnswer] = useState<Answer>();
-  const refused = useRef(""); // what is said of this question
-  // What the server has by now needs a new answer.
+  const key = JSON.stringify([path, state]);
+  const { answer, refused, looking } = useAsked(path ? () => get<Answer>(path) : undefined, key);
+  const said = useRef(""); // of this question
   useEffect(() => {
-    if (!path) return;
-    let over = false;
-    let timer = 0;
-    const ask = () =>
-      get<Answer>(path).then(
-        (now) => {
-          if (over) return;
-          setAnswer(now);
-          setTrouble((line) => (line === refused.current ? "" : line));
-        },
-        (error: Error) => {
-          if (over) return;
-          refused.current = error.message;
-          setTrouble(error.message);
-          if (isSilence(error)) timer = window.setTimeout(ask, AGAIN_MS);
-        },
-      );
-    void ask();
-    return () => {
-      over = true;
-      clearTimeout(timer);
-    };
-  }, [path, state, setTrouble]);
+    if (looking) return;
+    const before = said.current;
+    said.current = refused;
+    setTrouble((line) => refused || (line === before ? "" : line));
+  }, [refused, looking, setTrouble]);
   return answer;
 }

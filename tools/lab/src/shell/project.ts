@@ -31,6 +31,16 @@ export function useProject(): Shared {
   return shared;
 }
 
+/** Sends something that answers with the project as it then is. */
+export function useTell(): (
+  path: string,
+  body?: unknown,
+  method?: "POST" | "DELETE",
+) => Promise<void> {
+  const { take } = useProject();
+  return async (path, body, method = "POST") => take(await send<Project>(method, path, body));
+}
+
 const LOOK_AGAIN_MS = 3000; // so work of another tab or of the command line shows up
 const UNPAIRED = 401;
 export const SILENT = "The lab does not answer";

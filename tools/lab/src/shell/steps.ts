@@ -1,6 +1,6 @@
 // The way through a calibration: its steps in order, and what each needs before it opens.
 import type { ComponentType } from "preact";
-import type { Project } from "../api/client";
+import type { Project, Schemas } from "../api/client";
 import { Bench } from "../bench/Bench";
 import { Practice } from "../practice/Practice";
 import { Check } from "../steps/Check";
@@ -14,11 +14,15 @@ import { Reach } from "../steps/Reach";
 import { Readings } from "../steps/Readings";
 import { Verdict } from "../steps/Verdict";
 
+export type Form = Schemas["ReadingsAnswer"];
+
 /** A screen of the lab. */
 export interface Step {
   id: string; // in the address, behind #
   title: string;
   Screen: ComponentType;
+  /** What came of it, in a word; empty if nothing. */
+  result?: (project: Project, form: Form | undefined) => string;
   /** What is missing before this screen opens, in a few words; empty if nothing. */
   needs: (project: Project) => string;
 }
@@ -28,15 +32,22 @@ const settings = (project: Project) => (project.machine ? "" : "open a machine f
 const marks = (project: Project) =>
   settings(project) || (project.choices.marks?.length ? "" : "type readings first");
 
+const opened = (project: Project) => (project.machine ? "✓" : "");
+const known = ({ choices }: Project) => counted(Object.keys(choices.known ?? {}).length);
+const accepted = ({ choices }: Project) => counted(choices.accepted?.length ?? 0);
+const read = (_: Project, form: Form | undefined) =>
+  form?.marks.length ? `${form.marks.filter((mark) => mark.read).length}/${form.marks.length}` : "";
+const counted = (count: number) => (count > 0 ? String(count) : "");
+
 export const STEPS: Step[] = [
-  { id: "open", title: "Machine", Screen: Open, needs: nothing },
-  { id: "known", title: "What you know", Screen: Known, needs: settings },
+  { id: "open", title: "Machine", Screen: Open, needs: nothing, result: opened },
+  { id: "known", title: "What you know", Screen: Known, needs: settings, result: known },
   { id: "reach", title: "Reach", Screen: Reach, needs: settings },
   { id: "measure", title: "Choose marks", Screen: Measure, needs: settings },
   { id: "cut", title: "Cut", Screen: Cut, needs: settings },
-  { id: "readings", title: "Readings", Screen: Readings, needs: settings },
+  { id: "readings", title: "Readings", Screen: Readings, needs: settings, result: read },
   { id: "verdict", title: "Verdict", Screen: Verdict, needs: marks },
-  { id: "correct", title: "Correct", Screen: Correct, needs: marks },
+  { id: "correct", title: "Correct", Screen: Correct, needs: marks, result: accepted },
   { id: "check", title: "Check", Screen: Check, needs: marks },
   { id: "diary", title: "Diary", Screen: Diary, needs: nothing },
 ];

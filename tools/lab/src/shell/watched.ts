@@ -1,8 +1,7 @@
 // A piece of the server's state that others change too: looked at again and again, and changed by presses.
-import { useEffect, useMemo, useState } from "preact/hooks";
+import { useCallback, useEffect, useRef, useState } from "preact/hooks";
 import { get, isSilence, send } from "../api/client";
 import { LOOK_MS } from "../api/patience";
-import { Lookout } from "./lookout";
 
 const SELDOM_MS = 3000; // so what another tab or the command line does shows up
 
@@ -12,49 +11,61 @@ export interface Watched<State> {
   /** Nobody answered the last look, so the state may be old. */
   silent: boolean;
   /** Sends something that answers with the new state. */
-  press: (path: string, body?: unknown) => Promise<void>;
+  press: (name: string, body?: unknown) => Promise<void>;
   /** Whether a press waits for its answer. */
   busy: boolean;
   /** Why the last was refused; empty if it was not. */
   refused: string;
 }
 
-interface Watching<State> {
-  path: string;
-  /** Whether the server is at work, so that there is more to see. */
-  works: (state: State) => boolean;
-  oftenMs: number;
-}
-
-export function useWatched<State>({ path, works, oftenMs }: Watching<State>): Watched<State> {
+/** Never two looks at once, and none while a press is under way; the more often while `works`, if it is said. */
+export function useWatched<State>(
+  path: string,
+  works: (state: State) => boolean = () => false,
+  oftenMs = SELDOM_MS,
+): Watched<State> {
   const [state, setState] = useState<State>();
   const [silent, setSilent] = useState(false);
   const [refused, setRefused] = useState("");
   const [waiting, setWaiting] = useState(0);
-  const lookout = useMemo(
-    () =>
-      new Lookout<State>(() => get<State>(path, LOOK_MS), isSilence, {
-        state: setState,
-        silence: setSilent,
-        refusal: (error) => setRefused(error instanceof Error ? error.message : String(error)),
-      }),
-    [path],
-  );
+  const now = useRef({ looks: false, presses: 0, pressed: 0 }).current;
+  const refuse = (error: unknown) =>
+    setRefused(error instanceof Error ? error.message : String(error));
+  const look = useCallback(async () => {
+    if (now.looks || now.presses > 0) return;
+    now.looks = true;
+    const { pressed } = now;
+    try {
+      const seen = await get<State>(path, LOOK_MS);
+      // An answer that a press has overtaken is old.
+      if (pressed === now.pressed) setState(() => seen);
+      setSilent(false);
+    } catch (error) {
+      if (isSilence(error)) setSilent(true);
+      else refuse(error);
+    }
+    now.looks = false;
+  }, [path, now]);
   const often = state !== undefined && works(state);
   useEffect(() => {
-    void lookout.look();
-    const look = () => document.hidden || void lookout.look();
-    const timer = setInterval(look, often ? oftenMs : SELDOM_MS);
+    void look();
+    const timer = setInterval(() => document.hidden || void look(), often ? oftenMs : SELDOM_MS);
     return () => clearInterval(timer);
-  }, [lookout, often, oftenMs]);
+  }, [look, often, oftenMs]);
   const press = async (name: string, body?: unknown) => {
-    setWaiting((count) => count + 1);
-    await lookout.press(async () => {
+    now.presses += 1;
+    now.pressed += 1;
+    setWaiting(now.presses);
+    try {
       const answer = await send<State>("POST", `${path}/${name}`, body);
+      setState(() => answer);
+      setSilent(false);
       setRefused("");
-      return answer;
-    });
-    setWaiting((count) => count - 1);
+    } catch (error) {
+      refuse(error);
+    }
+    now.presses -= 1;
+    setWaiting(now.presses);
   };
   return { state, silent, press, busy: waiting > 0, refused };
 }

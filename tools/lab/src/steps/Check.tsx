@@ -3,7 +3,8 @@
 import { useEffect } from "preact/hooks";
 import { type Project, type Schemas, send } from "../api/client";
 import { shownLength } from "../controls/lengths";
-import { useDo } from "../shell/doing";
+import { useUnits } from "../controls/units";
+import { Do } from "../shell/doing";
 import { isConnected, isReady, type Machine, useMachine } from "../shell/machine";
 import { useNewest } from "../shell/newest";
 import { useProject } from "../shell/project";
@@ -34,16 +35,14 @@ export function Check() {
 }
 
 function OpenCheck({ answer }: { answer: CheckAnswer }) {
-  const { project, take, reload } = useProject();
+  const { take, reload } = useProject();
   const machine = useMachine();
-  const [busy, run, refusal] = useDo();
-  const units = project.choices.units ?? "mm";
-  const doing = (path: string, body?: unknown) =>
-    run(async () => {
-      const answered = await send<Project | Schemas["MachineAnswer"]>("POST", path, body);
-      if ("choices" in answered) take(answered);
-      else await reload();
-    });
+  const units = useUnits();
+  const doing = (path: string, body?: unknown) => async () => {
+    const answered = await send<Project | Schemas["MachineAnswer"]>("POST", path, body);
+    if ("choices" in answered) take(answered);
+    else await reload();
+  };
   const ready = isReady(machine);
   const next = nextOf(answer, machine);
   const names = answer.meant.map((_, i) => String(i + 1));
@@ -55,32 +54,22 @@ function OpenCheck({ answer }: { answer: CheckAnswer }) {
     blocked: false,
   });
   const cut = (
-    <button
-      type="button"
-      class={next === "cut" ? "primary" : ""}
-      disabled={busy || !ready}
-      onClick={() => void doing("check/cut")}
-    >
+    <Do isNext={next === "cut"} disabled={!ready} work={doing("check/cut")}>
       {answer.broke_off == null ? "Cut both marks" : "Cut both marks again"}: the sled moves
-    </button>
+    </Do>
   );
   const acts = {
     read: (
-      <button
-        type="button"
-        class="primary"
-        disabled={busy || !ready}
-        onClick={() => void doing("machine/readings", { form: answer.form })}
-      >
+      <Do isNext disabled={!ready} work={doing("machine/readings", { form: answer.form })}>
         Let the tape read them
-      </button>
+      </Do>
     ),
     "go on": goOn,
     cut,
     write: (
-      <button type="button" class="primary" disabled={busy} onClick={() => void doing("check")}>
+      <Do isNext work={doing("check")}>
         Write {answer.program} and its form
-      </button>
+      </Do>
     ),
     nothing: null,
   };
@@ -114,23 +103,15 @@ function OpenCheck({ answer }: { answer: CheckAnswer }) {
       {next === "go on" && whichIsLast}
       <p class="row">
         {next === "go on" && cut}
-        {answer.sentence && (
-          <button
-            type="button"
-            disabled={busy}
-            onClick={() => void doing(machine.kind === "none" ? "check" : "check/cut")}
-          >
-            {machine.kind === "none"
-              ? "Write two other marks"
-              : "Cut two other marks: the sled moves"}
-          </button>
+        {answer.sentence && machine.kind === "none" && (
+          <Do work={doing("check")}>Write two other marks</Do>
+        )}
+        {answer.sentence && machine.kind !== "none" && (
+          <Do work={doing("check/cut")}>Cut two other marks: the sled moves</Do>
         )}
         {answer.sentence && !answer.is_used && (
-          <button type="button" disabled={busy} onClick={() => void doing("check/use")}>
-            Let the verdict go by these marks too
-          </button>
+          <Do work={doing("check/use")}>Let the verdict go by these marks too</Do>
         )}
-        {refusal}
       </p>
       {answer.is_saved && <CheckReadings file={answer.form} />}
       {answer.marks.length > 0 && <Promised marks={answer.marks} units={units} />}

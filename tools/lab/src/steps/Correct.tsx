@@ -3,6 +3,8 @@ import { useRef } from "preact/hooks";
 import type { Choices, Schemas } from "../api/client";
 import { namedLength, shownLength } from "../controls/lengths";
 import { Progress } from "../controls/Progress";
+import { useUnits } from "../controls/units";
+import { capital } from "../controls/words";
 import { useAnswer } from "../shell/answer";
 import { useChoosing } from "../shell/kept";
 import { useProject } from "../shell/project";
@@ -81,7 +83,7 @@ function useCurrent({ answer, made }: Parts): boolean {
 /** Which numbers are believed, and written. */
 function Question(parts: Parts) {
   const { answer, made, writing } = parts;
-  const { accepted = [], units = "mm" } = useProject().project.choices;
+  const { accepted = [] } = useProject().project.choices;
   const current = useCurrent(parts);
   const known = useKnown();
   const count = made.numbers.filter((number) => accepted.includes(number.name)).length;
@@ -114,11 +116,7 @@ function Question(parts: Parts) {
         )
       }
     >
-      <dl class="errors">
-        <ErrorFigure name={`as ${made.settings} says`} state={made.as_set} units={units} />
-        <ErrorFigure name="with what you accepted" state={made.accepted} units={units} />
-        <ErrorFigure name="with all of it" state={made.whole} units={units} />
-      </dl>
+      <Fall from={made.as_set} to={made.accepted ?? made.whole} busy={!current} />
       {isAsked && (
         <p>
           Accept each number that you believe; the rest is fitted again. Writing moves nothing, and
@@ -140,7 +138,7 @@ function Question(parts: Parts) {
 /** What is written goes to the machine; what would still change is folded away. */
 function Written(parts: Parts) {
   const { answer, made, writing, isHeld } = parts;
-  const { settings, units = "mm" } = useProject().project.choices;
+  const { settings } = useProject().project.choices;
   const current = useCurrent(parts);
   return (
     <Screen
@@ -166,13 +164,7 @@ function Written(parts: Parts) {
           Written: {writing.written.files.join(", ")}. {writing.written.failure}
         </p>
       )}
-      <dl class="errors" aria-busy={!current}>
-        <ErrorFigure
-          name={`as ${settings} says`}
-          state={current ? made.as_set : null}
-          units={units}
-        />
-      </dl>
+      <Fall from={null} to={current ? made.as_set : null} busy={!current} />
       <ToMachine writing={writing} isNext isHeld={isHeld} />
       {current && made.cures.length > 0 && <ByHand title="By hand" said={made.cures} />}
       {current && asked(made, []).length > 0 && (
@@ -189,22 +181,24 @@ function Written(parts: Parts) {
   );
 }
 
-interface ErrorParts {
-  name: string;
-  state: Schemas["State"] | null;
-  units: "mm" | "inch";
-}
+type State = Schemas["State"] | null;
 
-function ErrorFigure({ name, state, units }: ErrorParts) {
-  const noise = state?.noise_rms;
+/** The error of the marks, before and after; as a single figure where there is no before. */
+function Fall({ from, to, busy }: { from: State; to: State; busy: boolean }) {
+  const units = useUnits();
   return (
-    <div>
-      <dt>{name}</dt>
-      <dd>
-        {state ? namedLength(state.fit_rms, units, 2) : "–"}
-        {noise != null && <small> noise alone leaves {shownLength(noise, units, 2)}</small>}
-      </dd>
-    </div>
+    <p class="errors soft" aria-busy={busy}>
+      {from && (
+        <>
+          <span class="spoken">The error falls from </span>
+          <output class="large was">{shownLength(from.fit_rms, units, 2)}</output>
+          <span aria-hidden="true"> → </span>
+          <span class="spoken"> to </span>
+        </>
+      )}
+      <output class="large">{to ? namedLength(to.fit_rms, units, 2) : "–"}</output>
+      {to?.noise_rms != null && ` noise alone leaves ${shownLength(to.noise_rms, units, 2)}`}
+    </p>
   );
 }
 
@@ -237,8 +231,4 @@ export function Why({ made }: { made: Made }) {
       <p>The number behind ± is half of the 95 % interval. {intervals}</p>
     </>
   );
-}
-
-function capital(said: string): string {
-  return said.charAt(0).toUpperCase() + said.slice(1);
 }

@@ -1,18 +1,20 @@
 // Step 5: cut the marks: save the program, or send it; hold and stop are in the bar.
 
-import { type Project, type Schemas, send } from "../api/client";
-import { TakeAlong } from "../controls/TakeAlong";
-import { useDo } from "../shell/doing";
+import { type Schemas, send } from "../api/client";
+import { Trouble } from "../controls/Trouble";
+import { capital } from "../controls/words";
+import { Do } from "../shell/doing";
 import { useChoosing } from "../shell/kept";
 import { isConnected, isReady, type Machine, useMachine } from "../shell/machine";
 import { useNewest } from "../shell/newest";
-import { useProject } from "../shell/project";
+import { useProject, useTell } from "../shell/project";
 import { Screen } from "../shell/Screen";
+import { TakeAlong } from "../shell/TakeAlong";
 import { CutMap } from "./cut/CutMap";
 import { useGoOn } from "./cut/GoOn";
 import { NewSheet } from "./cut/NewSheet";
 import { Outcome, Read, ToReadings } from "./cut/Outcome";
-import { Pauses, sentence } from "./cut/Pauses";
+import { Pauses } from "./cut/Pauses";
 import { useSetChains } from "./cut/SetChains";
 import "./cut/cut.css";
 
@@ -35,7 +37,6 @@ export function Cut() {
 }
 
 function OpenCut({ grid }: { grid: Grid }) {
-  const { project } = useProject();
   const machine = useMachine();
   const next = nextOf(grid, machine);
   const [whichIsLast, goOn] = useGoOn({
@@ -62,18 +63,14 @@ function OpenCut({ grid }: { grid: Grid }) {
       title={
         runs ? running(machine) : `Cut ${grid.marks.length} ${grid.is_proposed ? "more " : ""}marks`
       }
-      say={runs ? whileRunning(machine) : grid.is_proposed ? PROPOSED : CHOSEN}
+      say={runs ? whileRunning(machine, grid) : grid.is_proposed ? PROPOSED : CHOSEN}
       why={<Why />}
       command={grid.command}
-      stage={<CutMap sheet={project.machine?.sheet ?? [2440, 1220]} grid={grid} />}
+      stage={<CutMap grid={grid} />}
       fieldsFirst={next === "chains" || (next === "go on" && grid.perhaps > 0)}
       act={acts[next]}
     >
-      {grid.trouble && (
-        <p class="trouble" role="alert">
-          {grid.trouble}
-        </p>
-      )}
+      <Trouble>{grid.trouble}</Trouble>
       {!runs && <Pauses grid={grid} />}
       <Outcome grid={grid} isRead={next === "read"} />
       {next === "chains" && chains}
@@ -102,9 +99,15 @@ function running({ waits_for, unseen }: Machine): string {
   return waits_for ? "The machine waits for you" : "The machine cuts";
 }
 
-function whileRunning({ waits_for, unseen }: Machine): string {
+function whileRunning({ waits_for, unseen, program, kind }: Machine, grid: Grid): string {
   if (unseen > 0) return "It may cut on. Look at it, with a hand on its power switch.";
-  return waits_for ? `${sentence(waits_for)} Then press Go on, below.` : CUTS;
+  if (waits_for) return `${capital(waits_for)}. Then press Go on, below.`;
+  const { marks, minutes } = grid;
+  const done = marks.filter(({ lines }) => lines <= (program?.done ?? 0)).length;
+  const left = minutes * (1 - (program?.done ?? 0) / Math.max(1, program?.total ?? 1));
+  // A virtual machine is as fast as it was asked to be.
+  const time = kind === "board" ? `, about ${Math.ceil(left)} min left` : "";
+  return `${done} of ${marks.length} marks${time}. ${CUTS}`;
 }
 
 /** What else can be done. */
@@ -137,59 +140,30 @@ interface ButtonParts {
 function MoveAndCut({ grid, isNext }: ButtonParts) {
   const { reload } = useProject();
   const machine = useMachine();
-  const [works, run, refusal] = useDo();
-  const busy = useChoosing() || works;
-  const cut = async () => {
-    await send("POST", "grid/cut");
-    await reload();
-  };
+  const blocked = useChoosing() || !isReady(machine) || grid.trouble !== "";
   return (
-    <>
-      <button
-        type="button"
-        class={isNext ? "primary" : ""}
-        disabled={busy || !isReady(machine) || grid.trouble !== ""}
-        onClick={() => void run(cut)}
-      >
-        {beginWords(grid, machine)} the sled and cut {grid.marks.length} marks
-      </button>
-      {refusal}
-    </>
+    <Do isNext={isNext} disabled={blocked} work={() => send("POST", "grid/cut").then(reload)}>
+      {beginWords(grid, machine)} the sled and cut {grid.marks.length} marks
+    </Do>
   );
 }
 
 function Save({ grid, isNext }: ButtonParts) {
-  const { take } = useProject();
-  const [works, run, refusal] = useDo();
-  const busy = useChoosing() || works;
-  const save = async () => take(await send<Project>("POST", "grid"));
+  const tell = useTell();
+  const blocked = useChoosing() || grid.trouble !== "";
   return (
-    <>
-      <button
-        type="button"
-        class={isNext ? "primary" : ""}
-        disabled={busy || grid.trouble !== ""}
-        onClick={() => void run(save)}
-      >
-        {grid.is_saved ? `Saved: ${grid.program}` : `Save ${grid.program}; nothing moves`}
-      </button>
-      {refusal}
-    </>
+    <Do isNext={isNext} disabled={blocked} work={() => tell("grid")}>
+      {grid.is_saved ? `Saved: ${grid.program}` : `Save ${grid.program}; nothing moves`}
+    </Do>
   );
 }
 
 function PutBack() {
-  const { take } = useProject();
-  const [works, run, refusal] = useDo();
-  const busy = useChoosing() || works;
-  const putBack = async () => take(await send<Project>("DELETE", "next"));
+  const tell = useTell();
   return (
-    <>
-      <button type="button" disabled={busy} onClick={() => void run(putBack)}>
-        Cut other marks instead
-      </button>
-      {refusal}
-    </>
+    <Do disabled={useChoosing()} work={() => tell("next", undefined, "DELETE")}>
+      Cut other marks instead
+    </Do>
   );
 }
 

@@ -2,10 +2,10 @@
 
 import type { Schemas } from "../api/client";
 import { namedLength } from "../controls/lengths";
-import { TakeAlong } from "../controls/TakeAlong";
 import { useNewest } from "../shell/newest";
 import { useProject } from "../shell/project";
 import { Screen } from "../shell/Screen";
+import { TakeAlong } from "../shell/TakeAlong";
 import { Course } from "./diary/Course";
 import { Errors } from "./diary/Errors";
 import "./diary/diary.css";

@@ -1,5 +1,5 @@
 // Step 4: choose how to measure, and see before a hole is cut what the marks could tell.
-import { useState } from "preact/hooks";
+import { Trouble } from "../controls/Trouble";
 import { useNewest } from "../shell/newest";
 import { useProject } from "../shell/project";
 import { Screen } from "../shell/Screen";
@@ -8,7 +8,6 @@ import { Layouts } from "./measure/Layouts";
 import { MarksMap } from "./measure/MarksMap";
 import type { Layout, Place } from "./measure/plan";
 import { usePreview } from "./measure/usePreview";
-import "./measure/measure.css";
 
 export function Measure() {
   const { project, choose } = useProject();
@@ -16,37 +15,26 @@ export function Measure() {
   const layouts = useNewest<Layout.Layout[]>(settings && "layouts", settings) ?? [];
   const advice = useNewest<Layout.Advice>(settings && "layouts/advice", settings);
   const saved: Place[] = project.choices.planned ?? [];
-  const [moved, setMoved] = useState<Place[]>();
-  const id = moved ? "own" : (project.choices.layout ?? "nine");
+  const id = project.choices.layout ?? "nine";
   const chosen = layouts.find((layout) => layout.id === id);
-  const places = moved ?? (id === "own" ? saved : (chosen?.places ?? []));
-  const { plan, trouble, looking } = usePreview(id, places, project.choices.settings ?? "");
+  const places = id === "own" ? saved : (chosen?.places ?? []);
+  const { answer: plan, refused, looking } = usePreview(id, places, settings);
   if (layouts.length === 0 || !project.machine)
     return <Screen title="Which marks?" say="One moment …" busy />;
-  const keep = (next: Place[]) => {
-    setMoved(next);
-    void choose({ layout: "own", planned: next, proposed: "" }).then(() => setMoved(undefined));
-  };
+  const keep = (planned: Place[]) => void choose({ layout: "own", planned, proposed: "" });
   const take = (layout: Layout.Id) => {
-    setMoved(undefined);
     const planned = layout === "own" && saved.length === 0 ? places : saved;
     void choose({ layout, planned, proposed: "" });
   };
   return (
     <Screen
       title="Which marks?"
-      say="Drag a mark, or tap the sheet to add a mark. Nothing is cut yet."
+      say="More marks tell more causes apart, and take longer. Nothing is cut yet."
       why={<Why />}
       command={plan?.command ?? `plumb grid --settings ${project.choices.settings} --details`}
       stage={
         <>
-          <MarksMap
-            sheet={project.machine.sheet}
-            places={places}
-            spans={id === "own" ? [] : (chosen?.spans ?? [])}
-            show={setMoved}
-            keep={keep}
-          />
+          <MarksMap places={places} spans={id === "own" ? [] : (chosen?.spans ?? [])} keep={keep} />
           {id !== "own" && chosen && chosen.spans.length > 0 && (
             <p class="to-tape">
               <strong>Measure these distances, in this order:</strong>{" "}
@@ -63,12 +51,8 @@ export function Measure() {
         count={id === "own" || saved.length === 0 ? places.length : saved.length}
         choose={take}
       />
-      {(trouble || plan?.trouble) && (
-        <p class="trouble" role="alert">
-          {trouble || plan?.trouble}
-        </p>
-      )}
-      {!plan && !trouble && (
+      <Trouble>{refused || plan?.trouble}</Trouble>
+      {!plan && !refused && (
         <p class="sum" role="status" aria-busy>
           Working out what these marks could tell …
         </p>

@@ -34,13 +34,7 @@ export function Reach() {
       command={reach.command}
       stage={
         <div>
-          <Sheet
-            size={project.machine.sheet}
-            label={`Where the machine is usable: ${reach.conclusion}`}
-            name="reach"
-            units={project.choices.units ?? "mm"}
-            marks={spotsOf(reach)}
-          >
+          <Sheet label={`Where the machine is usable: ${reach.conclusion}`} marks={spotsOf(reach)}>
             <Places reach={reach} sheet={project.machine.sheet} />
           </Sheet>
           <ul class="plain">

@@ -2,8 +2,8 @@
 
 import type { Schemas } from "../api/client";
 import { namedLength } from "../controls/lengths";
-import { TakeAlong } from "../controls/TakeAlong";
-import { Distances } from "../readings/Distances";
+import { Trouble } from "../controls/Trouble";
+import { useUnits } from "../controls/units";
 import { Doubts } from "../readings/Doubts";
 import { lengthBetween } from "../readings/distances";
 import { FileOfReadings, FormPicker } from "../readings/FormPicker";
@@ -15,8 +15,8 @@ import { Tape } from "../readings/Tape";
 import { useDoubts } from "../readings/useDoubts";
 import { useReadings } from "../readings/useReadings";
 import { Changed } from "../shell/Changed";
-import { useProject } from "../shell/project";
 import { Screen } from "../shell/Screen";
+import { TakeAlong } from "../shell/TakeAlong";
 import "../readings/readings.css";
 
 const PLACED =
@@ -25,13 +25,12 @@ const TAPED =
   "Lay the tape between the two marks of each line, in this order, and type what it says. Each number is saved at once and stays open to change.";
 
 export function Readings() {
-  const { project } = useProject();
+  const units = useUnits();
   const readings = useReadings();
   const { doubts, looking, refused } = useDoubts(readings.form);
   const { form, kept } = readings;
   if (!form) return <Screen title="What does the tape say?" say="One moment …" busy />;
   const read = form.marks.filter((mark) => mark.read).length;
-  const units = project.choices.units ?? "mm";
   const doubted = new Set(doubts.filter((doubt) => doubt.is_mark).map((doubt) => doubt.index));
   const off = offTarget(form.marks.filter(({ index }) => !doubted.has(index)));
   const asked = form.spans.filter((span) => lengthBetween(form.distances, span)).length;
@@ -43,7 +42,9 @@ export function Readings() {
       say={isTaped ? TAPED : PLACED}
       why={<Why />}
       command={form.command}
-      stage={form.marks.length > 0 && <ReadingsMap form={form} doubted={doubted} />}
+      stage={
+        form.marks.length > 0 && <ReadingsMap form={form} doubted={doubted} pick={readings.pick} />
+      }
       fieldsFirst
     >
       <FormPicker form={form} choose={readings.chooseFile} />
@@ -59,18 +60,10 @@ export function Readings() {
             {looking && " Looking for readings that disagree …"}
           </p>
           <Changed kept={kept} />
-          {kept.refused && (
-            <p class="trouble" role="alert">
-              {kept.refused}
-            </p>
-          )}
-          {refused && (
-            <p class="trouble" role="alert">
-              Nothing looks for readings that disagree. {refused}
-            </p>
-          )}
+          <Trouble>{kept.refused}</Trouble>
+          <Trouble>{refused && `Nothing looks for readings that disagree. ${refused}`}</Trouble>
           <Doubts form={form} doubts={doubts} readings={readings} units={units} />
-          {isTaped && <Spans form={form} take={readings.take} doubts={doubts} />}
+          <Spans form={form} take={readings.take} doubts={doubts} />
           {isTaped ? (
             <details open={read > 0}>
               <summary>Where the marks are, if you measure that too</summary>
@@ -79,7 +72,6 @@ export function Readings() {
           ) : (
             grid
           )}
-          <Distances form={form} take={readings.take} doubts={doubts} />
           {read > 0 && <TakeAlong name="readings.csv">Save the readings as a table</TakeAlong>}
         </>
       )}
@@ -105,8 +97,8 @@ function Why() {
         its neighbours is most often a slip of the eye or the pen.
       </p>
       <p>
-        Nothing is deleted or changed unless you press the button. You can also paste two columns
-        from a spreadsheet into the first cell.
+        Nothing is deleted or changed unless you press the button. A table of a spreadsheet is read
+        as a file.
       </p>
     </>
   );

@@ -4,13 +4,14 @@ import { useRef, useState } from "preact/hooks";
 import { isReport } from "../api/answers";
 import type { Schemas } from "../api/client";
 import { Progress } from "../controls/Progress";
-import { TakeAlong } from "../controls/TakeAlong";
+import { useUnits } from "../controls/units";
 import { Residuals } from "../residuals/Residuals";
 import { useDrawn } from "../residuals/useDrawn";
 import { useAnswer } from "../shell/answer";
 import { useNewest } from "../shell/newest";
 import { useProject } from "../shell/project";
 import { Screen } from "../shell/Screen";
+import { TakeAlong } from "../shell/TakeAlong";
 import { Refused } from "./correct/Refused";
 import { useWriting } from "./correct/useWriting";
 import { HalfTyped } from "./verdict/HalfTyped";
@@ -22,7 +23,7 @@ import "./verdict/verdict.css";
 
 export function Verdict() {
   const { project, trouble } = useProject();
-  const units = project.choices.units ?? "mm";
+  const units = useUnits();
   const { answer, refused } = useAnswer<VerdictAnswer>("verdict");
   const writing = useWriting();
   const [isNextWanted, wantNext] = useNextWanted(project.key);
@@ -57,7 +58,6 @@ export function Verdict() {
       </Screen>
     );
   }
-  const sheet = project.machine?.sheet ?? [2440, 1220];
   // The answer goes on here: something has to be measured.
   const isOpen = verdict.step.screen === "verdict";
   return (
@@ -79,7 +79,6 @@ export function Verdict() {
             doubtedSpans={verdict.doubted_spans}
             drawn={drawn}
             opensOn="frame"
-            sheet={sheet}
           />
         )
       }
@@ -114,9 +113,7 @@ export function Verdict() {
       )}
       {verdict.reach && <p class="trouble">{verdict.reach}.</p>}
       {!isReport && <HalfTyped />}
-      <div ref={place}>
-        {isNextWanted && <NextStep sheet={sheet} marks={verdict.marks} next={next} />}
-      </div>
+      <div ref={place}>{isNextWanted && <NextStep marks={verdict.marks} next={next} />}</div>
       {verdict.cards.length > 0 && (
         <section aria-label="Suspects">
           <h2>

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Collection
+from contextlib import suppress
+from dataclasses import replace
 from typing import Annotated
 
 import numpy as np
@@ -226,6 +228,20 @@ def refit(choice: BenchChoice, project: TheProject, warm: Warm) -> BenchFit:
             can_be=fitted.settled and all(size.possible for size in sizes.values()),
         ),
     )
+
+
+@router.post("/bench/gains")
+def gain(choice: BenchChoice, warm: Warm) -> dict[str, float]:
+    """Return what each effect more would leave of the errors [mm]. Nothing is written."""
+    chosen, left = choice.chosen, {}
+    for effect in every_effect():
+        name = effect["name"]
+        more = replace(chosen, effects=(*chosen.effects, name))
+        with suppress(InputError):  # the marks are too few for it
+            if name not in chosen.effects:
+                warm.live.refuse(more)
+                left[name] = warm.live.fit(more).rms
+    return left
 
 
 @router.post("/bench/stairs")

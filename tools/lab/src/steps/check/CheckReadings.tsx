@@ -1,4 +1,5 @@
 // The readings of the check marks, typed as all others are.
+import { Trouble } from "../../controls/Trouble";
 import { Grid } from "../../readings/Grid";
 import { useReadings } from "../../readings/useReadings";
 import { Changed } from "../../shell/Changed";
@@ -14,11 +15,7 @@ export function CheckReadings({ file }: { file: string }) {
       <h2>What does the tape say?</h2>
       <Grid form={readings.form} readings={readings} doubted={NOBODY} />
       <Changed kept={readings.kept} />
-      {readings.kept.refused && (
-        <p class="trouble" role="alert">
-          {readings.kept.refused}
-        </p>
-      )}
+      <Trouble>{readings.kept.refused}</Trouble>
     </section>
   );
 }

@@ -1,5 +1,6 @@
 // How far off each check mark may be, and is.
 import type { Schemas } from "../../api/client";
+import { Head } from "../../controls/Head";
 import { namedLength, type Unit } from "../../controls/lengths";
 
 interface PromisedParts {
@@ -10,14 +11,9 @@ interface PromisedParts {
 export function Promised({ marks, units }: PromisedParts) {
   return (
     <table class="checked">
-      <thead>
-        <tr>
-          <th scope="col">mark</th>
-          <th scope="col">promised within</th>
-          <th scope="col">off from what was promised</th>
-          <th scope="col">off from the target</th>
-        </tr>
-      </thead>
+      <Head
+        names={["mark", "promised within", "off from what was promised", "off from the target"]}
+      />
       <tbody>
         {marks.map((mark) => (
           <tr key={mark.name}>

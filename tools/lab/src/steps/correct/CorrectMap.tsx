@@ -2,7 +2,6 @@
 import { useState } from "preact/hooks";
 import type { Schemas } from "../../api/client";
 import { Sheet } from "../../sheet/Sheet";
-import { useProject } from "../../shell/project";
 
 interface MapParts {
   made: Schemas["CorrectionParts"];
@@ -11,7 +10,6 @@ interface MapParts {
 }
 
 export function CorrectMap({ made, states }: MapParts) {
-  const { project } = useProject();
   const [chosen, show] = useState<string>();
   if (made.marks.length === 0) return null;
   const found = states.findIndex(({ title }) => title === chosen);
@@ -19,10 +17,7 @@ export function CorrectMap({ made, states }: MapParts) {
   const shown = found < 0 ? Math.min(1, states.length - 1) : found;
   return (
     <Sheet
-      size={project.machine?.sheet ?? [2440, 1220]}
       label={`Errors of ${made.marks.length} marks, ${states[shown]?.title ?? "being fitted"}`}
-      name="correction"
-      units={project.choices.units ?? "mm"}
       marks={made.marks}
       states={states}
       shown={shown}

@@ -3,18 +3,11 @@ import { useMemo } from "preact/hooks";
 import { Sheet } from "../../sheet/Sheet";
 import { useScale } from "../../sheet/scale";
 import { useMachine } from "../../shell/machine";
-import { useProject } from "../../shell/project";
 import type { Grid } from "../Cut";
 
 const DEEP = -0.2; // [mm] the bit is in the wood
 
-interface MapParts {
-  sheet: readonly [number, number];
-  grid: Grid;
-}
-
-export function CutMap({ sheet, grid }: MapParts) {
-  const { project } = useProject();
+export function CutMap({ grid }: { grid: Grid }) {
   const { program, place, knows_place, kind, unseen } = useMachine();
   const taken = program?.title === grid.program ? program.done : 0;
   const isCut = (lines: number, index: number) => taken >= lines || index < (grid.broke_off ?? 0);
@@ -29,13 +22,7 @@ export function CutMap({ sheet, grid }: MapParts) {
     [grid, done],
   );
   return (
-    <Sheet
-      size={sheet}
-      label={`${done} of ${grid.marks.length} marks are cut`}
-      name="cut"
-      units={project.choices.units ?? "mm"}
-      marks={marks}
-    >
+    <Sheet label={`${done} of ${grid.marks.length} marks are cut`} marks={marks}>
       {place && knows_place && kind !== "none" && <Sled place={place} old={unseen > 0} />}
     </Sheet>
   );

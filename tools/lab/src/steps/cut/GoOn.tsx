@@ -2,7 +2,7 @@
 import type { ComponentChild } from "preact";
 import { useEffect, useState } from "preact/hooks";
 import { send } from "../../api/client";
-import { useDo } from "../../shell/doing";
+import { Do } from "../../shell/doing";
 import { useChoosing } from "../../shell/kept";
 import { isReady, useMachine } from "../../shell/machine";
 import { useProject } from "../../shell/project";
@@ -22,7 +22,6 @@ export function useGoOn(parts: GoOnParts): [question: ComponentChild, act: Compo
   const { surely, perhaps, names, path, blocked } = parts;
   const { reload } = useProject();
   const machine = useMachine();
-  const [works, run, refusal] = useDo();
   const [seen, setSeen] = useState<number>();
   // Each break is another question.
   useEffect(() => setSeen(undefined), [surely, perhaps]);
@@ -54,19 +53,11 @@ export function useGoOn(parts: GoOnParts): [question: ComponentChild, act: Compo
     cut === names.length ? (
       "Then all are cut: read them."
     ) : (
-      <>
-        <button
-          type="button"
-          class="primary"
-          disabled={works || choosing || !isReady(machine) || blocked || !next}
-          onClick={() => void run(goOn)}
-        >
-          {next
-            ? `Go on: move the sled and cut from mark ${next}`
-            : "Go on: say first which mark is the last"}
-        </button>
-        {refusal}
-      </>
+      <Do isNext disabled={choosing || !isReady(machine) || blocked || !next} work={goOn}>
+        {next
+          ? `Go on: move the sled and cut from mark ${next}`
+          : "Go on: say first which mark is the last"}
+      </Do>
     );
   return [question, act];
 }

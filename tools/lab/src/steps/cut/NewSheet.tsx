@@ -1,5 +1,6 @@
 // Whether the next marks go onto another sheet, and how that should lie.
 import { namedLength } from "../../controls/lengths";
+import { useUnits } from "../../controls/units";
 import { useMachine } from "../../shell/machine";
 import { useProject } from "../../shell/project";
 import type { Grid } from "../Cut";
@@ -9,6 +10,7 @@ const LEAST_MM = 0.5; // a smaller turn is not worth a shim
 export function NewSheet({ grid }: { grid: Grid }) {
   const { project, choose } = useProject();
   const { kind } = useMachine();
+  const units = useUnits();
   const chosen = project.choices.new_sheet ?? false;
   return (
     <label class="new-sheet">
@@ -24,7 +26,7 @@ export function NewSheet({ grid }: { grid: Grid }) {
             {kind === "virtual"
               ? "The virtual machine gets another sheet on the same stops"
               : "Lay it on the same stops"}
-            {turned(grid.sheet_rise, project.choices.units ?? "mm")}.
+            {turned(grid.sheet_rise, units)}.
           </small>
         )}
       </span>

@@ -1,8 +1,7 @@
 // What came of the last cut, and what to do about it.
-import { type Project, send } from "../../api/client";
-import { useDo } from "../../shell/doing";
+import { Do } from "../../shell/doing";
 import { isConnected, isReady, type Machine, useMachine } from "../../shell/machine";
-import { useProject } from "../../shell/project";
+import { useTell } from "../../shell/project";
 import type { Grid } from "../Cut";
 import { brokenWords } from "./GoOn";
 
@@ -54,26 +53,17 @@ function broken(grid: Grid, machine: Machine): string {
 
 /** Reads the marks that are cut: a virtual machine has its tape. */
 export function Read({ grid }: { grid: Grid }) {
-  const { take } = useProject();
+  const tell = useTell();
   const machine = useMachine();
-  const [busy, run, refusal] = useDo();
   if (!hasTape(grid, machine)) return <ToReadings waits={grid.waits} isNext />;
   const read = async () => {
-    take(await send<Project>("POST", "machine/readings", { form: grid.form }));
+    await tell("machine/readings", { form: grid.form });
     location.hash = "#/readings";
   };
   return (
-    <>
-      <button
-        type="button"
-        class="primary"
-        disabled={busy || !isReady(machine)}
-        onClick={() => void run(read)}
-      >
-        Let a tape read the {grid.waits} marks
-      </button>
-      {refusal}
-    </>
+    <Do isNext disabled={!isReady(machine)} work={read}>
+      Let a tape read the {grid.waits} marks
+    </Do>
   );
 }
 

@@ -1,4 +1,5 @@
 // Where the program waits for a person, and what is to be done there.
+import { capital } from "../../controls/words";
 import type { Grid } from "../Cut";
 
 export function Pauses({ grid }: { grid: Grid }) {
@@ -8,16 +9,11 @@ export function Pauses({ grid }: { grid: Grid }) {
       <p>The program waits {times(grid.pauses.length)} until you press Go on:</p>
       <ol>
         {grid.pauses.map((pause) => (
-          <li key={pause.lines}>{sentence(pause.do)}</li>
+          <li key={pause.lines}>{capital(pause.do)}.</li>
         ))}
       </ol>
     </div>
   );
-}
-
-/** What is to be done, as a sentence. */
-export function sentence(words: string): string {
-  return `${words.charAt(0).toUpperCase()}${words.slice(1)}.`;
 }
 
 function times(count: number): string {

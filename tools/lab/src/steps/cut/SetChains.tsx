@@ -3,19 +3,18 @@ import type { ComponentChild } from "preact";
 import { useState } from "preact/hooks";
 import { send } from "../../api/client";
 import { shownLength, typedLength } from "../../controls/lengths";
+import { useUnits } from "../../controls/units";
 import { useDo } from "../../shell/doing";
 import { useMachine } from "../../shell/machine";
-import { useProject } from "../../shell/project";
 
 const FORM = "set-chains";
 const FIELDS = ["Left chain", "Right chain", "Bit above the wood"];
 
 /** The form for both lengths and the height, and the button that sends them. */
 export function useSetChains(): [form: ComponentChild, act: ComponentChild] {
-  const { project } = useProject();
   const { kept_lengths, place } = useMachine();
   const [busy, run, refusal] = useDo();
-  const unit = project.choices.units ?? "mm";
+  const unit = useUnits();
   const [typed, setTyped] = useState(["", "", ""]);
   const [left, right, z] = typed.map((text) => typedLength(text, unit));
   const known = !!left && left > 0 && !!right && right > 0 && z !== undefined;

@@ -1,6 +1,7 @@
 // The error of each fit: before it, after it, and on marks that took no part.
 import type { Schemas } from "../../api/client";
 import { Bar } from "../../controls/Bar";
+import { Head } from "../../controls/Head";
 import { namedLength, type Unit } from "../../controls/lengths";
 
 type Round = Schemas["Round"];
@@ -10,13 +11,7 @@ export function Errors({ rounds, units }: { rounds: Round[]; units: Unit }) {
   const shown = (mm: number | null) => (mm === null ? "–" : namedLength(mm, units, 2));
   return (
     <table class="rounds">
-      <thead>
-        <tr>
-          <th scope="col">fit</th>
-          <th scope="col">error before and after</th>
-          <th scope="col">marks left out</th>
-        </tr>
-      </thead>
+      <Head names={["fit", "error before and after", "marks left out"]} />
       <tbody>
         {rounds.map(({ fit, said }) => (
           <tr key={fit.at + fit.machine}>

@@ -2,9 +2,9 @@
 import { useEffect, useRef, useState } from "preact/hooks";
 import { type Schemas, send } from "../../api/client";
 import { shownLength, typedLength, type Unit } from "../../controls/lengths";
-import { useDo } from "../../shell/doing";
+import { useUnits } from "../../controls/units";
+import { Do } from "../../shell/doing";
 import { useMachine } from "../../shell/machine";
-import { useProject } from "../../shell/project";
 import { numberOf, readingOf, type Value } from "./values";
 
 type Known = Schemas["KnownNumber"];
@@ -20,16 +20,15 @@ interface NumberParts {
 }
 
 export function KnownNumber({ number, known, here, wanted, look, keep }: NumberParts) {
-  const { project } = useProject();
+  const units = useUnits();
   const isVirtual = useMachine().kind === "virtual";
   const place = useRef<HTMLLIElement>(null);
   useEffect(() => {
     if (wanted) place.current?.scrollIntoView({ block: "center" });
   }, [wanted]);
-  const [busy, run, refusal] = useDo();
-  const measure = () =>
-    run(async () => keep(await send<Value>("POST", "known/measured", { name: number.name })));
-  const unit: Unit = number.unit === "mm" ? (project.choices.units ?? "mm") : "mm";
+  const measure = async () =>
+    keep(await send<Value>("POST", "known/measured", { name: number.name }));
+  const unit: Unit = number.unit === "mm" ? units : "mm";
   const name = number.unit === "mm" ? unit : number.unit;
   const show = (read: number) => shownLength(read, unit, number.digits);
   const stated = known && readingOf(number, known);
@@ -97,11 +96,10 @@ export function KnownNumber({ number, known, here, wanted, look, keep }: NumberP
         </small>
       )}
       {here && isVirtual && (
-        <button type="button" disabled={busy} onClick={() => void measure()}>
-          {busy ? "Measuring …" : "Measure it on the virtual machine"}
-        </button>
+        <Do meanwhile="Measuring …" work={measure}>
+          Measure it on the virtual machine
+        </Do>
       )}
-      {refusal}
     </li>
   );
 }

@@ -1,11 +1,11 @@
 // The best next measurement: where on the sheet, how long, and how likely it settles the question.
+import { Head } from "../../controls/Head";
 import { Progress } from "../../controls/Progress";
 import type { Mark } from "../../sheet/marks";
 import { Sheet } from "../../sheet/Sheet";
 import { useMachine } from "../../shell/machine";
-import { useProject } from "../../shell/project";
 import { TakeMarks } from "./TakeMarks";
-import type { NextAnswer, Size, VerdictParts } from "./words";
+import type { NextAnswer, VerdictParts } from "./words";
 
 /** The proposal as far as it is worked out, or why there is none. */
 interface Asked {
@@ -14,13 +14,11 @@ interface Asked {
 }
 
 interface NextParts {
-  sheet: Size;
   marks: VerdictParts["marks"];
   next: Asked;
 }
 
-export function NextStep({ sheet, marks, next: { answer, refused } }: NextParts) {
-  const { project } = useProject();
+export function NextStep({ marks, next: { answer, refused } }: NextParts) {
   if (refused) return <p class="trouble">{refused}</p>;
   if (answer?.nothing) return <p>Nothing that can be proposed would tell more.</p>;
   const next = answer?.next;
@@ -36,10 +34,7 @@ export function NextStep({ sheet, marks, next: { answer, refused } }: NextParts)
         </ol>
         {next.marks.length > 0 && (
           <Sheet
-            size={sheet}
             label="Where to measure next"
-            name="next"
-            units={project.choices.units ?? "mm"}
             marks={[
               ...marks.map(({ name, target }): Mark => ({ name, target, look: "faint" })),
               ...next.marks.map(
@@ -84,13 +79,7 @@ function Others({ next }: { next: NonNullable<NextAnswer["next"]> }) {
   const canTake = all.some((other) => other.taking);
   return (
     <table>
-      <thead>
-        <tr>
-          <th scope="col">other ways</th>
-          <th scope="col">what it promises</th>
-          {canTake && <td />}
-        </tr>
-      </thead>
+      <Head names={["other ways", "what it promises", ...(canTake ? [""] : [])]} />
       <tbody>
         {all.map((other) => (
           <tr key={other.title}>

@@ -1,6 +1,7 @@
 // A suspect: its odds, how large it is, and whether what it draws lies over the marks; folded away, what settles it.
 import { Bar } from "../../controls/Bar";
 import { namedLength, type Unit } from "../../controls/lengths";
+import { capital } from "../../controls/words";
 import { SizeBar } from "./SizeBar";
 import type { Card } from "./words";
 
@@ -67,8 +68,4 @@ export function SuspectCard({ card, units, isLaid, lay }: CardParts) {
       </details>
     </article>
   );
-}
-
-function capital(said: string): string {
-  return said.charAt(0).toUpperCase() + said.slice(1);
 }

@@ -1,7 +1,7 @@
 // Takes a proposal into the folder: a form for its readings, and the program that cuts its marks. Nothing moves.
-import { type Project, type Schemas, send } from "../../api/client";
-import { useDo } from "../../shell/doing";
-import { useProject } from "../../shell/project";
+import type { Schemas } from "../../api/client";
+import { Do } from "../../shell/doing";
+import { useTell } from "../../shell/project";
 
 export type Taking = Schemas["Taking"];
 
@@ -12,28 +12,21 @@ interface TakeParts {
 }
 
 export function TakeMarks({ taking, title }: TakeParts) {
-  const { take } = useProject();
-  const [busy, run, refusal] = useDo();
-  const press = () =>
-    void run(async () => {
-      take(await send<Project>("POST", "next", { choose: taking.choose, digest: taking.digest }));
-      location.hash = taking.program ? "#/cut" : "#/readings";
-    });
-  const { program, marks } = taking;
+  const tell = useTell();
+  const { choose, digest, program, marks } = taking;
+  const work = async () => {
+    await tell("next", { choose, digest });
+    location.hash = program ? "#/cut" : "#/readings";
+  };
+  if (title !== undefined)
+    return (
+      <Do label={`Take: ${title}`} work={work}>
+        Take
+      </Do>
+    );
   return (
-    <>
-      {title === undefined ? (
-        <button type="button" class="primary" disabled={busy} onClick={press}>
-          {program
-            ? `Take these ${marks} marks; nothing moves yet`
-            : `Take these ${marks} readings`}
-        </button>
-      ) : (
-        <button type="button" aria-label={`Take: ${title}`} disabled={busy} onClick={press}>
-          Take
-        </button>
-      )}
-      {refusal}
-    </>
+    <Do isNext work={work}>
+      {program ? `Take these ${marks} marks; nothing moves yet` : `Take these ${marks} readings`}
+    </Do>
   );
 }

@@ -1,5 +1,7 @@
 // Causes that may act although the marks do not show it, in the words of `plumb diagnose`.
+import { Head } from "../../controls/Head";
 import { namedLength, type Unit } from "../../controls/lengths";
+import { capital } from "../../controls/words";
 import type { VerdictParts } from "./words";
 
 export function UnseenCauses({ verdict, units }: { verdict: VerdictParts; units: Unit }) {
@@ -12,15 +14,7 @@ export function UnseenCauses({ verdict, units }: { verdict: VerdictParts; units:
         <>
           <p>{words}</p>
           <table>
-            <thead>
-              <tr>
-                {header.map((word) => (
-                  <th scope="col" key={word}>
-                    {word}
-                  </th>
-                ))}
-              </tr>
-            </thead>
+            <Head names={header} />
             <tbody>
               {causes.map((cause) => (
                 <tr key={cause.noun}>
@@ -33,7 +27,7 @@ export function UnseenCauses({ verdict, units }: { verdict: VerdictParts; units:
           </table>
         </>
       )}
-      {silent && <p>{silent.charAt(0).toUpperCase() + silent.slice(1)}.</p>}
+      {silent && <p>{capital(silent)}.</p>}
     </section>
   );
 }

@@ -5,4 +5,3 @@ export type VerdictAnswer = Schemas["VerdictAnswer"];
 export type VerdictParts = Schemas["Verdict"];
 export type Card = Schemas["Card"];
 export type NextAnswer = Schemas["NextAnswer"];
-export type Size = readonly [number, number];

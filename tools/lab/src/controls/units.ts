@@ -1,0 +1,7 @@
+// The unit in which lengths are shown and typed: chosen once for all that is inside.
+import { createContext } from "preact";
+import { useContext } from "preact/hooks";
+import type { Unit } from "./lengths";
+
+export const Units = createContext<Unit>("mm");
+export const useUnits = () => useContext(Units);

@@ -1,0 +1,21 @@
+// What all that is inside knows: the project, the unit that is chosen, and the size of the machine's sheet.
+import type { ComponentChildren } from "preact";
+import { Units } from "../controls/units";
+import { SheetSize, Stamp } from "../sheet/scale";
+import { ProjectContext, type Shared } from "./project";
+
+export function Shares({ shared, children }: { shared: Shared; children: ComponentChildren }) {
+  const { machine, choices, files } = shared.project;
+  const { settings = "" } = choices;
+  return (
+    <ProjectContext.Provider value={shared}>
+      <Units.Provider value={choices.units ?? "mm"}>
+        <SheetSize.Provider value={machine?.sheet ?? [2440, 1220]}>
+          <Stamp.Provider value={settings && `${settings} ${(files[settings] ?? "").slice(0, 8)}`}>
+            {children}
+          </Stamp.Provider>
+        </SheetSize.Provider>
+      </Units.Provider>
+    </ProjectContext.Provider>
+  );
+}
