@@ -18,10 +18,8 @@ from plumb.cli.calibrate import CalibrateAnswer
 from plumb.cli.check import CheckAnswer
 from plumb.cli.diagnose import DiagnosisAnswer
 from plumb.cli.effects import Library
-from plumb.cli.forward import Places
 from plumb.cli.grid import PlannedGrid
 from plumb.cli.home import HomeAnswer
-from plumb.cli.inverse import ChainLengths
 from plumb.cli.next import NextAnswer
 from plumb.cli.reach import ReachAnswer
 from plumb.cli.read import MachineNumbers
@@ -55,9 +53,7 @@ ANSWERS: dict[str, Any] = {
     "compare": Comparison,
     "diagnose": DiagnosisAnswer,
     "effects": Library,
-    "forward": Places,
     "grid": PlannedGrid,
-    "inverse": ChainLengths,
     "next": NextAnswer,
     "practice": Score,
     "reach": ReachAnswer,

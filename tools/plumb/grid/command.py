@@ -142,8 +142,7 @@ def from_arguments(arguments: argparse.Namespace) -> tuple[Grid, PlainMachine]:
     if arguments.places:
         grid = Grid(repeats=False, places=arguments.places)
     given = {name: value for name in NUMBERS if (value := getattr(arguments, name)) is not None}
-    fixed = bool(grid.places) or grid.is_benchmark
-    demand("margin" not in given or not fixed, "--margin is of marks in columns and rows")
+    demand("margin" not in given or not grid.places, "--margin is of marks in columns and rows")
     kept = read_settings(arguments.settings) if arguments.settings else {}
     return grid._replace(**given), PlainMachine(**kept)
 

@@ -7,7 +7,6 @@ import json
 
 from plumb.grid.options import APPROACH, PLUNGE_FEED, UNITS, Grid, PlainMachine
 from plumb.grid.pattern import (
-    benchmark_form,
     check,
     lead_in,
     listed,
@@ -31,7 +30,7 @@ def program(grid: Grid, machine: PlainMachine) -> str:
     touches = touches_of(grid, machine)
     router = "leave the router off" if grid.mode == "touch" else "switch the router on first"
     up = f"G0 {word('Z', grid.safe_height)}"
-    pattern = "benchmark" if grid.is_benchmark else "places" if grid.places else "grid"
+    pattern = "places" if grid.places else "grid"
     lines = [
         FIRST_LINE,
         f"(pattern: {pattern}, {len(touches)} marks with repeats)",
@@ -74,8 +73,6 @@ def marks_list(
     cut_with = "\nnew_sheet = true" * new_sheet + cut_with
     if units == "inch":
         cut_with = f'\nunits = "inch"  # fractions too, like 3 7/8{cut_with}'
-    if grid.is_benchmark:
-        return benchmark_form(cut_with)
     spans = spans_of(grid)
     lines = [
         f"# Calibration marks, {units} from the sheet's top left corner; x right, y down, approach "

@@ -15,7 +15,7 @@ from plumb.settings.machine import HOLEY_CHAIN_WEIGHT, MachineSettings, frame_of
 
 if TYPE_CHECKING:
     from plumb._core import FrameWords
-    from plumb.model.python_effect import EffectWords
+    from plumb.model.effect_words import EffectWords
 
 
 Array = NDArray[np.float64]
@@ -101,13 +101,9 @@ def usual_parameters(settings: MachineSettings) -> dict[str, float]:
     return _core.usual(values_of(settings), settings.feed == "top")
 
 
-def lengths(
-    settings: MachineSettings, points: Array, *, float32: bool = False
-) -> tuple[Array, Codes]:
+def lengths(settings: MachineSettings, points: Array) -> tuple[Array, Codes]:
     """Chain paid out (n, 2) [mm] for places (n, 2) [mm] by our model, and FOUND (n,)."""
-    return _core.lengths(
-        values_of(settings), settings.feed == "top", _pairs(points), float32=float32
-    )
+    return _core.lengths(values_of(settings), settings.feed == "top", _pairs(points))
 
 
 def places(settings: MachineSettings, chains: Array) -> tuple[Array, Codes]:

@@ -201,7 +201,7 @@ def _wide_enough(
     grid: marks_grid.Grid, machine: marks_grid.PlainMachine, settings: MachineSettings
 ) -> float | None:
     """Return the least margin [mm], in tens, with which the sled can go all the way."""
-    if grid.places or grid.is_benchmark:
+    if grid.places:
         return None
     for tens in range(int(grid.margin / 10) + 1, WIDEST // 10):
         wider = grid._replace(margin=10.0 * tens)

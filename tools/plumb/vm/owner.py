@@ -27,11 +27,7 @@ from plumb.vm.garage import Garage, set_up, with_new_sheet
 from plumb.vm.tape import Tape
 
 # The number by which the lab knows friction: of the effect that drags a sled.
-FRICTION_NAME = next(
-    f"{effect.name}.{effect.parameters[0].name}"
-    for effect in LAB_EFFECTS
-    if effect.hidden_as == "drag"
-)
+FRICTION_NAME = next(each.parameter for each in LAB_EFFECTS if each.hidden_as == "drag")
 
 
 class VirtualOwner:

@@ -27,7 +27,6 @@ def test_places_are_cut_in_their_order_and_nothing_else(capsys):
     [
         (["--places=0,0 0,700"], "mark 2 at x 0.0 y 660.0 is outside the sheet"),
         (["--places=0,0", "--margin", "3"], "--margin is of marks in columns and rows"),
-        (["--preset", "benchmark", "--margin", "3"], "--margin is of marks in columns and rows"),
     ],
 )
 def test_places_that_cannot_be_are_refused(words, hint, capsys):
