@@ -85,17 +85,6 @@ class PlainMachine(NamedTuple):
     sled_weight_n: float = 97.9
 
 
-# Name, section and key of groundcontrol.ini.
-MACHINE_KEYS = (
-    ("sheet_width", "Maslow Settings", "bedWidth"),
-    ("sheet_height", "Maslow Settings", "bedHeight"),
-    ("motor_spacing", "Maslow Settings", "motorSpacingX"),
-    ("motor_offset", "Maslow Settings", "motorOffsetY"),
-    ("rotation_radius", "Advanced Settings", "rotationRadius"),
-    ("sled_weight_n", "Maslow Settings", "sledWeight"),
-)
-
-
 def pair(text: str) -> tuple[float, float]:
     """Two lengths [mm] with a comma between them."""
     across, up = map(typed_length, text.split(","))

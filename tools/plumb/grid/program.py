@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-import configparser
-import json
-
 from plumb.grid.options import APPROACH, PLUNGE_FEED, UNITS, Grid, PlainMachine
 from plumb.grid.pattern import (
     check,
@@ -93,23 +90,3 @@ def marks_list(
     for first, second in spans:
         lines.append(f'\n# [[distance]]\n# between = ["{first}", "{second}"]\n# {units} =')
     return "\n".join([*lines, ""])
-
-
-# The settings of WebControl as the sections, keys and values of a groundcontrol.ini.
-
-
-def is_webcontrol(text: str) -> bool:
-    """Return whether this may be a webcontrol.json."""
-    return text.lstrip().startswith("{")
-
-
-def as_ini(text: str) -> configparser.RawConfigParser:
-    """Return the values of a webcontrol.json; a ValueError if it is none."""
-    parser = configparser.RawConfigParser(strict=False)
-    document = json.loads(text)
-    for section, options in document.items():
-        if not isinstance(options, list):
-            raise ValueError("a section of WebControl is a list")
-        said = {str(each["key"]): str(each["value"]) for each in options if "value" in each}
-        parser.read_dict({section: said})
-    return parser

@@ -1,6 +1,5 @@
 """The command line: answers, exit codes, and one clear line for whatever cannot be used."""
 
-import plumb.grid as grids
 import pytest
 from plumb.model.catalogue import effect_names
 from plumb.settings.toml import write_machine_toml
@@ -72,9 +71,7 @@ def test_effects_names_every_effect_with_its_look_alikes(run):
     assert said.count("looks like") == len(effect_names())
 
 
-def test_grid_is_the_tool_beside_the_package(run, ask, tmp_path, capsys):
-    assert grids.main(["--preset", "nine"]) == 0
-    assert capsys.readouterr().out == run("grid", "--preset", "nine")[1]
+def test_grid_writes_a_program_with_its_marks(ask, tmp_path):
     program = tmp_path / "grid.nc"
     code, answer = ask("grid", "--preset", "nine", "--output", program)
     assert code == 0 and answer["written"] == [str(program)] and answer["program"] is None

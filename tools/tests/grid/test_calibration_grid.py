@@ -1,4 +1,4 @@
-"""Tests of tools/calibration_grid.py: its programs are run by a small interpreter."""
+"""The programs of `plumb grid`, run by a small interpreter."""
 
 import math
 import re
@@ -21,16 +21,6 @@ CHOICES = [
     {"places": ((-900.0, 400.0), (12.3, -400.0)), "repeats": False},
 ]
 GRIDS = [options for options in CHOICES if "places" not in options]
-INI = """[Maslow Settings]
-bedwidth = 2000
-bedHeight = 1000
-MOTORSPACINGX = 3000
-motorOffsetY = 500
-comment = 100 %(odd)s
-
-[Advanced Settings]
-rotationRadius = 140
-"""
 
 
 def gcode(machine=None, **options):
@@ -62,15 +52,6 @@ def moves(text):
 
 def plunges(text):
     return [move for move in moves(text) if move.end[2] < 0]
-
-
-def run(arguments, capsys):
-    """Exit code, standard output and standard error of one call."""
-    try:
-        code = grids.main(arguments)
-    except SystemExit as stop:
-        code = stop.code
-    return code, *capsys.readouterr()
 
 
 def lands_at(move, x, y):
@@ -221,9 +202,9 @@ def test_the_way_between_two_corners_is_checked_too():
 
 
 @pytest.mark.parametrize("words, hint", REFUSALS)
-def test_a_bad_request_gets_one_line_exit_code_2_and_no_file(words, hint, tmp_path, capsys):
-    files = ["--output", str(tmp_path / "grid.nc"), "--marks", str(tmp_path / "marks.toml")]
-    code, said, complaint = run([*words.split(), *files], capsys)
+def test_a_bad_request_gets_one_line_exit_code_2_and_no_file(words, hint, tmp_path, run):
+    files = ["--output", tmp_path / "grid.nc", "--marks", tmp_path / "marks.toml"]
+    code, said, complaint = run("grid", *words.split(), *files)
     assert code == 2
     assert said == ""
     assert complaint.count("\n") == 1 and complaint.endswith("\n")
@@ -231,30 +212,13 @@ def test_a_bad_request_gets_one_line_exit_code_2_and_no_file(words, hint, tmp_pa
     assert list(tmp_path.iterdir()) == []
 
 
-def test_readings_already_written_are_never_overwritten(tmp_path, capsys):
+def test_readings_already_written_are_never_overwritten(tmp_path, run):
     readings = tmp_path / "marks.toml"
     readings.write_text("an hour's work")
-    code, _, complaint = run(["--marks", str(readings), "--output", str(tmp_path / "g.nc")], capsys)
+    code, _, complaint = run("grid", "--marks", readings, "--output", tmp_path / "g.nc")
     assert code == 2 and "exists" in complaint
     assert readings.read_text() == "an hour's work"
     assert list(tmp_path.iterdir()) == [readings]
-
-
-@pytest.mark.parametrize(
-    "old, new, hint",
-    [
-        ("bedwidth = 2000\n", "", "bedWidth"),
-        ("= 500", "= high", "motorOffsetY"),
-        ("[Advanced Settings]", "[Other]", "rotationRadius"),
-        ("2000", "\xff", "groundcontrol.ini"),
-    ],
-)
-def test_unusable_settings_are_named_with_their_file_and_key(old, new, hint, tmp_path, capsys):
-    path = tmp_path / "groundcontrol.ini"
-    path.write_text(INI.replace(old, new), encoding="latin-1")
-    code, said, complaint = run(["--settings", str(path)], capsys)
-    assert code == 2 and said == "" and complaint.count("\n") == 1
-    assert hint in complaint and str(path) in complaint
 
 
 def test_the_list_of_marks_holds_every_target_and_approach_in_the_sheet_frame():
