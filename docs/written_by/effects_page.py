@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from fields import Picture, drawing
 from fingerprints import (
     COLUMNS,
     FRAME_STEPS,
@@ -18,7 +19,6 @@ from fingerprints import (
 )
 from plumb.fit.observations import rms
 from plumb.model.catalogue import NO_FIRMWARE, empirical_effects, every_effect
-from plumb.pictures.fingerprints import Picture, drawing
 from template import filled
 
 PAGE = "docs/effects.md"

@@ -17,7 +17,6 @@ from plumb.model.catalogue import (
     every_effect,
     is_felt_by_approach,
     is_lab,
-    is_sketch,
     parameter_words,
 )
 from plumb.model.predict import FOUND, frame_words, library, values_of
@@ -120,7 +119,7 @@ def _machines(case: Showing) -> tuple[MachineSettings, MachineSettings, dict[str
         effect, _, parameter = name.rpartition(".")
         if not effect:
             true = replace(true, **{name: getattr(true, name) + value})
-        elif is_lab(effect) or is_sketch(effect):
+        elif is_lab(effect):
             outside[name] = value
         elif effect in EVERY_MACHINE:
             others = {name: sizes for name, sizes in believed.effects.items() if name != effect}

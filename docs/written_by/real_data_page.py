@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import numpy as np
+from fields import Picture, drawing
 from plumb.cure.add import Addition, Parameter
 from plumb.fit.compare import best_pose
 from plumb.fit.observations import rms
-from plumb.pictures.fingerprints import Picture, drawing
 from real_sets import (
     BRACKETS,
     CUTS,

@@ -91,7 +91,7 @@ nb::tuple slopes(const Values& values, bool over_top, const Pairs& points) {
   return nb::make_tuple(setting_slopes, place_slopes, founds);
 }
 
-/// Numbers of the strands that sketches of new effects may read: each (n, 2), left and right.
+/// Numbers of the strands against which errors are drawn: each (n, 2), left and right.
 nb::dict strands(const Values& values, bool over_top, const Pairs& points) {
   const Machine<double> machine = machineOf(numbers<double>(values), over_top);
   static const struct {
@@ -152,23 +152,6 @@ nb::dict reachLimits() {
   return result;
 }
 
-/// Chain paid out (n, 2) [mm] for places (n, 2) [mm] of a sled under a push (n, 2) [N].
-nb::tuple pushedLengths(const Values& values, bool over_top, const Pairs& points,
-                        const Pairs& pushes) {
-  const Machine<double> machine = machineOf(numbers<double>(values), over_top);
-  if (pushes.shape(0) != points.shape(0)) throw nb::value_error("each place needs its push");
-  const double weight = machine.frame.sled_weight;
-  return answersTo(points, [&](size_t i, double& left, double& right) {
-    const Hanging<double> hanging =
-        hangPushed(machine, Point<double>{points(i, 0), points(i, 1)},
-                   Point<double>{pushes(i, 0) / weight, pushes(i, 1) / weight});
-    const Chains<double> chains = paidOut(hanging);
-    left = chains.left;
-    right = chains.right;
-    return hanging.found;
-  });
-}
-
 }  // namespace
 
 NB_MODULE(_core, module) {
@@ -180,9 +163,6 @@ NB_MODULE(_core, module) {
              "Places (n, 2) [mm] for chains (n, 2) [mm], and found (n,): 0 is yes.");
   module.def("slopes", &slopes, nb::arg("values"), nb::arg("over_top"), nb::arg("points"),
              "Exact slopes of lengths by setting (n, 2, m), by place (n, 2, 2), found (n,).");
-  module.def("pushed_lengths", &pushedLengths, nb::arg("values"), nb::arg("over_top"),
-             nb::arg("points"), nb::arg("pushes"),
-             "Chain paid out (n, 2) [mm] under pushes (n, 2) [N] on the sled, and found (n,).");
   module.def("strands", &strands, nb::arg("values"), nb::arg("over_top"), nb::arg("points"),
              "Each strand's free length, direction, tension, straight and extra chain, (n, 2).");
   const ReachLimits<double> usual;

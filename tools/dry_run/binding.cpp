@@ -62,6 +62,8 @@ class DryRun {
     return nb::ndarray<nb::numpy, double>(data, {count, size_t(kColumnCount)}, owner);
   }
 
+  size_t forgetEnded() { return stage_.forgetEnded(); }
+
   /// The modes that the next line is read with.
   std::map<std::string, double> modes() const {
     const gcode::Modal& modal = stage_.machine().modal();
@@ -94,28 +96,47 @@ class DryRun {
 
 using Numbers = nb::ndarray<const double, nb::ndim<2>, nb::c_contig, nb::device::cpu>;
 using Map = nb::ndarray<nb::numpy, float>;
+using Depths = nb::ndarray<nb::numpy, double>;
 
-/// Leads a bit along places: x, y, z, its radius and its slope in each row; without a radius it is
-/// put there. Returns the heights that it leaves, and how deep it met wood on the way to each
-/// place.
-std::pair<Map, std::vector<double>> takeWood(std::pair<double, double> corner,
-                                             std::pair<size_t, size_t> shape, double cell,
-                                             double graze, Numbers places) {
-  dry_run::Wood wood(corner.first, corner.second, shape.second, shape.first, cell);
-  std::vector<double> met(places.shape(0), 0.0);
-  const double* row = places.data();
-  for (size_t i = 1; i < met.size(); ++i) {
-    const double* const next = row + places.shape(1);
-    if (next[3] > 0)
-      met[i] = wood.take({row[0], row[1], row[2]}, {next[0], next[1], next[2]}, {next[3], next[4]},
-                         graze);
-    row = next;
+/// A bit on its way through the wood of a sheet.
+class Cutting {
+ public:
+  Cutting(std::pair<double, double> corner, std::pair<size_t, size_t> shape, double cell,
+          double graze)
+      : wood_(corner.first, corner.second, shape.second, shape.first, cell),
+        rows_(shape.first),
+        columns_(shape.second),
+        graze_(graze) {}
+
+  /// Leads it along places: x, y, z, its radius and its slope in each row; without a radius it is
+  /// put there. Returns how deep it met wood on the way to each place.
+  Depths take(Numbers places) {
+    const size_t count = places.shape(0);
+    double* const met = new double[count]();
+    nb::capsule owner(met, [](void* p) noexcept { delete[] static_cast<double*>(p); });
+    const double* row = places.data();
+    for (size_t i = 1; i < count; ++i) {
+      const double* const next = row + places.shape(1);
+      if (next[3] > 0)
+        met[i] = wood_.take({row[0], row[1], row[2]}, {next[0], next[1], next[2]},
+                            {next[3], next[4]}, graze_);
+      row = next;
+    }
+    return Depths(met, {count}, owner);
   }
-  float* const data = new float[wood.heights().size()];
-  std::copy(wood.heights().begin(), wood.heights().end(), data);
-  nb::capsule owner(data, [](void* p) noexcept { delete[] static_cast<float*>(p); });
-  return {Map(data, {shape.first, shape.second}, owner), met};
-}
+
+  Map heights() const {
+    float* const data = new float[wood_.heights().size()];
+    std::copy(wood_.heights().begin(), wood_.heights().end(), data);
+    nb::capsule owner(data, [](void* p) noexcept { delete[] static_cast<float*>(p); });
+    return Map(data, {rows_, columns_}, owner);
+  }
+
+ private:
+  dry_run::Wood wood_;
+  size_t rows_, columns_;
+  double graze_;
+};
 
 using Words = std::map<std::string, double>;
 
@@ -151,6 +172,8 @@ NB_MODULE(_dry_run, module) {
       .def("drain", &DryRun::drain, nb::call_guard<nb::gil_scoped_release>(),
            "Lets the queued moves end.")
       .def("moves", &DryRun::moves, "The moves so far, a row each; COLUMNS names the numbers.")
+      .def("forget_ended", &DryRun::forgetEnded,
+           "Forgets the first moves, which have ended, and returns how many they were.")
       .def("said", &DryRun::said, "What the machine said: line, text.")
       .def("modes", &DryRun::modes, "The modes that the next line is read with.")
       .def("place", &DryRun::place, "Where the queue ends for the program: x, y, z [mm].")
@@ -158,9 +181,12 @@ NB_MODULE(_dry_run, module) {
       .def_prop_ro("seconds", &DryRun::seconds, "Since power-on.")
       .def_prop_ro("answered", &DryRun::answered, "How many lines were answered.")
       .def_prop_ro("is_halted", &DryRun::isHalted, "Whether an alarm stopped it.");
-  module.def("take_wood", &takeWood, arg("corner"), arg("shape"), arg("cell"), arg("graze"),
-             arg("places"),
-             "Heights (rows, columns) of the wood behind a bit, and how deep it met wood [mm].");
+  nb::class_<Cutting>(module, "Cutting", "A bit on its way through the wood of a sheet.")
+      .def(nb::init<std::pair<double, double>, std::pair<size_t, size_t>, double, double>(),
+           arg("corner"), arg("shape"), arg("cell"), arg("graze"))
+      .def("take", &Cutting::take, arg("places"),
+           "Leads it along places; how deep it met wood on the way to each [mm].")
+      .def("heights", &Cutting::heights, "Heights (rows, columns) of the wood behind it [mm].");
   module.def("pieces", &pieces, arg("line"),
              "A line as the firmware cuts it: letter, code, words; nothing where it halts.");
 }

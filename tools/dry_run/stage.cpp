@@ -116,6 +116,13 @@ void Stage::noteEnded() {
   for (; waiting_ > count; --waiting_) moves_[ended_++].ends = at;
 }
 
+size_t Stage::forgetEnded() {
+  const size_t count = ended_;
+  moves_.erase(moves_.begin(), moves_.begin() + long(count));
+  ended_ = 0;
+  return count;
+}
+
 void Stage::idle() {
   noteEnded();
   const bool is_busy = whole_lines_ > 0 && answered_ == answered_at_rest_;

@@ -44,6 +44,8 @@ class Stage : private machine::Wire,
 
   const machine::Machine& machine() const { return machine_; }
   const std::vector<Queued>& moves() const { return moves_; }
+  /// Forgets the moves whose set-points are all out; how many they were.
+  size_t forgetEnded();
   const std::vector<Said>& said() const { return said_; }
   double seconds() const { return 1e-3 * double(now_ms_); }
   /// How many lines were answered.

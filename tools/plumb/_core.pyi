@@ -6,7 +6,7 @@ from typing import TypedDict
 import numpy as np
 from numpy.typing import NDArray
 
-from plumb.model.python_effect import EffectWords
+from plumb.model.effect_words import EffectWords
 
 Numbers = NDArray[np.float64]
 Answers = NDArray[np.uint8]
@@ -52,9 +52,6 @@ def lengths(
     values: Numbers, over_top: bool, points: Numbers, float32: bool = False
 ) -> tuple[Numbers, Answers]: ...
 def places(values: Numbers, over_top: bool, chains: Numbers) -> tuple[Numbers, Answers]: ...
-def pushed_lengths(
-    values: Numbers, over_top: bool, points: Numbers, pushes: Numbers
-) -> tuple[Numbers, Answers]: ...
 def judged(values: Numbers, over_top: bool) -> dict[str, float]: ...
 def usual(values: Numbers, over_top: bool) -> dict[str, float]: ...
 def slopes(

@@ -312,13 +312,6 @@ Hanging<Real> hang(const Machine<Real>& machine, Point<Real> bit, bool directed)
 }
 
 template <class Real>
-Hanging<Real> hangPushed(const Machine<Real>& machine, Point<Real> bit, Point<Real> push) {
-  const Point<Real> effects = pushAt(machine, bit);
-  const Point<Real> all = {push.x + effects.x, push.y + effects.y};
-  return hangUnder(machine, bit, true, all);
-}
-
-template <class Real>
 PaidOut<Real> inverse(const Machine<Real>& machine, Point<Real> bit) {
   const Hanging<Real> hanging = hang(machine, bit, false);
   const Chains<Real> chains = paidOut(hanging);
@@ -364,7 +357,6 @@ template Place<float> forward(const Machine<float>&, Chains<float>, Point<float>
 // The lab's instance; the linker drops it from the board, where nobody calls it.
 template Machine<double> prepare(const Frame<double>&, const EffectParams<double>&);
 template Hanging<double> hang(const Machine<double>&, Point<double>, bool);
-template Hanging<double> hangPushed(const Machine<double>&, Point<double>, Point<double>);
 template PaidOut<double> inverse(const Machine<double>&, Point<double>);
 template Place<double> forward(const Machine<double>&, Chains<double>);
 template Place<double> forward(const Machine<double>&, Chains<double>, Point<double>);

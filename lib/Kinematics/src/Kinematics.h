@@ -46,11 +46,6 @@ Machine<Real> prepare(const Frame<Real>& frame, const EffectParams<Real>& effect
 template <class Real>
 Hanging<Real> hang(const Machine<Real>& machine, Point<Real> bit, bool directed);
 
-/// Both strands under a push [1] on the sled, in sled weights: x right, y up. For host tools only:
-/// the board knows no pushes but those of its effects.
-template <class Real>
-Hanging<Real> hangPushed(const Machine<Real>& machine, Point<Real> bit, Point<Real> push);
-
 /// Chain of both strands [mm] from 12 o'clock.
 template <class Real>
 Chains<Real> paidOut(const Hanging<Real>& hanging) {

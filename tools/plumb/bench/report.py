@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-import json
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
-from dataclasses import asdict, dataclass
-from pathlib import Path
-from typing import Annotated, Any
+from dataclasses import dataclass
+from typing import Annotated
 
 import joblib  # type: ignore[import-untyped]  # it brings no types
 import numpy as np
@@ -18,10 +16,6 @@ from plumb.text.answers import Number, key
 from plumb.text.errors import InputError
 
 Progress = Callable[[str], None]  # called with the kind of each board that is done
-Boards = dict[tuple[str, int], JudgedBoard]
-SURE = 2.0  # standard errors by which a rate must change to be called another
-LEAST = 1e-3
-CPU = "cpu"  # no rate of the diagnosis: it hangs on the computer too
 AT_ONCE = 4  # boards of a kind that a process takes
 
 
@@ -33,7 +27,6 @@ class Wanted:
     boards: int  # of each kind
     marks: int
     seed: int
-    rounds: int = 0  # of what `plumb next` proposes
 
 
 @dataclass(frozen=True)
@@ -57,26 +50,12 @@ class Row:
 
 
 @dataclass(frozen=True)
-class Change:
-    """A rate that is not as it was on the same boards, by more than chance."""
-
-    kind: str
-    rate: str
-    boards: int
-    was: float
-    now: float
-    error: float  # standard error of the difference
-
-
-@dataclass(frozen=True)
 class Report:
     """All rates, and how to draw the same boards again."""
 
     rows: tuple[Row, ...]
     marks: int
     seed: int
-    rounds: int
-    changes: tuple[Change, ...] = ()  # against boards that were played before
     interrupted: bool = False
 
 
@@ -88,55 +67,38 @@ def play(
     *,
     progress: Progress = lambda kind: None,
     jobs: int = 1,
-    file: Path | None = None,
-    against: Path | None = None,
     cluster: str = "",
 ) -> Report:
     """Play all boards, in `jobs` programs at once or on a Dask cluster, and count.
 
-    Boards that `file` has are not played again; it gets those that are. `against` has the same
-    boards as they were judged before. An interruption keeps what is done; with nothing done it goes
-    on up.
+    An interruption keeps what is done; with nothing done it goes on up.
     """
-    if against and not against.exists():
-        raise InputError(against, "there is no such file")
-    old, done = _saved(against, wanted), _saved(file, wanted)
     tasks = [
-        (kind, [index for index in some if (kind, index) not in done])
+        (kind, some)
         for some in np.array_split(np.arange(wanted.boards), -(-wanted.boards // AT_ONCE))
         for kind in wanted.kinds
     ]
+    done: dict[str, list[JudgedBoard]] = {kind: [] for kind in wanted.kinds}
     interrupted = False
     try:
         with _handed_out(cluster):
             parallel = joblib.Parallel(n_jobs=-1 if cluster else jobs, return_as="generator")
             played = parallel(
-                joblib.delayed(_some)(kind, [int(index) for index in some], wanted)
-                for kind, some in tasks
-                if len(some)
+                joblib.delayed(_some)(kind, some.tolist(), wanted) for kind, some in tasks
             )
             for judged in (each for several in played for each in several):
-                done[judged.kind, judged.index] = judged
-                _save(file, wanted, judged)
+                done[judged.kind].append(judged)
                 progress(judged.kind)
     except KeyboardInterrupt:
         interrupted = True
-        if not done:
+        if not any(done.values()):
             raise
-    begun = {kind: [done[each] for each in done if each[0] == kind] for kind in wanted.kinds}
-    return Report(
-        tuple(row_of(kind, boards) for kind, boards in begun.items() if boards),
-        wanted.marks,
-        wanted.seed,
-        wanted.rounds,
-        tuple(each for kind in wanted.kinds for each in _changes(kind, old, done)),
-        interrupted,
-    )
+    rows = tuple(row_of(kind, boards) for kind, boards in done.items() if boards)
+    return Report(rows, wanted.marks, wanted.seed, interrupted)
 
 
 def _some(kind: str, indices: Sequence[int], wanted: Wanted) -> list[JudgedBoard]:
-    how = {"marks": wanted.marks, "seed": wanted.seed, "rounds": wanted.rounds}
-    return [judge_board(kind, index, **how) for index in indices]
+    return [judge_board(kind, each, marks=wanted.marks, seed=wanted.seed) for each in indices]
 
 
 @contextmanager
@@ -163,48 +125,3 @@ def row_of(kind: str, boards: Sequence[JudgedBoard]) -> Row:
     """Return the rates of a kind."""
     means = {name: float(np.mean([getattr(each, name) for each in boards])) for name in RATES}
     return Row(kind, KINDS[kind].what, len(boards), **means)
-
-
-def _changes(kind: str, old: Boards, new: Boards) -> Iterator[Change]:
-    """Yield what changed on boards of a kind that were played twice."""
-    both = [(old[each], new[each]) for each in new if each[0] == kind and each in old]
-    for rate in RATES:
-        pairs = np.array([[getattr(board, rate) for board in pair] for pair in both], dtype=float)
-        if rate == CPU or not len(pairs):
-            continue
-        apart = pairs[:, 1] - pairs[:, 0]
-        error = float(np.std(apart)) / np.sqrt(len(apart))
-        if abs(np.mean(apart)) > max(SURE * error, LEAST):
-            was, now = np.mean(pairs, axis=0).tolist()
-            yield Change(kind, rate, len(pairs), was, now, error)
-
-
-# Boards in a file: a line of JSON each, with what they were drawn from.
-
-
-def _drawn_from(wanted: Wanted) -> dict[str, int]:
-    return {"marks": wanted.marks, "seed": wanted.seed, "rounds": wanted.rounds}
-
-
-def _saved(file: Path | None, wanted: Wanted) -> Boards:
-    """Return the boards of a file that are wanted."""
-    boards: Boards = {}
-    if not file or not file.exists():
-        return boards
-    for number, line in enumerate(file.read_text("utf-8").splitlines(), 1):
-        try:
-            words: Mapping[str, Any] = json.loads(line)
-            drawn_from = {name: words[name] for name in _drawn_from(wanted)}
-            board = JudgedBoard(**{name: words[name] for name in words if name not in drawn_from})
-        except (ValueError, KeyError, TypeError):
-            raise InputError(file, f"line {number} is no board of the bench") from None
-        is_wanted = board.kind in wanted.kinds and board.index < wanted.boards
-        if is_wanted and drawn_from == _drawn_from(wanted):
-            boards[board.kind, board.index] = board
-    return boards
-
-
-def _save(file: Path | None, wanted: Wanted, board: JudgedBoard) -> None:
-    if file:
-        with file.open("a", encoding="utf-8") as out:
-            out.write(json.dumps({**_drawn_from(wanted), **asdict(board)}) + "\n")

@@ -51,7 +51,6 @@ from plumb.firmware.client_files import ClientFiles
 from plumb.fit.compare import Comparison
 from plumb.fit.covariates import PATCH
 from plumb.fit.inputs import Inputs
-from plumb.model.catalogue import is_sketch
 from plumb.model.plain import noun_of
 from plumb.pictures.drawing import Panel, draw
 from plumb.text.errors import InputError
@@ -190,7 +189,6 @@ def written(
     wanted: Wanted, inputs: Inputs, result: Addition
 ) -> tuple[list[str], ClientFiles | None]:
     """Write the files; their names, and what belongs to the client."""
-    _refuse_sketches(wanted, result)
     client = client_files_of(
         wanted.client,
         wanted.original,
@@ -211,16 +209,6 @@ def written(
         )
         say_failure(keep(wanted.output, FIT, entry))
     return list(files), client
-
-
-def _refuse_sketches(wanted: Wanted, result: Addition) -> None:
-    """Refuse to write settings without a sketch that was fitted with them."""
-    for name in filter(is_sketch, result.after_fit.lab_effects):
-        if wanted.output:
-            raise InputError(
-                f"-o {wanted.output}: {name} is a sketch, which no firmware has; write it in "
-                "C++ first (docs/new-effect.md), or leave -o away to look at the fit"
-            )
 
 
 def _print_written(
@@ -293,9 +281,8 @@ def stairs_of(result: Addition, *, raw: Comparison | None = None) -> list[Panel]
     as_set = raw or result.raw
     fits = [("Frame fitted", result.before_fit)]
     fits += [(f"+ {_noun(step.effect)}", step.fit) for step in result.by_effect]
-    names = tuple(mark.name for mark in result.raw.marks)
     fitted = [
-        Panel(stair_title(title, fit.rms), fit.predicted, fit.errors, good=True, names=names)
+        Panel(stair_title(title, fit.rms), fit.predicted, fit.errors, good=True)
         for title, fit in fits
     ]
     return [replace(panel_of(as_set), title=stair_title("As set", as_set.rms)), *fitted]

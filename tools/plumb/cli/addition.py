@@ -106,8 +106,7 @@ def addition_text(
     result: Addition, notes: Sequence[Note], *, asked_patch: bool = False
 ) -> list[str]:
     """Return all of the addition but its verdict."""
-    parts = [_benchmark_sentence(result)] if result.benchmark_after else []
-    parts += [quality_table(result), parameter_table(result)]
+    parts = [quality_table(result), parameter_table(result)]
     parts.append(sentences([f"{COLUMNS} {result.intervals_said}"], mark=""))
     said = [note.text for note in notes]
     if PATCH in result.effects_added:
@@ -115,15 +114,6 @@ def addition_text(
     elif asked_patch:
         said.append("a residual patch would predict marks not used no better, so none was added")
     return [*parts, sentences(said)] if said else parts
-
-
-def _benchmark_sentence(result: Addition) -> str:
-    """Return the community's score before, and what to expect of the next cut."""
-    said = (
-        f"Calibration Benchmark Score: {result.raw.benchmark} as cut; {result.benchmark_after} to "
-        "expect when it is cut again with the new settings, if nothing else changes."
-    )
-    return sentences([said], mark="")
 
 
 def quality_table(result: Addition) -> str:

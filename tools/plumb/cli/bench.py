@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Callable, Sequence
-from pathlib import Path
 
 from plumb.bench.kinds import GRIDS, KINDS
-from plumb.bench.report import Change, Report, Row, Wanted, play
+from plumb.bench.report import Report, Row, Wanted, play
 from plumb.cli.arguments import add_json, count
 from plumb.cli.output import INTERRUPTED
 from plumb.cli.screen import Bar, print_json, sentences, table
@@ -16,23 +15,12 @@ from plumb.text.errors import InputError
 
 def run(arguments: argparse.Namespace) -> int:
     """Run the bench, print its table, and return the exit code."""
-    if arguments.list:
-        print(
-            table(
-                ("kind", "what is hidden"),
-                [[each.name, each.what] for each in KINDS.values()],
-                words=[-1],
-            )
-        )
-        return 0
     kinds = chosen_of(arguments.kinds)
-    wanted = Wanted(kinds, arguments.boards, arguments.marks, arguments.seed, arguments.rounds)
+    wanted = Wanted(kinds, arguments.boards, arguments.marks, arguments.seed)
     report = play(
         wanted,
         progress=counted(len(kinds) * wanted.boards),
         jobs=arguments.jobs,
-        file=arguments.save,
-        against=arguments.against,
         cluster=arguments.cluster,
     )
     if arguments.json:
@@ -47,7 +35,7 @@ def chosen_of(beginnings: Sequence[str]) -> tuple[str, ...]:
     names = {name: (name, name.partition("/")[2]) for name in KINDS}
     for beginning in beginnings:
         if not any(each.startswith(beginning) for both in names.values() for each in both):
-            raise InputError(f"--kinds {beginning}: no kind begins so; --list prints them")
+            raise InputError(f"--kinds {beginning}: no kind begins so; they are {', '.join(KINDS)}")
     chosen = tuple(beginnings) or ("",)
     return tuple(
         name for name, both in names.items() if any(each.startswith(chosen) for each in both)
@@ -94,14 +82,11 @@ LEGEND = (
 
 def as_text(report: Report) -> str:
     """Return the table for people."""
-    rounds = f", after {report.rounds} rounds of what plumb next proposes" if report.rounds else ""
     parts = [
         table(HEADER, [cells(row) for row in report.rows], gap=1),
         sentences(LEGEND, mark=""),
-        sentences([f"Boards of {report.marks} marks, seed {report.seed}{rounds}."], mark=""),
+        sentences([f"Boards of {report.marks} marks, seed {report.seed}."], mark=""),
     ]
-    if report.changes:
-        parts.append(table(CHANGED, [changed(each) for each in report.changes]))
     if report.interrupted:
         parts.append("Interrupted: what is done is counted.")
     return "\n\n".join(parts)
@@ -119,21 +104,12 @@ def cells(row: Row) -> list[str]:
     return [*said, *lengths, worse, f"{row.cpu:.2f}"]
 
 
-CHANGED = ("kind", "rate", "n", "was", "now")
-
-
-def changed(change: Change) -> list[str]:
-    """Return the cells of a change."""
-    now = f"{change.now:.2f} +- {change.error:.2f}"
-    return [change.kind, change.rate, f"{change.boards}", f"{change.was:.2f}", now]
-
-
 # The arguments of `plumb bench`.
 
 BOARDS = 20  # of each kind
 EXAMPLES = (
     "plumb bench --kinds none one several --boards 8 --jobs 2",
-    "plumb bench --marks 9 --seed 7 --save boards.jsonl",
+    "plumb bench --marks 9 --seed 7",
 )
 EXIT = "Exit: 0 done, whatever the rates; 2 it cannot run; 130 interrupted, what is done is kept."
 
@@ -148,7 +124,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         default=[],
         help="only kinds whose names begin like this, with or without known/ or stock/",
     )
-    parser.add_argument("--list", action="store_true", help="print the kinds")
     parser.add_argument(
         "--boards", metavar="N", type=count, default=BOARDS, help=f"boards of each kind [{BOARDS}]"
     )
@@ -159,25 +134,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         type=int,
         default=1,
         help="draws the boards; the same seed, the same boards [1]",
-    )
-    parser.add_argument(
-        "--rounds",
-        metavar="N",
-        type=count,
-        default=0,
-        help="rounds in which what plumb next puts first is measured [0]",
-    )
-    parser.add_argument(
-        "--save",
-        metavar="FILE",
-        type=Path,
-        help="boards as lines of JSON; those that FILE has are not played again",
-    )
-    parser.add_argument(
-        "--against",
-        metavar="FILE",
-        type=Path,
-        help="the same boards as judged before: print what changed by more than chance",
     )
     parser.add_argument("--jobs", metavar="N", type=count, default=1, help="processes at once [1]")
     parser.add_argument(

@@ -42,7 +42,7 @@ from plumb.job.findings import HALTS, IGNORED, SINKS, WAITS, Finding, Hanging, S
 from plumb.job.fixes import Change, fixed, has_habit
 from plumb.job.resume import Machine
 from plumb.job.wood import Piece
-from plumb.model.predict import CANNOT_HANG, REACH_WORDS, USABLE
+from plumb.model.predict import CANNOT_HANG, REACH_WORDS
 from plumb.pictures.drawing import BAD as WRONG
 from plumb.pictures.drawing import GOOD as CUT
 from plumb.pictures.drawing import NOWHERE, QUIET, Corners, Panel, Spot, Ways, draw, shades_of
@@ -103,8 +103,7 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.picture:
         files[arguments.picture] = _picture(checked, settings, arguments.job, form=form)
     if arguments.outline:
-        over_sheet = checked.done.moves.only(checked.done.moves.over_sheet)
-        outline = outline_of(over_sheet, checked.samples, name=Path(arguments.job).name)
+        outline = outline_of(checked.over_sheet, checked.samples, name=Path(arguments.job).name)
         files[arguments.outline] = outline.encode()
     write_outputs(files, inputs=[arguments.job, arguments.settings, *arguments.marks])
     if arguments.json:
@@ -152,14 +151,13 @@ def _picture(checked: Checked, settings: MachineSettings, name: str, *, form: st
 
 def sheet_of(checked: Checked, settings: MachineSettings, name: str) -> Panel:
     """Return the sheet with the job: its ways by their kind, its parts by number, its depth."""
-    moves, samples, piece = checked.done.moves, checked.samples, checked.piece
-    over_sheet = moves.only(moves.over_sheet)
+    over_sheet, samples, piece = checked.over_sheet, checked.samples, checked.piece
     ways = np.split(samples.places, np.flatnonzero(np.diff(samples.move)) + 1)
     spoiled = {line for finding in checked.findings if finding.is_wrong for line in finding.lines}
     bad = np.isin(over_sheet["line"], list(spoiled))
     if checked.hanging is not None:
         # Above the sheet the sled may pass where it could not cut.
-        passing = np.unique(samples.move[checked.hanging.verdict != USABLE])
+        passing = checked.hanging.unusable
         bad[passing] |= over_sheet.cut[passing]
     kinds = np.where(bad, "bad", np.where(over_sheet.cut, "cut", "rapid"))
     of = {
@@ -193,8 +191,8 @@ POINT, LEAST, FREE = 0.1, 20.0, 0.08  # [mm] of a way, of wood from near; of the
 
 def near_view(checked: Checked) -> Corners:
     """Return what of the sheet is shown from near: the job with a little around it."""
-    moves, piece = checked.done.moves, checked.piece
-    cut = checked.samples.places[moves.only(moves.over_sheet).cut[checked.samples.move]]
+    piece = checked.piece
+    cut = checked.samples.places[checked.over_sheet.cut[checked.samples.move]]
     places = np.vstack([cut if len(cut) else np.zeros((1, 2)), piece.corners if piece else cut])
     low, high = places.min(axis=0), places.max(axis=0)
     half = np.maximum((high - low) / 2 * (1 + 2 * FREE), LEAST / 2)

@@ -13,12 +13,10 @@ from plumb.cli.arguments import (
     add_marks,
     add_picture,
     add_units,
-    length,
 )
 from plumb.cli.inputs import inputs_of, picture_form
 from plumb.cli.output import write_outputs
 from plumb.cli.screen import (
-    BAD,
     GOOD,
     OPEN,
     about,
@@ -32,7 +30,6 @@ from plumb.cli.screen import (
 from plumb.fit.compare import ComparedDistance, ComparedMark, Comparison, compare
 from plumb.fit.inputs import Inputs
 from plumb.fit.problem import USUAL_SIGMA
-from plumb.marks.benchmark import Score
 from plumb.marks.model import Typed
 from plumb.model.plain import plain_size, ranked
 from plumb.pictures.drawing import Panel, draw
@@ -50,31 +47,27 @@ def run(arguments: argparse.Namespace) -> int:
     """Compare, print, and return the exit code."""
     inputs = inputs_of(arguments)
     comparison = compare(inputs)
-    if arguments.names and not arguments.picture:
-        raise InputError("--names is for the picture: add --picture")
     if arguments.picture:
         form = picture_form(arguments.picture)
         panels = [panel_of(comparison)]
-        drawn = draw(panels, sheet=inputs.settings.sheet, form=form, names=arguments.names)
+        drawn = draw(panels, sheet=inputs.settings.sheet, form=form)
         write_outputs({arguments.picture: drawn}, inputs=[arguments.settings, *arguments.marks])
     if arguments.json:
         print_json(comparison)
     else:
         facts = details(comparison, inputs) if arguments.details else worst_rows(comparison, inputs)
-        kind = kind_of(comparison, inputs, limit=arguments.limit)
+        kind = kind_of(comparison, inputs)
         verdict = headline(conclusion(comparison), kind)
         following = next_step("What is missing:", ["calibrate", *same_inputs(arguments)])
         print("\n\n".join([*facts, verdict, following]))
-    return int(arguments.limit is not None and comparison.rms > arguments.limit)
+    return 0
 
 
 NOISY = 1.5  # times the error of a reading, up to which an RMS may be reading alone
 
 
-def kind_of(comparison: Comparison, inputs: Inputs, *, limit: float | None) -> str:
-    """Return whether the RMS keeps the limit [mm], or else whether it may be reading alone."""
-    if limit is not None:
-        return BAD if comparison.rms > limit else GOOD
+def kind_of(comparison: Comparison, inputs: Inputs) -> str:
+    """Return whether the RMS may be reading alone."""
     sigma = inputs.stated.sigma if inputs.stated else USUAL_SIGMA
     read = sigma * np.sqrt(2.0) if comparison.marks else sigma
     return GOOD if comparison.rms <= NOISY * read else OPEN
@@ -91,7 +84,6 @@ def panel_of(
         predicted=np.array([mark.predicted for mark in comparison.marks]),
         errors=np.array([mark.error for mark in comparison.marks]),
         good=good,
-        names=tuple(mark.name for mark in comparison.marks),
     )
 
 
@@ -116,10 +108,7 @@ def worst_rows(comparison: Comparison, inputs: Inputs) -> list[str]:
     more = f" {left_out} more are off by less; --details shows them." if left_out else ""
     parts = [f"{rows}\n{sentences([f'{said}{more}'], mark='')}"]
     outside = outside_sentence(comparison.promised) if comparison.promised else ""
-    score = ""
-    if comparison.benchmark:
-        score = benchmark_sentence(comparison.benchmark, comparison.benchmark_left)
-    notes = [*filter(None, [score, outside]), *comparison.warnings][:NOTES]
+    notes = [*filter(None, [outside]), *comparison.warnings][:NOTES]
     return [*parts, sentences(notes)] if notes else parts
 
 
@@ -129,9 +118,6 @@ def details(comparison: Comparison, inputs: Inputs) -> list[str]:
     sheet_width, typed = inputs.settings.sheet_width, inputs.measurements.typed
     if comparison.promised:
         parts.append(sentences([promised_sentence(comparison.promised, sheet_width)], mark=""))
-    if comparison.benchmark:
-        score = benchmark_sentence(comparison.benchmark, comparison.benchmark_left)
-        parts.append(sentences([score], mark=""))
     if comparison.warnings:
         parts.append(sentences(comparison.warnings))
     if comparison.rounds:
@@ -202,15 +188,6 @@ def outside_sentence(record: FitRecord) -> str:
     return f"The error counts what the fit found: {'; '.join(sizes)}." if sizes else ""
 
 
-def benchmark_sentence(score: Score, left: Score | None) -> str:
-    """Return the community's score for people."""
-    part = "" if score.complete else " (of a part of its readings)"
-    return (
-        f"Calibration Benchmark Score{part}: {score} as cut (mean error of the long "
-        f"spans and of the 100 mm squares); these settings leave {left} open."
-    )
-
-
 def conclusion(comparison: Comparison) -> str:
     """Return how far off it is, in at most forty words."""
     if not comparison.marks:
@@ -257,22 +234,16 @@ def _rounds_table(comparison: Comparison) -> str:
 
 EXAMPLES = (
     "plumb compare groundcontrol.ini marks.toml",
-    "plumb compare groundcontrol.ini marks.toml --picture errors.png --names",
+    "plumb compare groundcontrol.ini marks.toml --picture errors.png",
 )
-EXIT = "Exit: 0 done; 1 the RMS is above --limit; 2 an input cannot be used."
+EXIT = "Exit: 0 done; 2 an input cannot be used."
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the arguments of `plumb compare`."""
     add_marks(parser)
-    parser.add_argument(
-        "--limit", metavar="MM", type=length, help="exit with code 1 if the RMS is above MM"
-    )
     add_units(parser)
     add_picture(parser, "draw the errors")
-    parser.add_argument(
-        "--names", action="store_true", help="write the marks' names into the picture"
-    )
     add_details(parser, "every mark, the chains, and how the sheet would have to move")
     add_force(parser)
     add_json(parser)

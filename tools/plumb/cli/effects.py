@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from plumb.cli.arguments import add_json
 from plumb.cli.screen import next_step, number, print_json, sentences, table
 from plumb.model.catalogue import NO_FIRMWARE, empirical_effects, every_effect, label
-from plumb.model.python_effect import EffectWords
+from plumb.model.effect_words import EffectWords
 
 
 @dataclass(frozen=True)
@@ -31,11 +31,6 @@ def run(arguments: argparse.Namespace) -> int:
         f"then {count['lab']} of the lab, which act on what is measured: {NO_FIRMWARE}."
     )
     print(sentences([first], mark=""))
-    if count["sketch"]:
-        sketches = (
-            f"Last, sketches ({count['sketch']}), which no firmware has until they are in C++."
-        )
-        print(sentences([sketches], mark=""))
     for effect in effects:
         print(f"\n{label(effect['name'])}")
         for word, fact in (

@@ -3,28 +3,36 @@
 from __future__ import annotations
 
 import argparse
-import contextlib
-import io
-from collections.abc import Mapping
-from dataclasses import dataclass, replace
+import os
+from dataclasses import dataclass
 from typing import Annotated
 
-import plumb.grid as marks_grid
-from plumb.cli.arguments import add_json
+from plumb.cli.arguments import add_details, add_force, add_json
 from plumb.cli.output import refuse_twins, write_outputs
 from plumb.cli.screen import next_step, print_json, sentences, table
 from plumb.diagnosis.unseen import share_words
 from plumb.fit.inputs import settings_in
 from plumb.fit.problem import USUAL_SIGMA
-from plumb.grid.options import APPROACH
+from plumb.grid import (
+    PRESETS,
+    Grid,
+    GridError,
+    PlainMachine,
+    marks_list,
+    program,
+    spans_of,
+    touches_of,
+)
+from plumb.grid.cut_with import cut_with_lines, with_form
+from plumb.grid.options import APPROACH, NUMBERS, UNITS, demand, pairs
 from plumb.model.plain import noun_of, plain_before
-from plumb.model.reach import refuse_way, with_soft_chains
+from plumb.model.reach import plain_machine, refuse_way, with_soft_chains
 from plumb.pictures.grid_paper import grid_paper
 from plumb.plan.preview import POWER, Outline, Preview, as_read, preview
 from plumb.settings.machine import MachineSettings
 from plumb.text.answers import meant
 from plumb.text.errors import InputError
-from plumb.text.values import bare, unit, worded
+from plumb.text.values import bare, typed_length, unit, worded
 
 Point = tuple[float, float]
 
@@ -49,80 +57,104 @@ class PlannedGrid:
     details: Annotated[Preview | None, meant("What the marks could tell; null without --details.")]
 
 
+@dataclass(frozen=True)
+class _Planned:
+    """The marks that were asked for, and the machine that cuts them."""
+
+    grid: Grid
+    machine: PlainMachine
+    program: str
+
+
 def run(arguments: argparse.Namespace) -> int:
-    """Make the grid as the tool does, unless our model of the machine refuses a place."""
-    refuse_out_of_reach(arguments)
-    told = _could_tell(arguments) if arguments.details else None
-    if not arguments.json:
-        code = 0
-        if not told or arguments.output or arguments.marks or arguments.paper:
-            code = _made(arguments)
-        if code == 0 and told:
-            print(_told(told))
-        if code == 0 and arguments.output and arguments.marks:
-            words = f"Cut {arguments.output}, write what you measure into {arguments.marks}, then:"
-            measured = ["calibrate", arguments.settings or "groundcontrol.ini", arguments.marks]
-            print(next_step(words, measured))
-        return code
-    try:
-        marks_grid.program(*marks_grid.from_arguments(arguments))
-    except marks_grid.GridError as error:
-        raise InputError(str(error)) from None
-    said = io.StringIO()
-    with contextlib.redirect_stdout(said):
-        code = _made(arguments)
-    if code:
-        return code
-    grid, machine = marks_grid.from_arguments(arguments)
-    print_json(
-        PlannedGrid(
-            program=None if arguments.output else marks_grid.program(grid, machine),
-            marks=tuple(
-                PlannedTouch(mark.name, (mark.x, mark.y), mark.visit)
-                for mark in marks_grid.touches_of(grid, machine)
-            ),
-            approach=APPROACH,
-            written=tuple(filter(None, (arguments.output, arguments.marks, arguments.paper))),
-            details=told,
+    """Plan the grid, write what was asked for, print, and return the exit code."""
+    refuse_twins(arguments.output, arguments.marks, arguments.paper)
+    planned = _planned(arguments)
+    told = _could_tell(arguments, planned) if arguments.details else None
+    files = _files(arguments, planned)
+    write_outputs(files, inputs=[arguments.settings] if arguments.settings else [])
+    if arguments.json:
+        print_json(
+            PlannedGrid(
+                program=None if arguments.output else planned.program,
+                marks=tuple(
+                    PlannedTouch(mark.name, (mark.x, mark.y), mark.visit)
+                    for mark in touches_of(planned.grid, planned.machine)
+                ),
+                approach=APPROACH,
+                written=tuple(files),
+                details=told,
+            )
         )
-    )
+        return 0
+    if not arguments.output and (files or not told):
+        print(planned.program, end="")
+    if told:
+        print(_told(told))
+    if arguments.output and arguments.marks:
+        words = f"Cut {arguments.output}, write what you measure into {arguments.marks}, then:"
+        measured = ["calibrate", arguments.settings or "groundcontrol.ini", arguments.marks]
+        print(next_step(words, measured))
     return 0
 
 
-def _made(arguments: argparse.Namespace) -> int:
-    """Return the grid as the tool makes it, written as all results of the lab are."""
-    read = [arguments.settings] if arguments.settings else []
-    refuse_twins(arguments.output, arguments.marks, arguments.paper)
-    if arguments.paper and not arguments.paper.lower().endswith(".pdf"):
-        raise InputError(f"--paper {arguments.paper}: end the name with .pdf")
-
-    def write(files: Mapping[str, bytes]) -> None:
-        paper = {arguments.paper: _paper(arguments)} if arguments.paper else {}
-        write_outputs({**files, **paper}, inputs=read)
-
-    return marks_grid.run(arguments, "plumb", write)
-
-
-def _paper(arguments: argparse.Namespace) -> bytes:
-    """Return the sheet of paper for the readings."""
-    grid, machine = marks_grid.from_arguments(arguments)
-    form = arguments.marks or "marks.toml"
-    return grid_paper(grid, machine, settings=arguments.settings, form=form)
-
-
-def refuse_out_of_reach(arguments: argparse.Namespace) -> None:
-    """Refuse a grid that the tool allows, but our model of the machine does not."""
+def _planned(arguments: argparse.Namespace) -> _Planned:
+    """Return the grid; InputError for one that cannot be made, or that is out of reach."""
     try:
-        grid, machine = marks_grid.from_arguments(arguments)
-        settings = _settings_of(arguments.settings, machine)
-        refuse_way(grid, machine, settings)
-    except marks_grid.GridError:
-        return  # the grid refuses it when it is made
+        grid = grid_of(arguments)
+        if arguments.settings:
+            settings = settings_in(arguments.settings).as_plumb_model()
+            machine = plain_machine(settings)
+        else:
+            machine = PlainMachine()
+            settings = _usual(machine)
+        text = program(grid, machine)
+        refuse_way(grid, machine, with_soft_chains(settings)[0])
+    except GridError as error:
+        raise InputError(str(error)) from None
+    return _Planned(grid, machine, text)
 
 
-def _settings_of(path: str | None, machine: marks_grid.PlainMachine) -> MachineSettings:
-    """Return the machine of the settings file, with the numbers that the tool goes by."""
-    plain = MachineSettings(
+def grid_of(arguments: argparse.Namespace) -> Grid:
+    """Return the grid of parsed options."""
+    grid = PRESETS[arguments.preset] if arguments.preset else Grid()
+    if arguments.places:
+        grid = Grid(repeats=False, places=arguments.places)
+    given = {name: value for name in NUMBERS if (value := getattr(arguments, name)) is not None}
+    demand("margin" not in given or not grid.places, "--margin is of marks in columns and rows")
+    return grid._replace(**given)
+
+
+def _files(arguments: argparse.Namespace, planned: _Planned) -> dict[str, bytes]:
+    """Return the program, its form and its paper, as far as they were asked for."""
+    files: dict[str, bytes] = {}
+    text, form = planned.program, arguments.marks
+    if form:
+        # Readings that took an hour must not be lost to a second run.
+        if os.path.isfile(form) and not arguments.force:
+            raise InputError(form, "exists", remedy="move it away or give --marks another name")
+        text = with_form(text, form, arguments.output) if arguments.output else text
+        files[form] = marks_list(
+            planned.grid,
+            planned.machine,
+            cut_with_lines(arguments.settings, form),
+            new_sheet=arguments.new_sheet,
+            units=arguments.units,
+        ).encode("ascii")
+    if arguments.output:
+        files = {arguments.output: text.encode("ascii"), **files}
+    if arguments.paper:
+        if not arguments.paper.lower().endswith(".pdf"):
+            raise InputError(f"--paper {arguments.paper}: end the name with .pdf")
+        files[arguments.paper] = grid_paper(
+            planned.grid, planned.machine, settings=arguments.settings, form=form or "marks.toml"
+        )
+    return files
+
+
+def _usual(machine: PlainMachine) -> MachineSettings:
+    """Return the usual machine."""
+    return MachineSettings(
         motor_gap=machine.motor_spacing,
         motor_height=machine.sheet_height / 2 + machine.motor_offset,
         rotation_radius=machine.rotation_radius,
@@ -131,18 +163,6 @@ def _settings_of(path: str | None, machine: marks_grid.PlainMachine) -> MachineS
         feed="top",
         sled_weight=machine.sled_weight_n,
     )
-    if path is None:
-        return with_soft_chains(plain)[0]
-    settings = replace(
-        settings_in(path).as_plumb_model(),
-        motor_gap=plain.motor_gap,
-        motor_height=plain.motor_height,
-        rotation_radius=plain.rotation_radius,
-        sheet_width=plain.sheet_width,
-        sheet_height=plain.sheet_height,
-        sled_weight=plain.sled_weight,
-    )
-    return with_soft_chains(settings)[0]
 
 
 # What --details says: which causes such marks could show, before anything is cut.
@@ -150,16 +170,12 @@ def _settings_of(path: str | None, machine: marks_grid.PlainMachine) -> MachineS
 ALIKE = 2  # look-alikes in the table
 
 
-def _could_tell(arguments: argparse.Namespace) -> Preview:
+def _could_tell(arguments: argparse.Namespace, planned: _Planned) -> Preview:
     """Return what the marks could tell of the machine in the settings. Raises InputError."""
     if not arguments.settings:
         raise InputError("--details is of a machine: give its --settings too")
-    try:
-        grid, machine = marks_grid.from_arguments(arguments)
-        marks_grid.program(grid, machine)
-    except marks_grid.GridError as error:
-        raise InputError(str(error)) from None
-    plan = as_read(marks_grid.touches_of(grid, machine), marks_grid.spans_of(grid))
+    grid, machine = planned.grid, planned.machine
+    plan = as_read(touches_of(grid, machine), spans_of(grid))
     return preview(settings_in(arguments.settings), plan, sigma=USUAL_SIGMA)
 
 
@@ -216,15 +232,42 @@ EXIT = "Exit: 0 done; 2 the grid cannot be made, and nothing was written."
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Add the arguments of `plumb grid`: those of the tool, and --json."""
-    marks_grid.add_arguments(parser).add_argument(
-        "--paper",
-        metavar="FILE.pdf",
-        help="also write a sheet to print: the holes with their numbers, and boxes to fill in",
+    """Add the arguments of `plumb grid`."""
+    group = parser.add_argument_group("which marks [15, and 8 of them again 20 mm further in]")
+    either = group.add_mutually_exclusive_group()
+    either.add_argument("--preset", choices=PRESETS, help="a way to measure, without repeats")
+    places = "marks there, in this order: from the sheet's middle (--places='-900,400 0,4in')"
+    either.add_argument("--places", type=pairs, metavar="PLACES", help=places)
+    _add_number(group, "margin")
+    group = parser.add_argument_group("how they are made")
+    for name in ("depth", "safe_height", "feed"):
+        _add_number(group, name)
+    group = parser.add_argument_group("files")
+    settings = "groundcontrol.ini, webcontrol.json or machine.toml: the machine and its sheet"
+    group.add_argument("--settings", metavar="FILE", help=settings)
+    group.add_argument("--output", metavar="FILE", help="where the program goes [the screen]")
+    group.add_argument("--marks", metavar="FILE", help="also write a marks.toml to fill in")
+    group.add_argument(
+        "--units", choices=UNITS, default="mm", help="of your tape, for the form [%(default)s]"
     )
-    parser.add_argument(
-        "--details",
-        action="store_true",
-        help="also show what such marks could tell; without files, that alone",
-    )
+    another = "the form says that its marks are on another sheet than those before"
+    group.add_argument("--new-sheet", action="store_true", help=another)
+    paper = "also write a sheet to print: the holes with their numbers, and boxes to fill in"
+    group.add_argument("--paper", metavar="FILE.pdf", help=paper)
+    add_force(parser)
+    add_details(parser, "what such marks could tell; without files, that alone")
     add_json(parser)
+
+
+def _add_number(group: argparse._ArgumentGroup, name: str) -> None:
+    meaning = f"{NUMBERS[name].meaning} [{Grid._field_defaults[name]:g}]"
+    kind = float if name == "feed" else _length
+    group.add_argument(f"--{name.replace('_', '-')}", help=meaning, type=kind, metavar="N")
+
+
+def _length(text: str) -> float:
+    """Return a length [mm], typed in mm or with its unit."""
+    try:
+        return typed_length(text)
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"'{text}' is not a length, like 100 or 4in") from None

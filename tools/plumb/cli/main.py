@@ -88,8 +88,6 @@ def _run(arguments: Sequence[str]) -> int:
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     parsed = build_parser(arguments).parse_args(arguments)
     run: Callable[[argparse.Namespace], int] = loaded(f"plumb.cli.{parsed.command}").run
-    for line in loaded("plumb.model.sketches").BROKEN:
-        raise InputError(f"sketch {line}")
     # Until here it ends the program at once: numpy would call an interruption a broken library.
     if signal.getsignal(signal.SIGINT) is signal.SIG_DFL:
         signal.signal(signal.SIGINT, signal.default_int_handler)
@@ -98,7 +96,7 @@ def _run(arguments: Sequence[str]) -> int:
         return run(parsed)
 
 
-def build_parser(arguments: Sequence[str] = ("--completion",)) -> Parser:
+def build_parser(arguments: Sequence[str] = tuple(COMMANDS)) -> Parser:
     """Return the parser for these arguments: of the command that they name, or else of all
     commands.
     """
@@ -110,8 +108,6 @@ def build_parser(arguments: Sequence[str] = ("--completion",)) -> Parser:
         groups={title: list(group) for title, group in GROUPS.items()},
     )
     parser.add_argument("--version", action=Version, help="show the version and exit")
-    completion = "print what lets a shell complete commands; see docs/README.md"
-    parser.add_argument("--completion", action=Completion, help=completion)
     commands = parser.add_subparsers(metavar="COMMAND", required=True, dest="command")
     for name, said in COMMANDS.items():
         subparser = commands.add_parser(
@@ -121,7 +117,7 @@ def build_parser(arguments: Sequence[str] = ("--completion",)) -> Parser:
             allow_abbrev=False,
             formatter_class=argparse.RawDescriptionHelpFormatter,
         )
-        if name in arguments or "--completion" in arguments:
+        if name in arguments:
             command = loaded(f"plumb.cli.{name}")
             subparser.epilog = "\n".join(
                 [
@@ -133,10 +129,6 @@ def build_parser(arguments: Sequence[str] = ("--completion",)) -> Parser:
             )
             command.add_arguments(subparser)
     return parser
-
-
-# How the help calls arguments that are names of files.
-FILES = ("SETTINGS", "JOB", "MARKS", "PLAN", "FILE", "INI", "LOG")
 
 
 class Parser(argparse.ArgumentParser):
@@ -241,37 +233,6 @@ class Version(argparse.Action):
         version = import_module("importlib.metadata").version("plumb")
         print(f"{parser.prog} {version}")
         parser.exit()
-
-
-class Completion(argparse.Action):
-    """Prints what makes a shell complete commands, options and files."""
-
-    def __init__(self, option_strings: Sequence[str], dest: str, help: str) -> None:
-        shells = ("bash", "zsh", "tcsh", "fish")
-        super().__init__(option_strings, dest=argparse.SUPPRESS, choices=shells, help=help)
-
-    def __call__(
-        self,
-        parser: argparse.ArgumentParser,
-        namespace: argparse.Namespace,
-        values: Any,
-        option_string: str | None = None,
-    ) -> None:
-        """Print it and stop."""
-        shtab = import_module("shtab")
-        _complete_files(parser, shtab.FILE)
-        print(shtab.complete(parser, values))
-        parser.exit()
-
-
-def _complete_files(parser: argparse.ArgumentParser, how: object) -> None:
-    """Let arguments that are names of files be completed so, in the commands too."""
-    for action in parser._actions:
-        if isinstance(action, argparse._SubParsersAction):
-            for command in action.choices.values():
-                _complete_files(command, how)
-        elif action.metavar in FILES:
-            vars(action)["complete"] = how
 
 
 if __name__ == "__main__":

@@ -20,18 +20,15 @@ from plumb.fit.fit import Estimate, Fit
 from plumb.fit.inputs import Inputs
 from plumb.fit.observations import Observations, rms
 from plumb.fit.rounds import notes_on, unit_of
-from plumb.marks.benchmark import Score, score_of
 from plumb.model.catalogue import (
     NO_FIRMWARE,
     effect_names,
-    is_sketch,
     parameter_names,
     parameter_words,
 )
 from plumb.model.lab_effects import LAB_EFFECTS
 from plumb.model.plain import noun_of, plain_name, plain_range, plain_size
 from plumb.model.predict import frame_words
-from plumb.model.sketches import SKETCHES
 from plumb.settings.machine import MachineSettings
 from plumb.text.answers import Internal, Number, among, key, meant, part
 from plumb.text.values import bare, worded
@@ -102,14 +99,6 @@ class AsSet:
     shape_rms_mm: float | None
 
 
-@dataclass(frozen=True)
-class Benchmark:
-    """The community's score, as cut and with the new settings."""
-
-    before: Score | None
-    after: Score | None
-
-
 WEIGHTS = ("stop", "by_hand", "promise", "doubt", "hint")
 
 
@@ -139,7 +128,6 @@ class Addition:
     warnings: tuple[str, ...]
     by_effect: tuple[Step, ...]  # in the order given; the last is `after`
     sigma_from: str  # where the sigma of the fits comes from: noise_sources.py, or "residuals"
-    benchmark_after: Internal[Score | None] = None  # what the fit leaves of the community's test
 
     effects = part("settings.effects", Sizes)
     lab_effects = part("after_fit.lab_effects", Sizes)
@@ -159,12 +147,6 @@ class Addition:
 
     @computed_field
     @property
-    def benchmark(self) -> Benchmark:
-        """The score of the community's test; null where it was not cut."""
-        return Benchmark(self.raw.benchmark, self.benchmark_after)
-
-    @computed_field
-    @property
     def sheet_rotation(self) -> float | None:
         """How the sheet is turned [rad]; null where the marks do not show it."""
         return self.after_fit.sheet_rotation if self.after_fit.shows_sheet_rotation else None
@@ -178,7 +160,7 @@ class Addition:
     @computed_field
     @property
     def cures(self) -> tuple[str, ...]:
-        """A sentence for each lab effect or sketch that was fitted: no setting holds it."""
+        """A sentence for each lab effect that was fitted: no setting holds it."""
         return tuple(
             _cure(name, parameters) for name, parameters in self.after_fit.lab_effects.items()
         )
@@ -287,7 +269,6 @@ def add_to(board: LiveBoard, raw: Comparison, chosen: Chosen, *, patch: bool = F
         ),
         by_effect=steps,
         sigma_from=noise.source,
-        benchmark_after=score_of(board.inputs.measurements, after_fit.distance_errors.tolist()),
     )
 
 
@@ -323,15 +304,10 @@ def _turn_sentences(addition: Addition) -> list[str]:
 
 
 def _cure(name: str, parameters: Mapping[str, float]) -> str:
-    """Return what to do about a lab effect or sketch that was fitted."""
-    effect = next(each for each in (*LAB_EFFECTS, *SKETCHES) if each.name == name)
-    sizes = ", ".join(
-        plain_size(f"{name}.{parameter.name}", parameters[parameter.name])
-        for parameter in effect.parameters
-    )
-    if is_sketch(name):
-        return f"{sizes}: a sketch, which no firmware has until it is written in C++"
-    return f"{sizes}: {NO_FIRMWARE}. {effect.remedy[0].upper()}{effect.remedy[1:]}"
+    """Return what to do about a lab effect that was fitted."""
+    remedy = next(each.words["remedy"] for each in LAB_EFFECTS if each.name == name)
+    sizes = ", ".join(plain_size(f"{name}.{each}", size) for each, size in parameters.items())
+    return f"{sizes}: {NO_FIRMWARE}. {remedy[0].upper()}{remedy[1:]}"
 
 
 def _parameter(estimate: Estimate) -> Parameter:

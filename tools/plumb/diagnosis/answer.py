@@ -43,7 +43,7 @@ class Ranked:
 
     @computed_field
     @property
-    def where(self) -> Annotated[str, among(("firmware", "lab", "sketch"))]:
+    def where(self) -> Annotated[str, among(("firmware", "lab"))]:
         """Where the effect is written."""
         return place_of(self.effect)
 

@@ -9,10 +9,9 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from dataclasses import replace
 
+from plumb.model.effect_words import Reading
 from plumb.model.lab_effects import LAB_EFFECTS
 from plumb.model.predict import library
-from plumb.model.python_effect import Reading
-from plumb.model.sketches import SKETCHES
 from plumb.settings.machine import GRAVITY, MachineSettings
 from plumb.text.values import INCH, in_inches, length_in, number_in, unit
 
@@ -29,10 +28,9 @@ def readings(settings: MachineSettings, sled_weight: float) -> Mapping[str, Read
                 reading = Reading(**parameter["reading"])
                 factor = reading.factor * sled_weight ** words["weight_power"]
                 read[f"{words['name']}.{parameter['name']}"] = replace(reading, factor=factor)
-    for effect in (*LAB_EFFECTS, *SKETCHES):
-        for name, each in zip(effect.parameter_names, effect.parameters, strict=True):
-            if each.reading:
-                read[name] = each.reading.on(settings.sheet)
+    for effect in LAB_EFFECTS:
+        if effect.reading:
+            read[effect.parameter] = effect.reading(*settings.sheet)
     return read
 
 

@@ -12,7 +12,6 @@ from pydantic import computed_field
 from plumb.fit.inputs import Inputs, known_outside
 from plumb.fit.observations import Observations, chains_to, rms
 from plumb.fit.sighting import Sighting, sighted
-from plumb.marks.benchmark import Score, score_as_cut, score_of
 from plumb.marks.read import Measurements
 from plumb.model.predict import FOUND, FOUND_WORDS, values_of
 from plumb.settings.machine import MachineSettings
@@ -80,8 +79,6 @@ class Comparison:
     promised: Internal[FitRecord | None] = None
     warnings: tuple[str, ...] = ()
     rounds: tuple[ComparedRound, ...] = ()  # if there are several files
-    benchmark: Score | None = None  # of the community's test, as cut
-    benchmark_left: Score | None = None  # and what these settings do not explain of it
 
     @computed_field
     @property
@@ -118,8 +115,6 @@ def compare(inputs: Inputs) -> Comparison:
         promised=_promised(settings, measurements, outside),
         warnings=_warnings(inputs),
         rounds=_rounds(measurements, errors, spans),
-        benchmark=score_as_cut(measurements),
-        benchmark_left=score_of(measurements, spans.tolist()),
     )
 
 

@@ -11,7 +11,7 @@ import scipy
 from plumb.fit.observations import Observations, rms
 from plumb.fit.problem import PRIORS, USUAL_SIGMA, Checked, Problem, Solution, solve
 from plumb.fit.rounds import last_turn_of
-from plumb.fit.sighting import OUTSIDE_NAMES, SHEET_ROTATION
+from plumb.fit.sighting import LAB_NAMES, SHEET_ROTATION
 from plumb.model.catalogue import parameter_names
 from plumb.model.predict import Array, settings_of
 from plumb.settings.machine import MachineSettings
@@ -40,7 +40,7 @@ class Fit:
 
     settings: MachineSettings
     sheet_rotation: float  # [rad]
-    # Fitted, but no setting holds them; sketches too.
+    # Fitted, but no setting holds them.
     lab_effects: Mapping[str, Mapping[str, float]]
     estimates: tuple[Estimate, ...]
     predicted: Array  # (k, 2) [mm] of the marks, on the sheet
@@ -204,9 +204,9 @@ def _estimates(
 
 
 def _by_effect(outside: Mapping[str, float]) -> dict[str, dict[str, float]]:
-    """Parameters of lab effects and sketches by effect and name."""
+    """Parameters of lab effects by effect and name."""
     by_effect: dict[str, dict[str, float]] = {}
-    for name in OUTSIDE_NAMES:
+    for name in LAB_NAMES:
         if name in outside:
             effect, _, parameter = name.rpartition(".")
             by_effect.setdefault(effect, {})[parameter] = outside[name]

@@ -8,13 +8,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from plumb.fit.observations import ZERO_COLUMNS, Observations, loaded, visited
-from plumb.fit.rounds import SKETCH_NAMES, pose_of, poses_of, with_sketches, zero_of, zeros_of
+from plumb.fit.rounds import pose_of, poses_of, zero_of, zeros_of
 from plumb.model.lab_effects import EDGES, LAB_EFFECTS, SLED, Array, LabEffect, Seen
 from plumb.model.predict import NAMES, compliance, frame_words, library
 
 SHEET_ROTATION = "sheet_rotation"  # [rad] the sheet as measured, turned against the machine
-LAB_NAMES = tuple(name for effect in LAB_EFFECTS for name in effect.parameter_names)
-OUTSIDE_NAMES = (*LAB_NAMES, *SKETCH_NAMES)  # fitted, though no setting holds them
+LAB_NAMES = tuple(effect.parameter for effect in LAB_EFFECTS)  # no setting holds them
 # A step for differences of the compliance, of each value's usual size: small against how it bends.
 _STEP = 1e-3
 
@@ -52,29 +51,21 @@ def sighted(
     names: Sequence[str],
 ) -> Sighting:
     """Return what is measured of a machine with `values` on a board with `outside`: SHEET_ROTATION
-    and parameters of lab effects and sketches, zero if not named. Slopes are by `names` of any
-    kind, exact as long as no sketch is present.
+    and numbers of lab effects, zero if not named. Slopes are by `names` of any kind.
     """
     view = _View(values, outside, rows, over_top, usual_weight, tuple(names))
     zeros = zeros_of(outside, rows)
-
-    def hang(paid: Observations) -> tuple[Array, Array, Array]:
-        return visited(values, paid, zeros=zeros, over_top=over_top, usual_weight=usual_weight)
-
-    hung = with_sketches(
-        values, outside, rows, hang, over_top=over_top, usual_weight=usual_weight, names=names
+    where, by_value, outcome = visited(
+        values, rows, zeros=zeros, over_top=over_top, usual_weight=usual_weight
     )
-    by_value = hung.by_value
-    slopes = np.zeros((*hung.where.shape, len(names)))
+    slopes = np.zeros((*where.shape, len(names)))
     for i, name in enumerate(names):
         if name in NAMES:
             slopes[:, :, i] = by_value[:, :, NAMES.index(name)]
-        elif name in hung.by_name:
-            slopes[:, :, i] = hung.by_name[name]
         elif (unknown := zero_of(name)) is not None:
             mine = rows.zero_groups == unknown.group
             slopes[mine, :, i] = by_value[mine][:, :, ZERO_COLUMNS[unknown.axis]]
-    places = Places(hung.where, slopes)
+    places = Places(where, slopes)
     for effect in LAB_EFFECTS:
         if effect.acts_on == SLED:
             places = view.on_sled(effect, places)
@@ -83,7 +74,7 @@ def sighted(
         if effect.acts_on != SLED:
             read = view.on_sheet(effect, read)
             taped = taped if effect.acts_on == EDGES else view.on_sheet(effect, taped)
-    return Sighting(read, taped, hung.outcome)
+    return Sighting(read, taped, outcome)
 
 
 @dataclass(frozen=True)
@@ -120,27 +111,21 @@ class _View:
         if not self.asks_for(effect):
             return places
         stiff = np.zeros((len(places.where), 2, 2))
-        change = effect.change(
-            self.parameters(effect), Seen(places.where, self.rows.approaches, stiff)
-        )
+        change = effect.change(self.size(effect), Seen(places.where, self.rows.approaches, stiff))
         slopes = places.slopes + np.einsum("nij,njk->nik", change.by_place, places.slopes)
-        return Places(
-            places.where + change.moved, self.with_parameters(effect, change.by_parameter, slopes)
-        )
+        return Places(places.where + change.moved, self.with_size(effect, change.by_size, slopes))
 
     def on_sled(self, effect: LabEffect, places: Places) -> Places:
         """Return the sled at rest elsewhere."""
         if not self.asks_for(effect) or not self.rows.approaches.any():
             return places
-        parameters = self.parameters(effect)
-        change = effect.change(parameters, self.seen(self.values, places.where))
+        size = self.size(effect)
+        change = effect.change(size, self.seen(self.values, places.where))
         slopes = places.slopes.copy()
-        if parameters.any():
+        if size:
             for i, name in enumerate(self.names):
                 slopes[:, :, i] += self.by_difference(effect, name, places, i)
-        return Places(
-            places.where + change.moved, self.with_parameters(effect, change.by_parameter, slopes)
-        )
+        return Places(places.where + change.moved, self.with_size(effect, change.by_size, slopes))
 
     def by_difference(self, effect: LabEffect, name: str, places: Places, i: int) -> Array:
         """Slope (r, 2) of the effect's move by a name: machine and place change together.
@@ -150,13 +135,13 @@ class _View:
         """
         if name not in NAMES:
             return np.zeros_like(places.where)
-        step, parameters = _STEP * _SIZES[name], self.parameters(effect)
+        step, size = _STEP * _SIZES[name], self.size(effect)
         ends = []
         for signed in (step, -step):
             values = self.values.copy()
             values[NAMES.index(name)] += signed
             seen = self.seen(values, places.where + signed * places.slopes[:, :, i])
-            ends.append(effect.change(parameters, seen).moved)
+            ends.append(effect.change(size, seen).moved)
         return (ends[0] - ends[1]) / (2 * step)
 
     def seen(self, values: Array, where: Array) -> Seen:
@@ -168,20 +153,18 @@ class _View:
             giving[mine] = compliance(loaded_values, over_top=self.over_top, points=where[mine])
         return Seen(where, self.rows.approaches, giving)
 
-    def parameters(self, effect: LabEffect) -> Array:
-        """Return the effect's parameters (p,)."""
-        return np.array([self.outside.get(name, 0.0) for name in effect.parameter_names])
+    def size(self, effect: LabEffect) -> float:
+        """Return the effect's number."""
+        return self.outside.get(effect.parameter, 0.0)
 
     def asks_for(self, effect: LabEffect) -> bool:
         """Return whether the effect is there, or its slopes are wanted."""
-        wanted = any(name in self.names for name in effect.parameter_names)
-        return wanted or bool(self.parameters(effect).any())
+        return effect.parameter in self.names or self.size(effect) != 0.0
 
-    def with_parameters(self, effect: LabEffect, by_parameter: Array, slopes: Array) -> Array:
-        """Return the slopes with those by the effect's parameters added."""
-        for i, name in enumerate(effect.parameter_names):
-            if name in self.names:
-                slopes[:, :, self.names.index(name)] += by_parameter[:, :, i]
+    def with_size(self, effect: LabEffect, by_size: Array, slopes: Array) -> Array:
+        """Return the slopes with those by the effect's number added."""
+        if effect.parameter in self.names:
+            slopes[:, :, self.names.index(effect.parameter)] += by_size
         return slopes
 
 

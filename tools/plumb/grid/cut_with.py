@@ -13,8 +13,6 @@ import json
 import os
 import re
 
-from plumb.grid.program import as_ini, is_webcontrol
-
 # Keys of a groundcontrol.ini, small, that say how long the chains are for a place.
 KEYS = (
     "motorspacingx",
@@ -72,8 +70,8 @@ def digest_of(settings: str | os.PathLike[str]) -> str:
     parser = configparser.RawConfigParser(strict=False)
     try:
         text = content.decode("utf-8-sig")
-        if is_webcontrol(text):
-            parser = as_ini(text)
+        if text.lstrip().startswith("{"):
+            parser = _as_ini(text)
         else:
             parser.read_string(text)
     except (configparser.Error, ValueError, LookupError, TypeError, AttributeError):
@@ -111,3 +109,15 @@ def _plain(value: str) -> str:
         return repr(float(value))
     except ValueError:
         return value.strip().lower()
+
+
+def _as_ini(text: str) -> configparser.RawConfigParser:
+    """Return the values of a webcontrol.json; a ValueError if it is none."""
+    parser = configparser.RawConfigParser(strict=False)
+    document = json.loads(text)
+    for section, options in document.items():
+        if not isinstance(options, list):
+            raise ValueError("a section of WebControl is a list")
+        said = {str(each["key"]): str(each["value"]) for each in options if "value" in each}
+        parser.read_dict({section: said})
+    return parser

@@ -57,7 +57,6 @@ class Grid(NamedTuple):
     feed: float = 700.0
     # [mm] marks here and nowhere else, in this order; empty: in columns and rows.
     places: tuple[tuple[float, float], ...] = ()
-    is_benchmark: bool = False  # the marks of the community's test, and nothing else
     is_taped: bool = False  # the form also waits for distances between nine marks
 
     @property
@@ -72,7 +71,6 @@ PRESETS = {
     "fifteen": Grid(repeats=False),
     "twenty-five": Grid(columns=5, rows=5, repeats=False),
     "distances": Grid(columns=3, rows=3, repeats=False, is_taped=True),
-    "benchmark": Grid(repeats=False, is_benchmark=True),
 }
 
 
@@ -85,17 +83,6 @@ class PlainMachine(NamedTuple):
     motor_offset: float = 463.0
     rotation_radius: float = 139.1
     sled_weight_n: float = 97.9
-
-
-# Name, section and key of groundcontrol.ini.
-MACHINE_KEYS = (
-    ("sheet_width", "Maslow Settings", "bedWidth"),
-    ("sheet_height", "Maslow Settings", "bedHeight"),
-    ("motor_spacing", "Maslow Settings", "motorSpacingX"),
-    ("motor_offset", "Maslow Settings", "motorOffsetY"),
-    ("rotation_radius", "Advanced Settings", "rotationRadius"),
-    ("sled_weight_n", "Maslow Settings", "sledWeight"),
-)
 
 
 def pair(text: str) -> tuple[float, float]:

@@ -2,12 +2,8 @@
 
 from __future__ import annotations
 
-import configparser
-import json
-
 from plumb.grid.options import APPROACH, PLUNGE_FEED, UNITS, Grid, PlainMachine
 from plumb.grid.pattern import (
-    benchmark_form,
     check,
     lead_in,
     listed,
@@ -31,7 +27,7 @@ def program(grid: Grid, machine: PlainMachine) -> str:
     touches = touches_of(grid, machine)
     router = "leave the router off" if grid.mode == "touch" else "switch the router on first"
     up = f"G0 {word('Z', grid.safe_height)}"
-    pattern = "benchmark" if grid.is_benchmark else "places" if grid.places else "grid"
+    pattern = "places" if grid.places else "grid"
     lines = [
         FIRST_LINE,
         f"(pattern: {pattern}, {len(touches)} marks with repeats)",
@@ -74,8 +70,6 @@ def marks_list(
     cut_with = "\nnew_sheet = true" * new_sheet + cut_with
     if units == "inch":
         cut_with = f'\nunits = "inch"  # fractions too, like 3 7/8{cut_with}'
-    if grid.is_benchmark:
-        return benchmark_form(cut_with)
     spans = spans_of(grid)
     lines = [
         f"# Calibration marks, {units} from the sheet's top left corner; x right, y down, approach "
@@ -96,23 +90,3 @@ def marks_list(
     for first, second in spans:
         lines.append(f'\n# [[distance]]\n# between = ["{first}", "{second}"]\n# {units} =')
     return "\n".join([*lines, ""])
-
-
-# The settings of WebControl as the sections, keys and values of a groundcontrol.ini.
-
-
-def is_webcontrol(text: str) -> bool:
-    """Return whether this may be a webcontrol.json."""
-    return text.lstrip().startswith("{")
-
-
-def as_ini(text: str) -> configparser.RawConfigParser:
-    """Return the values of a webcontrol.json; a ValueError if it is none."""
-    parser = configparser.RawConfigParser(strict=False)
-    document = json.loads(text)
-    for section, options in document.items():
-        if not isinstance(options, list):
-            raise ValueError("a section of WebControl is a list")
-        said = {str(each["key"]): str(each["value"]) for each in options if "value" in each}
-        parser.read_dict({section: said})
-    return parser

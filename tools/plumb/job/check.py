@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 import scipy
@@ -14,7 +15,7 @@ from plumb.diagnosis.readings import clean_readings
 from plumb.fit.inputs import Inputs
 from plumb.fit.problem import Problem
 from plumb.job.bits import Tools
-from plumb.job.dry_run import Done, Moves, Run, Samples
+from plumb.job.dry_run import STEP, Done, Moves, Rows, Run, Samples
 from plumb.job.findings import (
     Finding,
     Hanging,
@@ -32,7 +33,6 @@ from plumb.model.predict import FOUND, NAMES, Array, lengths, places_with_slopes
 from plumb.settings.machine import MachineSettings
 from plumb.text.answers import Internal
 
-STEP = 5.0  # [mm] between places that are looked at
 SENT, PARTED, TAKEN = 0.45, 0.6, 0.85  # shares of the time after which a long program is so far
 
 
@@ -41,7 +41,6 @@ class Checked:
     """A program, run dry."""
 
     done: Done
-    samples: Samples
     findings: tuple[Finding, ...]
     hanging: Hanging | None  # None where nothing is cut
     slower: tuple[Slower, ...]
@@ -49,6 +48,16 @@ class Checked:
     parts: tuple[Part, ...]
     piece: Piece | None  # None where nothing is cut
     has_errors: bool  # whether marks say which errors to expect of each part
+
+    @cached_property
+    def over_sheet(self) -> Moves:
+        """The moves of the sled, without those of a single chain."""
+        return self.done.moves.only(self.done.moves.over_sheet)
+
+    @cached_property
+    def samples(self) -> Samples:
+        """Places along them: only a picture asks for all at once."""
+        return self.over_sheet.sampled(STEP)
 
     @property
     def is_good(self) -> bool:
@@ -76,8 +85,7 @@ def check_job(
     run.send(lines, progress=lambda share: far(SENT * share))
     done = run.finish()
     over_sheet = done.moves.only(done.moves.over_sheet)
-    samples = over_sheet.sampled(STEP)
-    parts = parts_of(over_sheet, samples)
+    parts = parts_of(over_sheet)
     tools = tools or Tools.of(lines)
     far(PARTED)
     taken = take(over_sheet, tools)
@@ -86,11 +94,10 @@ def check_job(
     findings += [*ends_too_high(settings, done), *meant_otherwise(done, lines)]
     if inputs:
         parts = with_errors(Believed.of(inputs), settings, parts)
-    hanging = hanging_along(settings, over_sheet, samples, limits or {})
+    hanging = hanging_along(settings, over_sheet, limits or {})
     far(1.0)
     return Checked(
         done=done,
-        samples=samples,
         findings=tuple(sorted(findings, key=lambda finding: finding.line)),
         hanging=hanging,
         slower=slower_moves(over_sheet),
@@ -110,7 +117,7 @@ def check_job(
 
 SPREAD = 0.3  # of an effect's size, as a share of the largest that was met
 NARROW = 20.0  # [mm] below this a part is too small for its errors to be seen
-MOST = 400  # places of a part that are asked for
+MOST = 400  # places of a part that are asked for, at least, where it has so many
 TWO_SIDED = 1.96  # sigmas of 95 %
 
 
@@ -177,8 +184,7 @@ def with_errors(
 
 
 def _with_errors(believed: Believed, settings: MachineSettings, part: Part) -> Part:
-    places = part.places[:: max(1, len(part.places) // MOST)]
-    width, height = part.size
+    places, (width, height) = part.places, part.size
     errors, slopes = believed.seen(settings, places)
     if len(errors) < len(places) or max(width, height) < NARROW:
         return part
@@ -219,7 +225,7 @@ class Part:
     low: tuple[float, float]  # [mm] lower left corner
     high: tuple[float, float]  # [mm] upper right corner
     deepest: float  # [mm] z
-    places: Internal[Array]  # (k, 2) [mm]
+    places: Internal[Array]  # (k, 2) [mm] some of its cuts, evenly
     # How it will differ from its program; None without marks, and where it is too narrow
     width_error: Error | None = None  # positive: too wide
     height_error: Error | None = None
@@ -231,33 +237,75 @@ class Part:
         return self.high[0] - self.low[0], self.high[1] - self.low[1]
 
 
-def parts_of(moves: Moves, samples: Samples) -> tuple[Part, ...]:
-    """Return the parts of a job in the order in which they are begun; `samples` of all its
-    moves.
-    """
-    cut = moves.cut[samples.move]
-    if not cut.any():
+def parts_of(moves: Moves) -> tuple[Part, ...]:
+    """Return the parts of a job, of moves over the sheet, in the order in which they are begun."""
+    extents = [(places.min(axis=0), places.max(axis=0)) for places, _, _ in _cuts(moves)]
+    if not extents:
         return ()
-    places, rows, z = samples.places[cut], samples.move[cut], samples.z[cut]
-    cells = np.floor((places - places.min(axis=0)) / CELL).astype(int)
-    grid = np.zeros(cells.max(axis=0) + 1, dtype=bool)
-    grid[tuple(cells.T)] = True
-    numbers, _ = scipy.ndimage.label(grid, structure=ALL_EIGHT)
-    part_of = numbers[tuple(cells.T)]
-    lines = moves["line"][rows]
-    order = np.argsort(part_of, kind="stable")
-    ends = np.flatnonzero(np.diff(part_of[order])) + 1
-    parts = [_part(places[each], lines[each], z[each]) for each in np.split(order, ends)]
+    low, high = np.min(extents, axis=(0, 1)), np.max(extents, axis=(0, 1))
+
+    def cells(places: Array) -> tuple[Rows, ...]:
+        return tuple(np.floor((places - low) / CELL).astype(int).T)
+
+    grid = np.zeros(np.floor((high - low) / CELL).astype(int) + 1, dtype=bool)
+    for places, _, _ in _cuts(moves):
+        grid[cells(places)] = True
+    numbers, count = scipy.ndimage.label(grid, structure=ALL_EIGHT)
+
+    def part_of(places: Array) -> Rows:
+        return np.asarray(numbers[cells(places)], dtype=np.intp)
+
+    sizes = np.zeros(count + 1, dtype=int)
+    lines = np.tile([np.inf, -np.inf], (count + 1, 1))  # the first and the last of each part
+    corners = np.tile([[[np.inf] * 2], [[-np.inf] * 2]], (1, count + 1, 1))
+    deepest = np.full(count + 1, np.inf)
+    for places, z, line in _cuts(moves):
+        part = part_of(places)
+        sizes += np.bincount(part, minlength=count + 1)
+        np.minimum.at(lines[:, 0], part, line)
+        np.maximum.at(lines[:, 1], part, line)
+        np.minimum.at(corners[0], part, places)
+        np.maximum.at(corners[1], part, places)
+        np.minimum.at(deepest, part, z)
+    kept = _thinned(moves, part_of, sizes)
+    parts = [
+        Part(
+            first_line=int(lines[each, 0]),
+            last_line=int(lines[each, 1]),
+            low=_pair(corners[0, each]),
+            high=_pair(corners[1, each]),
+            deepest=float(deepest[each]),
+            places=np.concatenate(kept[each]),
+        )
+        for each in range(1, count + 1)
+    ]
     return tuple(sorted(parts, key=lambda part: (part.first_line, part.last_line)))
 
 
-def _part(places: Array, lines: Array, z: Array) -> Part:
-    (left, low), (right, high) = places.min(axis=0), places.max(axis=0)
-    return Part(
-        first_line=int(lines.min()),
-        last_line=int(lines.max()),
-        low=(float(left), float(low)),
-        high=(float(right), float(high)),
-        deepest=float(z.min()),
-        places=places,
-    )
+def _cuts(moves: Moves) -> Iterator[tuple[Array, Array, Array]]:
+    """Yield the places (k, 2), z and line of all cuts, piece by piece."""
+    for _, block in moves.blocks():
+        samples = block.sampled(STEP)
+        cut = block.cut[samples.move]
+        if cut.any():
+            yield samples.places[cut], samples.z[cut], block["line"][samples.move[cut]]
+
+
+def _thinned(
+    moves: Moves, part_of: Callable[[Array], Rows], sizes: Rows
+) -> Mapping[int, Sequence[Array]]:
+    """Return some places of each part, every so many, so that MOST stay of many."""
+    every, seen = np.maximum(sizes // MOST, 1), np.zeros(len(sizes), dtype=int)
+    kept: dict[int, list[Array]] = {each: [] for each in range(len(sizes))}
+    for places, _, _ in _cuts(moves):
+        part = part_of(places)
+        order = np.argsort(part, kind="stable")
+        for mine in np.split(order, np.flatnonzero(np.diff(part[order])) + 1):
+            each = int(part[mine[0]])
+            kept[each].append(places[mine[-seen[each] % every[each] :: every[each]]])
+            seen[each] += len(mine)
+    return kept
+
+
+def _pair(place: Array) -> tuple[float, float]:
+    return float(place[0]), float(place[1])

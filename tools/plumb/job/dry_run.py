@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Mapping, Sequence
+from array import array
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from os import PathLike
 
@@ -24,6 +25,11 @@ __all__ = ["COLUMNS", "Done", "Refused", "Run", "pieces"]
 AT_ONCE = 2000  # lines between two looks at how far it is
 GOES_ON = 70  # $70: a line that would halt the machine is refused, and the next is done
 SIMULATED = "B99 ON"
+# A move as it is kept: its numbers are those of the firmware, which counts in single precision.
+WIDE = {"line": "i4", "ends": "f8"}
+MOVE = np.dtype([(name, WIDE.get(name, "f4")) for name in COLUMNS])
+BLOCK = 50_000  # moves that are looked at together
+STEP = 5.0  # [mm] between places that are looked at
 Share = Callable[[float], None]
 
 
@@ -63,7 +69,8 @@ class Run:
             where = f"X{start[0]:g} Y{start[1]:g}"
             raise InputError(f"no sled can hang at {where}, where it is to begin")
         self._machine = DryRun()
-        self._numbers: list[int] = []  # of the lines that were sent, as the file counts them
+        self._numbers = array("i")  # of the lines that were sent, as the file counts them
+        self._kept: list[NDArray[np.void]] = []  # moves that have ended
         self._refused: list[Refused] = []
         given = {**CLIENT_NUMBERS, **(numbers or {}), GOES_ON: 1}
         lines = [f"${number}={value:g}" for number, value in given.items()]
@@ -94,20 +101,28 @@ class Run:
                     sent.append(text)
                     self._numbers.append(number)
             self._machine.send(sent)
+            self._keep()
             if progress:
                 progress(min(1.0, (begin + AT_ONCE) / len(lines)))
 
+    def _keep(self) -> None:
+        """Take over the moves that have ended."""
+        rows = self._machine.moves()
+        self._kept.append(_narrow(rows[: self._machine.forget_ended()]))
+
     def finish(self) -> Done:
         """Let the moves end; everything that was done."""
-        self._machine.drain()
         machine = self._machine
+        machine.drain()
+        self._keep()
         # The line in execution at an alarm has no answer.
-        numbers = np.array([*self._numbers, self._numbers[-1] if self._numbers else 1])
-        rows = machine.moves()
-        of_program = rows[:, 0] >= self._setup
-        rows = rows[of_program]
-        rows[:, 0] = numbers[rows[:, 0].astype(int) - self._setup]
-        rows[:, COLUMNS.index("ends")] -= self._begun
+        last = self._numbers[-1] if self._numbers else 1
+        numbers = np.append(np.array(self._numbers, dtype=int), last)
+        rows = np.concatenate([*self._kept, _narrow(machine.moves())])
+        of_program = rows["line"] >= self._setup
+        rows = rows if of_program.all() else rows[of_program]
+        rows["line"] = numbers[rows["line"] - self._setup]
+        rows["ends"] -= self._begun
         said = tuple(
             (int(numbers[line - self._setup]), text)
             for line, text in machine.said()
@@ -135,6 +150,14 @@ class Run:
         return x, y, z
 
 
+def _narrow(rows: Array) -> NDArray[np.void]:
+    """Return moves (n, columns) as they are kept."""
+    kept = np.empty(len(rows), dtype=MOVE)
+    for name, column in zip(COLUMNS, rows.T, strict=True):
+        kept[name] = column
+    return kept
+
+
 # The moves of a job: a row each, and the places along them.
 
 Flags = NDArray[np.bool_]
@@ -156,17 +179,21 @@ class Samples:
 
 @dataclass(frozen=True)
 class Moves:
-    """Rows as plumb._dry_run.COLUMNS names them."""
+    """Moves with the numbers that plumb._dry_run.COLUMNS names."""
 
-    rows: Array  # (n, columns)
+    rows: NDArray[np.void]  # (n,) of MOVE
 
     def __len__(self) -> int:
         return len(self.rows)
 
     def __getitem__(self, name: str) -> Array:
         """Return a number of all moves (n,) by its name."""
-        column: Array = self.rows[:, COLUMNS.index(name)]
-        return column
+        return np.asarray(self.rows[name], dtype=float)
+
+    def blocks(self) -> Iterator[tuple[int, Moves]]:
+        """Yield the moves piece by piece, each with the number of its first move."""
+        for first in range(0, len(self), BLOCK):
+            yield first, Moves(self.rows[first : first + BLOCK])
 
     def only(self, those: Flags | Rows) -> Moves:
         """Return some of the moves; all of them take no room a second time."""

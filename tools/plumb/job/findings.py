@@ -8,11 +8,12 @@ from dataclasses import dataclass
 from typing import Annotated
 
 import numpy as np
+from numpy.typing import NDArray
 from pydantic import computed_field
 
-from plumb.job.dry_run import Done, Flags, Moves, Samples, pieces
+from plumb.job.dry_run import STEP, Done, Flags, Moves, Rows, pieces
 from plumb.model.plain import greatest, least
-from plumb.model.predict import CANNOT_HANG, REACH_WORDS, USABLE, Array, Codes, reach
+from plumb.model.predict import CANNOT_HANG, REACH_WORDS, USABLE, Array, reach
 from plumb.model.reach import with_soft_chains
 from plumb.settings.machine import MachineSettings
 from plumb.text.answers import Internal, key
@@ -82,18 +83,19 @@ R_OF_ZERO = re.compile(r"(?i)r\s*[-+]?(?:0+\.?0*|\.0+)(?![\d.])")
 
 def meant_otherwise(done: Done, lines: Sequence[str]) -> Iterator[Finding]:
     """Yield feeds that are missing or next to nothing, and arcs of no radius."""
-    fed = done.moves.only(~done.moves.rapid & done.moves.over_sheet)
-    numbers = fed["line"].astype(int)
-    if len(fed) and not any(map(F_WORD.search, lines[: numbers[0]])):
-        feed = f"{fed['asked'][0]:.0f} mm/min"
+    moves = done.moves
+    fed = ~moves.rapid & moves.over_sheet
+    first = moves.only(np.flatnonzero(fed)[:1])
+    if len(first) and not any(map(F_WORD.search, lines[: int(first["line"][0])])):
+        feed = f"{first['asked'][0]:.0f} mm/min"
         says = f"no F says how fast to cut, so the machine keeps the feed that it has: {feed}"
-        yield Finding(FEED, says, (int(numbers[0]),))
-    slow = fed["asked"] < LEAST_FEED
-    for asked in np.unique(fed["asked"][slow]):
-        those = slow & (fed["asked"] == asked)
-        minutes = float((fed.way[those] / asked).sum())
+        yield Finding(FEED, says, (int(first["line"][0]),))
+    slow = moves.only(np.flatnonzero(fed & (moves["asked"] < LEAST_FEED)))
+    for asked in np.unique(slow["asked"]):
+        those = slow.only(slow["asked"] == asked)
+        minutes = float((those.way / asked).sum())
         says = f"the feed is {asked:g} mm/min, at which this takes {minutes:.0f} minutes"
-        yield Finding(FEED, says, tuple(np.unique(numbers[those]).tolist()))
+        yield Finding(FEED, says, tuple(np.unique(those["line"].astype(int)).tolist()))
     for number, line in enumerate(lines, start=1):
         if R_OF_ZERO.search(line) and any(
             letter == "G" and code in (2, 3) and words.get("R") == 0
@@ -135,6 +137,7 @@ def ends_too_high(settings: MachineSettings, done: Done) -> tuple[Finding, ...]:
 LESS = 0.995  # of a feed: below it a limit acts
 GREATEST, Z = "the greatest feed ($15)", "the speed of z ($18)"
 ARC, CHAINS = "the arc", "the chains"
+CAUSES = (GREATEST, Z, ARC, CHAINS)
 
 
 @dataclass(frozen=True)
@@ -161,31 +164,41 @@ class Times:
 
 def slower_moves(moves: Moves) -> tuple[Slower, ...]:
     """Limits that act on cutting moves, those that act most often first."""
-    asked, feed, top = moves["asked"], moves["feed"], moves["top"]
-    works = ~moves.rapid & moves.over_sheet
-    slowed = works & (top < LESS * asked)
-    causes = np.full(len(moves), GREATEST, dtype=object)
-    by_path = top < LESS * feed
-    rises = np.abs(moves["z_to"] - moves["z_from"]) / np.maximum(moves.way, 1e-9)
     # What z's speed allows grows with 1 / rise; on any other limit the rise has no say.
-    z_speed = _z_speed(moves, by_path & slowed, rises)
-    is_z = by_path & (rises * top > 0.98 * z_speed) & (rises > 0)
-    causes[by_path] = CHAINS
-    causes[by_path & (moves["sweep"] != 0)] = ARC
-    causes[is_z] = Z
+    z_speed = max((_z_speeds(each).max(initial=0.0) for _, each in moves.blocks()), default=0.0)
+    causes = [_causes(each, float(z_speed) or np.inf) for _, each in moves.blocks()]
+    cause_of = np.concatenate([np.zeros(0, dtype=np.int8), *causes])
     causes_seen = []
-    for cause in (GREATEST, Z, ARC, CHAINS):
-        rows = np.flatnonzero(slowed & (causes == cause))
+    for number, cause in enumerate(CAUSES):
+        rows = np.flatnonzero(cause_of == number)
         if len(rows):
-            worst = rows[least(top[rows])]
-            numbers = float(asked[worst]), float(top[worst])
-            causes_seen.append(Slower(cause, len(rows), int(moves["line"][worst]), *numbers))
+            worst = moves.only(rows[[least(moves.only(rows)["top"])]])
+            numbers = int(worst["line"][0]), float(worst["asked"][0]), float(worst["top"][0])
+            causes_seen.append(Slower(cause, len(rows), *numbers))
     return tuple(sorted(causes_seen, key=lambda each: -each.moves))
 
 
-def _z_speed(moves: Moves, those: Flags, rises: Array) -> float:
-    """[mm/min] The greatest speed of z that any of those moves reaches."""
-    return float((rises * moves["top"])[those].max(initial=0.0)) or np.inf
+def _slowed(moves: Moves) -> Flags:
+    """Return which cutting moves go slower than they are asked to."""
+    works = ~moves.rapid & moves.over_sheet
+    return np.asarray(works & (moves["top"] < LESS * moves["asked"]))
+
+
+def _z_speeds(moves: Moves) -> Array:
+    """Return the speed of z [mm/min] in moves that are slowed by their path; 0 in others."""
+    top = moves["top"]
+    rises = np.abs(moves["z_to"] - moves["z_from"]) / np.maximum(moves.way, 1e-9)
+    return np.where(_slowed(moves) & (top < LESS * moves["feed"]), rises * top, 0.0)
+
+
+def _causes(moves: Moves, z_speed: float) -> NDArray[np.int8]:
+    """Return what slows each move, by its place in CAUSES; -1: nothing does."""
+    by_path = moves["top"] < LESS * moves["feed"]
+    speeds = _z_speeds(moves)
+    causes = np.where(by_path, CAUSES.index(CHAINS), CAUSES.index(GREATEST))
+    causes[by_path & (moves["sweep"] != 0)] = CAUSES.index(ARC)
+    causes[(speeds > 0) & (speeds > 0.98 * z_speed)] = CAUSES.index(Z)
+    return np.where(_slowed(moves), causes, -1).astype(np.int8)
 
 
 def times_of(done: Done) -> Times:
@@ -222,7 +235,7 @@ class BadReach:
 class Hanging:
     """Pulls and give along the cuts of a job."""
 
-    verdict: Internal[Codes]  # (k,) USABLE ... of each sample
+    unusable: Internal[Rows]  # moves, of those over the sheet, that pass such a place
     tension: Annotated[tuple[float, float], key("tension_n")]  # slackest and tightest chain
     give: Annotated[float, key("give_mm_per_n")]  # where the sled gives most
     give_line: int
@@ -231,30 +244,51 @@ class Hanging:
 
 
 def hanging_along(
-    settings: MachineSettings, moves: Moves, samples: Samples, limits: Mapping[str, float]
+    settings: MachineSettings, moves: Moves, limits: Mapping[str, float]
 ) -> Hanging | None:
     """Return what hangs along the cuts; None where nothing is cut."""
-    cut = moves.cut[samples.move]
-    if not cut.any():
+    if not moves.cut.any():
         return None
     machine, assumed = with_soft_chains(settings.as_plumb_model())
-    cells, back = np.unique(np.round(samples.places / CELL), axis=0, return_inverse=True)
-    there = reach(machine, cells * CELL, **limits)
-    back = back.reshape(-1)
-    verdict = there.verdict[back]
-    hangs = cut & (verdict != CANNOT_HANG)
-    tension, give = there.tension[back], np.where(hangs, there.give[back], -1.0)
-    softest = greatest(give)
-    lines = moves["line"][samples.move].astype(int)
-    pulls = (0.0, 0.0)
-    if hangs.any():
-        pulls = float(tension[hangs].min()), float(tension[hangs].max())
+    seen = [np.unique(_cells(block.sampled(STEP).places)) for _, block in moves.blocks()]
+    cells = np.unique(np.concatenate(seen))
+    there = reach(machine, CELL * np.column_stack([cells.real, cells.imag]), **limits)
+    counts = np.zeros(len(cells), dtype=int)  # of the cut places in each
+    lines = np.zeros(len(cells), dtype=int)  # of the first cut there
+    order: list[Rows] = []  # the cells, as cuts first come there
+    unusable = []
+    hit: list[list[Rows]] = [[] for _ in REACH_WORDS]  # lines that cut there
+    for first, block in moves.blocks():
+        samples = block.sampled(STEP)
+        cell = np.searchsorted(cells, _cells(samples.places))
+        verdict, cut = there.verdict[cell], block.cut[samples.move]
+        unusable.append(first + np.unique(samples.move[verdict != USABLE]))
+        cell, verdict, line = cell[cut], verdict[cut], block["line"][samples.move[cut]].astype(int)
+        new, at = np.unique(cell, return_index=True)
+        at = np.sort(at[counts[new] == 0])
+        lines[cell[at]] = line[at]
+        order.append(cell[at])
+        counts += np.bincount(cell, minlength=len(cells))
+        for number in np.unique(verdict[verdict != USABLE]):
+            hit[number].append(np.unique(line[verdict == number]))
+    come = np.concatenate(order)
+    hangs = come[there.verdict[come] != CANNOT_HANG]
     bad = []
-    for number, word in enumerate(REACH_WORDS):
-        those = cut & (verdict == number)
-        if number != USABLE and those.any():
-            hit = np.unique(lines[those])
-            bad.append(BadReach(word, len(hit), int(hit[0]), float(those.sum() / cut.sum())))
-    return Hanging(
-        verdict, pulls, max(float(give[softest]), 0.0), int(lines[softest]), tuple(bad), assumed
-    )
+    for number, several in enumerate(hit):
+        if several:
+            those = np.unique(np.concatenate(several))
+            share = float(counts[there.verdict == number].sum() / counts.sum())
+            bad.append(BadReach(REACH_WORDS[number], len(those), int(those[0]), share))
+    pulls, give, line_of = (0.0, 0.0), 0.0, int(moves["line"][0])
+    if len(hangs):
+        gives = there.give[hangs]
+        softest = greatest(gives)
+        give, line_of = max(float(gives[softest]), 0.0), int(lines[hangs[softest]])
+        pulls = float(there.tension[hangs].min()), float(there.tension[hangs].max())
+    return Hanging(np.concatenate(unusable), pulls, give, line_of, tuple(bad), assumed)
+
+
+def _cells(places: Array) -> NDArray[np.complex128]:
+    """Return the cell (k,) of each place, its column and its row in one number."""
+    column, row = np.round(places / CELL).T + 0.0
+    return np.asarray(column + 1j * row)

@@ -10,9 +10,9 @@ from typing import Annotated
 import numpy as np
 from numpy.typing import NDArray
 
-from plumb._dry_run import take_wood
+from plumb._dry_run import Cutting
 from plumb.job.bits import USUAL_SHEET, Bit, Tools
-from plumb.job.dry_run import IN_WOOD, Flags, Moves, Rows, pieces
+from plumb.job.dry_run import IN_WOOD, Flags, Moves, Rows, Samples, pieces
 from plumb.job.findings import DEEP, GOUGES, STILL, Finding
 from plumb.model.predict import Array
 from plumb.text.answers import Internal, key
@@ -63,22 +63,24 @@ def take(moves: Moves, tools: Tools) -> Taken:
         return Taken(None, np.zeros(len(moves)))
     which, bits = tools.at(moves["line"])
     radii = np.array([bit.diameter / 2 for bit in bits])
-    # A straight way is led in one, so that its depth is that of all of it.
-    samples = moves.sampled(np.where(moves["sweep"] != 0, CHORD, np.inf))
-    move = samples.move
-    places, widest = samples.places[cut[move]], radii[which[cut]].max()
-    low, high = places.min(axis=0) - widest, places.max(axis=0) + widest
+    slopes = np.array([bit.slope for bit in bits])
+    low, high = _extent(moves, widest=float(radii[which[cut]].max()))
     coarsest = float(np.sqrt(np.prod(high - low) / MOST_CELLS))
     cell = max(float(radii[which[cut]].min()) / FINE, coarsest)
     columns, rows = (int(count) for count in np.ceil((high - low) / cell))
-    begins = np.diff(move, prepend=-1) > 0
-    radius = np.where(begins, 0.0, np.maximum(radii, NARROWEST * cell)[which[move]])
-    slope = np.array([bit.slope for bit in bits])[which[move]]
-    ways = np.column_stack([samples.places, samples.z, radius, slope])
     corner = float(low[0]), float(low[1])
-    heights, deeper = take_wood(corner, (rows, columns), cell, GRAZE, ways)
+    wide, cutting = (
+        np.maximum(radii, NARROWEST * cell),
+        Cutting(corner, (rows, columns), cell, GRAZE),
+    )
     met = np.zeros(len(moves))
-    np.maximum.at(met, move, deeper)
+    for first, block in moves.blocks():
+        samples = _led(block)
+        with_bit = which[first + samples.move]
+        radius = np.where(np.diff(samples.move, prepend=-1) > 0, 0.0, wide[with_bit])
+        ways = np.column_stack([samples.places, samples.z, radius, slopes[with_bit]])
+        np.maximum.at(met, first + samples.move, cutting.take(ways))
+    heights = cutting.heights()
     depths = -np.minimum(moves["z_from"], moves["z_to"]) * cut
     piece = Piece(
         bits=tuple(bits[each] for each in np.unique(which[cut])),
@@ -92,6 +94,25 @@ def take(moves: Moves, tools: Tools) -> Taken:
         heights=heights,
     )
     return Taken(piece, met)
+
+
+def _led(moves: Moves) -> Samples:
+    """Return the places along moves through which the bit is led.
+
+    A straight way is led in one, so that its depth is that of all of it.
+    """
+    return moves.sampled(np.where(moves["sweep"] != 0, CHORD, np.inf))
+
+
+def _extent(moves: Moves, *, widest: float) -> Array:
+    """Return the lower left and the upper right corner [mm] of all cuts of a bit so wide."""
+    corners = []
+    for _, block in moves.blocks():
+        samples = _led(block)
+        places = samples.places[block.cut[samples.move]]
+        if len(places):
+            corners += [places.min(axis=0) - widest, places.max(axis=0) + widest]
+    return np.array([np.min(corners, axis=0), np.max(corners, axis=0)])
 
 
 def spoiled(moves: Moves, taken: Taken, tools: Tools, lines: Sequence[str]) -> Iterator[Finding]:

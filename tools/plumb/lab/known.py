@@ -12,7 +12,7 @@ from plumb.fit.by_hand import WEIGHED, WEIGHT, readings
 from plumb.fit.expected import WIDE, is_absurd, plausible_range, refuse_absurd
 from plumb.fit.problem import priors_with
 from plumb.lab.project import Choices
-from plumb.model.python_effect import CURVES, Curve, Reading, Unit
+from plumb.model.effect_words import CURVES, Curve, Reading, Unit
 from plumb.plan.separation import FRAME_CHECKS, effect_checks
 from plumb.settings.machine import GRAVITY, MachineSettings
 from plumb.text.errors import InputError

@@ -20,12 +20,11 @@ from plumb.line.progress import Wait, waits_in
 from plumb.marks.form import read_form
 from plumb.marks.read import Mark, read_marks
 from plumb.model.predict import known_effects
-from plumb.model.reach import refuse_way, with_soft_chains
+from plumb.model.reach import plain_machine, refuse_way, with_soft_chains
 from plumb.plan.options import MARK, READING, ROUND
 from plumb.settings.machine import MachineSettings
 from plumb.text.errors import InputError
 from plumb.text.files import is_ours
-from plumb.vm.owner import plain_machine
 
 FORM, PROGRAM = "marks{}.toml", "grid{}.nc"
 

@@ -10,7 +10,6 @@ from pathlib import Path
 from typing import Any
 
 from plumb.grid.cut_with import settings_as_they_were
-from plumb.marks.benchmark import read_benchmark
 from plumb.marks.model import Distance, Mark, Measurements, Point, Round, Typed
 from plumb.marks.plausible import Sheet, to_machine
 from plumb.settings.files import read_settings
@@ -45,7 +44,6 @@ HEAD_KEYS = (
     *ROUND_FLAGS,
     "mark",
     "distance",
-    "benchmark",
 )
 MARK_KEYS = (
     "name",
@@ -97,14 +95,9 @@ def read_marks_toml(
     file_round = _round(path, head, known)
     sheet = file_round.cut_with.sheet if file_round.cut_with else sheet
     frame = Frame(sheet if top_left else None, unit)
-    marks = _marks(path, head, frame=frame, weight=weight)
-    distances = _distances(path, head)
-    if "benchmark" in head:
-        more = read_benchmark(path, head["benchmark"], weight=weight, unit=unit)
-        marks, distances = (*marks, *more[0]), (*distances, *more[1])
     return Measurements(
-        marks=marks,
-        distances=distances,
+        marks=_marks(path, head, frame=frame, weight=weight),
+        distances=_distances(path, head),
         controller=_controller(path, head),
         tape_sigma=_tape_sigma(path, head),
         sled_weight=weight,

@@ -1,4 +1,4 @@
-"""Every effect that can be fitted: those of the firmware, of the lab, then sketches."""
+"""Every effect that can be fitted: those of the firmware, then those of the lab."""
 
 from __future__ import annotations
 
@@ -9,10 +9,9 @@ import numpy as np
 from plumb import _core
 from plumb.model.lab_effects import LAB_EFFECTS, SLED
 from plumb.model.predict import NAMES, frame_words, library
-from plumb.model.sketches import SKETCHES
 
 if TYPE_CHECKING:
-    from plumb.model.python_effect import EffectWords, ParameterWords
+    from plumb.model.effect_words import EffectWords, ParameterWords
 
 NO_FIRMWARE = "no firmware can cure this"
 
@@ -60,12 +59,9 @@ WEIGHT_POWERS = {
 
 
 def every_effect() -> list[EffectWords]:
-    """Return the words of every effect that may be a cause; `where` is "firmware", "lab" or
-    "sketch".
-    """
+    """Return the words of every effect that may be a cause; `where` is "firmware" or "lab"."""
     firmware = [words for words in library() if not words["empirical"]]
-    lab = [effect.words for effect in LAB_EFFECTS]
-    return firmware + lab + [sketch.words for sketch in SKETCHES]
+    return firmware + [effect.words for effect in LAB_EFFECTS]
 
 
 def empirical_effects() -> list[EffectWords]:
@@ -83,11 +79,6 @@ def is_lab(effect: str) -> bool:
     return any(known.name == effect for known in LAB_EFFECTS)
 
 
-def is_sketch(effect: str) -> bool:
-    """Return whether the effect is on trial in Python, so that no firmware has it."""
-    return any(known.name == effect for known in SKETCHES)
-
-
 def is_of_chain(effect: str) -> bool:
     """Return whether the effect goes with its chain to the other sprocket."""
     return any(name.startswith(f"{effect}.") for name in OTHER_CHAIN)
@@ -101,16 +92,12 @@ def is_felt_by_approach(effect: str) -> bool:
 
 
 def place_of(effect: str) -> str:
-    """Return where the effect is written: "firmware", "lab" or "sketch"."""
-    if is_sketch(effect):
-        return "sketch"
+    """Return where the effect is written: "firmware" or "lab"."""
     return "lab" if is_lab(effect) else "firmware"
 
 
 def label(effect: str) -> str:
     """Return the effect's name, marked where no firmware has it."""
-    if is_sketch(effect):
-        return f"{effect} (sketch, not in the firmware)"
     return f"{effect} (lab)" if is_lab(effect) else effect
 
 

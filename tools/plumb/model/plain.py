@@ -17,7 +17,7 @@ from plumb.model.predict import frame_words
 from plumb.text.values import in_unit, unit
 
 if TYPE_CHECKING:
-    from plumb.model.python_effect import PlainWords
+    from plumb.model.effect_words import PlainWords
 
 
 PER_METRE, PER_FOOT = "for each metre", "for each foot"

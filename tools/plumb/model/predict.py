@@ -15,7 +15,7 @@ from plumb.settings.machine import HOLEY_CHAIN_WEIGHT, MachineSettings, frame_of
 
 if TYPE_CHECKING:
     from plumb._core import FrameWords
-    from plumb.model.python_effect import EffectWords
+    from plumb.model.effect_words import EffectWords
 
 
 Array = NDArray[np.float64]

@@ -28,7 +28,7 @@ AROUND = 0.05  # of the sheet's width, left free on each side
 HEAD = 30.0  # [mm] around the tip of an arrow, for its head
 LONG, OVERLAP = 0.37, 1.5  # the longest arrow: of the sheet's height, of the way between marks
 CLOSE = 25.0  # [mm] between marks that repeat each other
-MANY = 60  # marks from which a picture has no numbers
+MANY = 60  # marks above which a picture has no numbers
 LETTER = 0.68 / 72  # [inch] width of a letter, of the size of its type
 STEPS = (1, 2, 3, 5)  # a factor is such a number times a power of ten
 
@@ -62,7 +62,6 @@ class Panel:
     predicted: Array = field(default_factory=lambda: np.zeros((0, 2)))
     errors: Array = field(default_factory=lambda: np.zeros((0, 2)))  # measured - predicted
     good: bool = False  # drawn in the colour of success
-    names: tuple[str, ...] = ()  # of the marks
     spots: Sequence[Spot] = ()
     ways: Sequence[Ways] = ()
     shades: Array | None = None  # (rows, columns, 4) colours from the lower left
@@ -78,10 +77,9 @@ def draw(
     words: Sequence[str] = (),
     columns: int = 0,
     form: str = "png",
-    names: bool = False,
 ) -> bytes:
-    """Return the picture as a file, all arrows to a single scale; `names` writes those of the
-    marks, and 0 columns are as many as make rows of about the same length.
+    """Return the picture as a file, all arrows to a single scale; 0 columns are as many as make
+    rows of about the same length.
     """
     # Loading matplotlib takes longer than most commands: only a drawing waits for it.
     from matplotlib.figure import Figure
@@ -107,7 +105,7 @@ def draw(
         axis = figure.add_axes(share)
         axis.set(xlim=(view[0][0], view[1][0]), ylim=(view[0][1], view[1][1]))
         axis.set_axis_off()
-        _draw_panel(axis, panel, sheet, factor=factor, small=wide / WIDTH, names=names)
+        _draw_panel(axis, panel, sheet, factor=factor, small=wide / WIDTH)
     # The whole legend in the type of its longest line.
     legend = "\n".join(said)
     _write(figure, legend, 0.0, foot / 2, wide * columns, size=12, weight="normal")
@@ -171,7 +169,6 @@ def _draw_panel(
     *,
     factor: float,
     small: float,
-    names: bool,
 ) -> None:
     from matplotlib.collections import LineCollection
     from matplotlib.patches import Rectangle
@@ -189,7 +186,7 @@ def _draw_panel(
     if len(panel.errors):
         _draw_arrows(axis, panel, factor=factor, small=small)
         if small == 1.0:
-            _draw_lengths(axis, panel, names=names)
+            _draw_lengths(axis, panel)
     for spot in panel.spots:
         axis.plot(spot.x, spot.y, "o", color=spot.colour, mec=INK, ms=small * spot.size, zorder=5)
         # Towards the middle of the sheet, where there is room.
@@ -227,31 +224,25 @@ def _draw_arrows(axis: Axes, panel: Panel, *, factor: float, small: float) -> No
     )
 
 
-def _draw_lengths(axis: Axes, panel: Panel, *, names: bool) -> None:
-    """Write the length of each error behind its mark, and its name if that was asked for; of marks
-    that lie close together, those of the first.
+def _draw_lengths(axis: Axes, panel: Panel) -> None:
+    """Write the length of each error behind its mark; of marks that lie close together, that of the
+    first.
     """
     lengths = np.hypot(*panel.errors.T)
-    many = len(lengths) > MANY
-    if many and not names:
+    if len(lengths) > MANY:
         return
-    marks = panel.names or ("",) * len(lengths)
     written: list[Array] = []
-    for place, error, length, name in zip(
-        panel.predicted, panel.errors, lengths, marks, strict=True
-    ):
+    for place, error, length in zip(panel.predicted, panel.errors, lengths, strict=True):
         if any(np.hypot(*(place - other)) < CLOSE for other in written):
             continue
         written.append(place)
-        size = f"{length:.1f}"
-        said = (name if many else f"{name}: {size}") if names and name else size
         x, y = -error / length if length > 0 else (0.0, -1.0)
         axis.annotate(
-            said,
+            f"{length:.1f}",
             place,
             (14 * x, 14 * y),
             textcoords="offset points",
-            fontsize=5 if many else 11,
+            fontsize=11,
             color=INK,
             ha="left" if x > 0.5 else "right" if x < -0.5 else "center",
             va="center",

@@ -1,13 +1,12 @@
-"""The paper for a grid: its marks, or the spans of the benchmark, with boxes to fill in."""
+"""The paper for a grid: its marks, with boxes to fill in."""
 
 from __future__ import annotations
 
 from pathlib import Path
 
 import plumb.grid as marks_grid
-from plumb.grid.pattern import ACROSS, SPANS, SQUARE, UPWARDS
 from plumb.pictures.measuring_sheet import Hole, MeasuringSheet, Reading, measuring_sheet
-from plumb.text.values import bare, in_unit, unit
+from plumb.text.values import bare, unit
 
 TAPE = {
     "mm": "Read the tape in mm, to half a millimetre if you can.",
@@ -31,8 +30,6 @@ def content_of(
     cut = f" These marks are cut with {Path(settings).name}." if settings else ""
     then = f"Then type the numbers into {Path(form).name}.{cut}"
     holes = _holes(grid, machine)
-    if grid.is_benchmark:
-        return _benchmark(holes, machine, then)
     return MeasuringSheet(
         title=f"Measuring sheet: {len(holes)} marks",
         how=(
@@ -50,7 +47,6 @@ def content_of(
             for hole in holes
         ),
         sheet=(machine.sheet_width, machine.sheet_height),
-        from_edges=True,
     )
 
 
@@ -63,27 +59,4 @@ def _holes(grid: marks_grid.Grid, machine: marks_grid.PlainMachine) -> tuple[Hol
             again=mark.visit > 0,
         )
         for mark in marks_grid.listed(marks_grid.touches_of(grid, machine))
-    )
-
-
-def _benchmark(
-    holes: tuple[Hole, ...], machine: marks_grid.PlainMachine, then: str
-) -> MeasuringSheet:
-    planned = {"across": ACROSS, "upwards": UPWARDS}
-    return MeasuringSheet(
-        title="Calibration Benchmark Test",
-        how=(
-            "From mark to mark, or from a side of a cut to the same side of the other.",
-            TAPE[unit()],
-            then,
-        ),
-        words=("from - to", "planned", "measured"),
-        holes=holes,
-        readings=tuple(
-            Reading(f"{first} - {last}", (f"{round(in_unit(planned.get(name, SQUARE)), 3):g}",))
-            for name, spans in SPANS.items()
-            for first, last in spans
-        ),
-        sheet=(machine.sheet_width, machine.sheet_height),
-        from_edges=False,
     )

@@ -58,7 +58,6 @@ class MeasuringSheet:
     holes: tuple[Hole, ...]
     readings: tuple[Reading, ...]
     sheet: tuple[float, float]  # [mm] width and height of the wood
-    from_edges: bool  # whether the tape begins at the sheet's left and top edges
 
 
 def measuring_sheet(content: MeasuringSheet) -> bytes:
@@ -127,14 +126,13 @@ def _draw_wood(axis: Axes, content: MeasuringSheet, top: float) -> float:
     from matplotlib.patches import Rectangle
 
     width, height = content.sheet
-    edge = 7.0 if content.from_edges else 2.0  # [mm] for the words along the edges
+    edge = 7.0  # [mm] for the words along the edges
     scale = min((WIDE - edge) / width, 105.0 / height)
     left, upper = LEFT + edge, top + edge
     axis.add_patch(
         Rectangle((left, upper), scale * width, scale * height, fc=WOOD, ec=EDGE, lw=0.8)
     )
-    if content.from_edges:
-        _draw_tape(axis, content, left, upper, scale)
+    _draw_tape(axis, content, left, upper, scale)
     for hole in content.holes:
         inside = "white" if hole.again else INK
         place = left + scale * hole.x, upper + scale * hole.y

@@ -14,8 +14,8 @@ import numpy as np
 
 from plumb.diagnosis.explanation import Board, Explanation
 from plumb.model.catalogue import every_effect
+from plumb.model.effect_words import DirectCheck
 from plumb.model.plain import greatest
-from plumb.model.python_effect import DirectCheck
 from plumb.plan.case import Case, Hypothesis, visit_slopes
 from plumb.plan.planned_visits import Visits
 

@@ -2,13 +2,10 @@
 
 from __future__ import annotations
 
-import importlib.util
 from collections.abc import Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
 from os import PathLike
-from pathlib import Path
-from types import ModuleType
 
 
 class InputError(Exception):
@@ -64,16 +61,3 @@ def read_on_page() -> Iterator[None]:
 def to_do(line: str, *, page: str) -> str:
     """Return what its reader can do: with options on a command line, or on the page."""
     return page if _on_page.get() else line
-
-
-# Python files outside the package: the scripts in tools/ and the sketches of users.
-
-
-def load_script(path: Path, *, name: str) -> ModuleType:
-    """Return the module that a Python file makes when it runs; `name` is the module's."""
-    specification = importlib.util.spec_from_file_location(name, path)
-    if specification is None or specification.loader is None:
-        raise ImportError(f"{path} is not a Python file")
-    module = importlib.util.module_from_spec(specification)
-    specification.loader.exec_module(module)
-    return module

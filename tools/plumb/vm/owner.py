@@ -16,10 +16,11 @@ from plumb.bench.causes import CHAIN
 from plumb.diagnosis import Checked
 from plumb.firmware.client_files import gcode
 from plumb.firmware.settings import firmware_numbers
-from plumb.grid.options import Grid, PlainMachine
+from plumb.grid.options import Grid
 from plumb.grid.program import marks_list, program
 from plumb.line.sender import Sender
 from plumb.model.lab_effects import LAB_EFFECTS
+from plumb.model.reach import plain_machine
 from plumb.plan.case import Check
 from plumb.plan.planned_visits import Visits, marks_file, visit_lines
 from plumb.settings.machine import MachineSettings
@@ -27,11 +28,7 @@ from plumb.vm.garage import Garage, set_up, with_new_sheet
 from plumb.vm.tape import Tape
 
 # The number by which the lab knows friction: of the effect that drags a sled.
-FRICTION_NAME = next(
-    f"{effect.name}.{effect.parameters[0].name}"
-    for effect in LAB_EFFECTS
-    if effect.hidden_as == "drag"
-)
+FRICTION_NAME = next(each.parameter for each in LAB_EFFECTS if each.hidden_as == "drag")
 
 
 class VirtualOwner:
@@ -128,18 +125,6 @@ class VirtualOwner:
     def lay_next_sheet(self, *, raised: float) -> None:
         """Lay the next sheet; each lies a little otherwise than those before."""
         self.lay_new_sheet(self.garage.seed + self._sheets, raised=raised)
-
-
-def plain_machine(settings: MachineSettings) -> PlainMachine:
-    """Return the machine as a grid sees it."""
-    return PlainMachine(
-        sheet_width=settings.sheet_width,
-        sheet_height=settings.sheet_height,
-        motor_spacing=settings.motor_gap,
-        motor_offset=settings.motor_height - settings.sheet_height / 2,
-        rotation_radius=settings.rotation_radius,
-        sled_weight_n=settings.sled_weight,
-    )
 
 
 def true_value(garage: Garage, name: str) -> float:

@@ -1,6 +1,5 @@
 """`plumb bench`: how often the diagnosis is right, and how its boards are played and counted."""
 
-import json
 import sys
 from dataclasses import replace
 
@@ -45,11 +44,6 @@ def test_the_diagnosis_is_right_on_boards_of_each_kind():
     assert bump.after < 0.5 * bump.before and bump.worse == 0
 
 
-def test_a_round_of_what_is_proposed_is_measured_too(one):
-    more = judge_board(NONE, 0, marks=9, seed=SEED, rounds=1)
-    assert more.before == one.before and more.after != one.after
-
-
 def test_rates_are_means_over_boards(one):
     wrong = replace(one, named=True, exact=False, needless=2, after=one.after + 1, worse=True)
     row = row_of(NONE, [one, one, one, wrong])
@@ -64,42 +58,9 @@ def test_the_command_prints_a_row_a_kind_and_names_its_kinds(run, ask):
     assert [row["kind"] for row in answer["rows"]] == [NONE]
     code, said, complaint = run(*words)
     assert code == 0 and f"\n{NONE} " in said and complaint == ""
-    code, said, _ = run("bench", "--list")
-    assert code == 0 and all(name in said for name in KINDS)
     code, _, complaint = run("bench", "--kinds", "everything")
     assert code == 2 and "everything" in complaint and complaint.count("\n") == 1
-
-
-def test_boards_that_are_saved_are_not_played_again(run, ask, tmp_path, monkeypatch):
-    file = tmp_path / "boards.jsonl"
-    words = ("bench", "--kinds", NONE, "--marks", 9, "--save", file, "--boards")
-    assert run(*words, 2)[0] == 0
-    played = []
-
-    def counted(kind, index, **how):
-        played.append(index)
-        return judge_board(kind, index, **how)
-
-    monkeypatch.setattr("plumb.bench.report.judge_board", counted)
-    code, answer = ask(*words, 3)
-    assert code == 0 and played == [2] and answer["rows"][0]["boards"] == 3
-    assert run(*words, 1, "--seed", 2)[0] == 0 and played == [2, 0]
-    file.write_text(file.read_text() + "{}\n")
-    code, _, complaint = run(*words, 1)
-    assert code == 2 and "line 5 is no board" in complaint and complaint.count("\n") == 1
-
-
-def test_a_change_is_judged_on_the_same_boards(run, ask, tmp_path, one):
-    old, new = tmp_path / "old.jsonl", tmp_path / "new.jsonl"
-    how = {"marks": 9, "seed": 1, "rounds": 0}
-    for file, wrong in ((old, 0), (new, 30)):
-        boards = [{**how, **vars(one), "index": i, "exact": i >= wrong} for i in range(50)]
-        file.write_text("".join(json.dumps(board) + "\n" for board in boards))
-    words = ("bench", "--kinds", NONE, "--boards", 50, "--marks", 9, "--save", new, "--against")
-    (change,) = ask(*words, old)[1]["changes"]
-    assert (change["rate"], change["was"], change["now"]) == ("exact", 1.0, 0.4)
-    assert ask(*words, new)[1]["changes"] == []
-    assert run("bench", "--against", tmp_path / "none.jsonl")[0] == 2
+    assert all(name in complaint for name in KINDS)
 
 
 def test_an_interruption_keeps_the_boards_that_are_done(run, ask, monkeypatch):

@@ -37,13 +37,11 @@ QUESTIONS = (
     ("diagnose", *BOARD),
     ("diagnose", *SLIPPED),
     ("effects",),
-    ("forward", INI, "--lengths", "pairs.csv"),
     ("grid", *GRID),
     ("grid", *GRID, "--settings", INI, "--details"),
     ("grid", *GRID, "--output", "grid.nc", "--marks", "form.toml"),
     ("recover", "kept.toml", "--keep=low=0,-400", "-o", "hole.nc"),
     ("recover", "kept.toml", "--at", "left", "--touch=right:903,-250"),
-    ("inverse", INI, "--points", "pairs.csv", "--controller", "plumb"),
     ("next", *BOARD),
     ("next", *SLIPPED),
     ("next", *BOARD, "--sigma", "5", "--marks", "form.toml"),
@@ -110,7 +108,6 @@ def folder(tmp_path, monkeypatch):
         '[[mark]]\nname = "2"\ntarget = [900, -250]\nmeasured = [905, -250]\n'
     )
     append(tmp_path / "kept", "fit", {**FIT, "settings": TOML.read_text()})
-    (tmp_path / "pairs.csv").write_text("1700,1700\n0,0\n9000,100\n")
     monkeypatch.setattr(read_command, "port_for", str)
     monkeypatch.setattr(read_command, "SerialPort", Board)
     monkeypatch.chdir(tmp_path)

@@ -1,12 +1,10 @@
 """The command line: answers, exit codes, and one clear line for whatever cannot be used."""
 
-import numpy as np
-import plumb.grid as grids
 import pytest
 from plumb.model.catalogue import effect_names
 from plumb.settings.toml import write_machine_toml
 from published_marks import MARKS, SETTINGS
-from synthetic import BELIEVED, TRUE, csv_of, grid, marks_on
+from synthetic import BELIEVED, csv_of, grid, marks_on
 
 BOARD = [str(SETTINGS), str(MARKS)]
 EFFECTS = ["--effect", "chain_pitch", "chain_sag"]
@@ -66,29 +64,6 @@ def test_add_of_an_effect_that_does_not_pay_is_bad_news(run, tmp_path):
     assert code == 1 and "NOT better" in said and "do not keep" in said
 
 
-def test_inverse_and_forward_of_our_model_undo_each_other(ask, file, tmp_path):
-    machine = tmp_path / "machine.toml"
-    write_machine_toml(machine, TRUE)
-    points = file("points.csv", "0,0\n1150,-550\n-900,400\n")
-    code, answer = ask("inverse", machine, "--points", points)
-    assert code == 0 and answer["controller"] == "plumb"
-    pairs = "\n".join(f"{left!r},{right!r}" for left, right in answer["lengths"])
-    chains = file("chains.csv", f"left,right\n{pairs}\n")
-    code, back = ask("forward", machine, "--lengths", chains)
-    assert code == 0 and back["found"] == ["yes"] * 3
-    assert np.array(back["places"]) == pytest.approx(
-        np.array([[0, 0], [1150, -550], [-900, 400]]), abs=1e-4
-    )
-
-
-def test_a_place_out_of_reach_is_null_and_bad_news(ask, run, file):
-    points = file("points.csv", "0,0\n0,5000\n")
-    code, answer = ask("inverse", SETTINGS, "--points", points, "--controller", "plumb")
-    assert code == 1 and answer["lengths"][1] is None and answer["found"] == ["yes", "out of reach"]
-    code, said, _ = run("inverse", SETTINGS, "--points", points, "--controller", "plumb")
-    assert code == 1 and said.startswith("1 of 2 places found") and "out of reach" in said
-
-
 def test_effects_names_every_effect_with_its_look_alikes(run):
     code, said, _ = run("effects")
     assert code == 0
@@ -96,9 +71,7 @@ def test_effects_names_every_effect_with_its_look_alikes(run):
     assert said.count("looks like") == len(effect_names())
 
 
-def test_grid_is_the_tool_beside_the_package(run, ask, tmp_path, capsys):
-    assert grids.main(["--preset", "nine"]) == 0
-    assert capsys.readouterr().out == run("grid", "--preset", "nine")[1]
+def test_grid_writes_a_program_with_its_marks(ask, tmp_path):
     program = tmp_path / "grid.nc"
     code, answer = ask("grid", "--preset", "nine", "--output", program)
     assert code == 0 and answer["written"] == [str(program)] and answer["program"] is None

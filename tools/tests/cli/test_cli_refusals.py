@@ -10,8 +10,8 @@ JOB = SETTINGS.parents[4] / "docs/example/pocket.nc"
 EFFECTS = ["--effect", "chain_pitch", "chain_sag"]
 BAD = [
     ("no marks", ["compare", SETTINGS], "MARKS"),
-    ("text for a number", ["compare", *BOARD, "--limit", "big"], "--limit"),
-    ("a limit below zero", ["compare", *BOARD, "--limit=-1"], "--limit"),
+    ("text for a number", ["check", JOB, SETTINGS, "--bit", "big"], "--bit"),
+    ("a length below zero", ["check", JOB, SETTINGS, "--bit=-1"], "--bit"),
     ("settings are missing", ["compare", "none.ini", MARKS], "none.ini: there is no such file"),
     ("marks are missing", ["compare", SETTINGS, "none.csv"], "none.csv: there is no such file"),
     ("marks as settings", ["compare", MARKS, MARKS], "holds marks, not settings"),
@@ -28,11 +28,7 @@ BAD = [
     ("infinite prior", ["add", *BOARD, *EFFECTS, "--prior", "motor_gap=inf"], "NAME=SIGMA"),
     ("unknown prior", ["add", *BOARD, *EFFECTS, "--prior", "gap=1"], "unknown name 'gap'"),
     ("no reading error", ["add", *BOARD, *EFFECTS, "--sigma", "0"], "--sigma"),
-    ("names without a picture", ["compare", *BOARD, "--names"], "add --picture"),
     ("picture of no form", ["compare", *BOARD, "--picture", "errors.gif"], ".png"),
-    ("no points", ["inverse", SETTINGS], "--points"),
-    ("points are missing", ["inverse", SETTINGS, "--points", "none.csv"], "none.csv: there is no"),
-    ("lengths are missing", ["forward", SETTINGS, "--lengths", "none.csv"], "none.csv: there is"),
     ("grid too narrow", ["grid", "--margin", "700"], "--margin is 700"),
     ("grid of text", ["grid", "--margin", "wide"], "--margin"),
     ("grid of another size", ["grid", "--columns", "4"], "--columns"),
@@ -48,37 +44,6 @@ def test_what_cannot_be_used_is_told_in_one_line(arguments, hint, run, tmp_path,
     assert complaint.startswith("plumb: ") and complaint.count("\n") == 1
     assert hint in complaint
     assert list(tmp_path.iterdir()) == []
-
-
-@pytest.mark.parametrize(
-    ("text", "hint"),
-    [
-        ("", "the file is empty"),
-        ("# only words\n", "has no numbers"),
-        ("x,y\n", "has no numbers"),
-        ("x,y\n1,two\n", "line 2, y: 'two' is not a number"),
-        ("1,2\nx,y\n", "line 2, x: 'x' is not a number"),
-        ("1,\n", "line 1, y: a number is missing"),
-        ("1,nan\n", "line 1, y: 'nan' is not a usable number"),
-        ("nan,inf\n", "line 1, x: 'nan' is not a usable number"),
-        ("1;2\n", "line 1: has 1 value instead of 2; write x,y on each line"),
-        ("1,2,3\n", "line 1: has 3 values instead of 2"),
-        ("y,x\n1,2\n", "line 1: the header is 'y,x'; write x,y on each line, in mm"),
-        ("x_inch,y_inch\n1,2\n", "the header is 'x_inch,y_inch'"),
-        (b"\xff1,2\n", "UTF-8"),
-        (b"1,2\0\n", "is not a text file"),
-    ],
-)
-def test_points_that_cannot_be_used_are_named_with_file_and_line(text, hint, run, file):
-    path = file("points.csv", text)
-    code, said, complaint = run("inverse", SETTINGS, "--points", path)
-    assert code == 2 and said == "" and complaint.count("\n") == 1
-    assert complaint.startswith(f"plumb: {path}") and hint in complaint
-
-
-def test_points_may_have_a_header_comments_and_spaces(ask, file):
-    points = file("points.csv", "\ufeff# two places\n X_mm , y [mm]\n\n 0 , 0 \r\n1.5e2,-3\n")
-    assert len(ask("inverse", SETTINGS, "--points", points)[1]["lengths"]) == 2
 
 
 @pytest.mark.parametrize(

@@ -32,7 +32,7 @@ def test_the_examples_of_the_help_are_understood(name, monkeypatch, capsys, tmp_
     """Each file that they name is there; nothing is run."""
     for file in ("groundcontrol.ini", "machine.toml", "marks.toml", "pocket.nc"):
         (tmp_path / file).write_bytes((EXAMPLE / file).read_bytes())
-    for file in ("first.toml", "check.toml", "places.csv", "lengths.csv", "errors.toml"):
+    for file in ("first.toml", "check.toml", "errors.toml"):
         (tmp_path / file).write_text("")
     monkeypatch.chdir(tmp_path)
     with pytest.raises(SystemExit):
@@ -70,16 +70,6 @@ def test_help_of_all_and_refusals_of_commands_load_no_numerics():
     )
     done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
-
-
-def test_bash_completes_a_command_and_an_option():
-    script = (
-        f"source <({sys.executable} -m plumb.cli.main --completion bash)\n"
-        "COMP_WORDS=(plumb calib); COMP_CWORD=1; _shtab_plumb; echo ${COMPREPLY[@]}\n"
-        "COMP_WORDS=(plumb compare --lim); COMP_CWORD=2; _shtab_plumb; echo ${COMPREPLY[@]}\n"
-    )
-    done = subprocess.run(["bash", "-c", script], capture_output=True, text=True)
-    assert done.stdout.split() == ["calibrate", "--limit"], done.stderr
 
 
 def test_the_linear_algebra_has_one_thread():

@@ -2,8 +2,6 @@
 
 import os
 import stat
-import subprocess
-import sys
 import threading
 import tomllib
 from pathlib import Path
@@ -19,8 +17,6 @@ SETTINGS, MARKS, MACHINE = (
 ADD = ("add", SETTINGS, MARKS, "--effect", "chain_pitch")
 LINES = ("settings", MACHINE, "--to", "gcode", "--client", "none")
 GRID = ("grid", "--preset", "nine")
-# As it is run without an installation: with nothing but Python's own library.
-TOOL = [sys.executable, "-IS", str(ROOT / "tools/calibration_grid.py"), "--preset", "nine"]
 # Commands with the option that names their result, and the name of a file for it.
 WRITERS = [
     pytest.param((*ADD, "-o"), "machine.toml", id="add"),
@@ -139,19 +135,6 @@ def test_what_comes_through_a_pipe_is_read_once(run):
         text.partition("\nWhat is missing:") for text in (said, run("compare", SETTINGS, MARKS)[1])
     )
     assert code == 0 and report[1] and report[0] == usual[0]
-
-
-def test_the_tool_without_installation_keeps_the_same_laws():
-    def tool(*options):
-        return subprocess.run([*TOOL, *options], capture_output=True, text=True)
-
-    assert tool("--output", "grid.nc").returncode == 0
-    Path("notes.nc").write_text("notes\n")
-    refused = tool("--output", "notes.nc")
-    assert refused.returncode == 2 and "--force" in refused.stderr
-    assert Path("notes.nc").read_text() == "notes\n"
-    assert tool("--output", "notes.nc", "--force").returncode == 0
-    assert Path("notes.nc").read_bytes() == Path("grid.nc").read_bytes()
 
 
 def test_main_forgets_the_force_of_an_earlier_run():

@@ -27,8 +27,6 @@ def _no_screen(monkeypatch):
         ("add", INI, MARKS, "--effect", "sprocket_runout", "frame_flex"),
         ("effects",),
         ("bench", "--kinds", "one", "--marks", "9", "--boards", "1"),
-        ("inverse", INI, "--points", EXAMPLE / "places.csv"),
-        ("forward", INI, "--lengths", EXAMPLE / "lengths.csv"),
         ("settings", EXAMPLE / "machine.toml"),
         ("reach", EXAMPLE / "machine.toml"),
     ],

@@ -101,8 +101,6 @@ def test_an_answer_fits_a_screen_ends_with_its_verdict_and_details_say_more(boar
     ("command", "colour"),
     [
         (("compare", INI, MARKS), 33),
-        (("compare", INI, MARKS, "--limit", "99"), 32),
-        (("compare", INI, MARKS, "--limit", "0.1"), 31),
         (("calibrate", INI, MARKS), 33),
     ],
 )

@@ -4,15 +4,16 @@ import argparse
 
 import pytest
 from plumb.cli.arguments import length, place
+from plumb.cli.grid import add_arguments
+from plumb.cli.grid import grid_of as planned
 from plumb.cli.recover import touch
-from plumb.grid.command import add_arguments, from_arguments
 
 
 def grid_of(*words):
     """The grid of these options."""
     parser = argparse.ArgumentParser()
     add_arguments(parser)
-    return from_arguments(parser.parse_args(words))[0]
+    return planned(parser.parse_args(words))
 
 
 def test_a_grid_is_the_same_in_inches():

@@ -98,7 +98,7 @@ def test_no_settings_ever_hold_a_lab_effect(tmp_path):
 @pytest.mark.parametrize("effect", LAB_EFFECTS, ids=lambda effect: effect.name)
 def test_settings_with_a_lab_effect_are_refused(effect, tmp_path):
     path = tmp_path / "machine.toml"
-    sizes = {effect.name: {effect.parameters[0].name: 0.001}}
+    sizes = {effect.name: {effect.parameter.partition(".")[2]: 0.001}}
     write_machine_toml(path, replace(BELIEVED, effects=sizes))
     with pytest.raises(InputError, match=effect.name):
         read_settings(path, known=known_effects())

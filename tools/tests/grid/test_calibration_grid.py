@@ -1,10 +1,13 @@
-"""Tests of tools/calibration_grid.py: its programs are run by a small interpreter."""
+"""The programs of `plumb grid`, run by a small interpreter."""
 
 import math
 import re
+import subprocess
+import sys
 import tomllib
 from collections import Counter, namedtuple
 from itertools import pairwise
+from pathlib import Path
 
 import plumb.grid as grids
 import pytest
@@ -21,16 +24,6 @@ CHOICES = [
     {"places": ((-900.0, 400.0), (12.3, -400.0)), "repeats": False},
 ]
 GRIDS = [options for options in CHOICES if "places" not in options]
-INI = """[Maslow Settings]
-bedwidth = 2000
-bedHeight = 1000
-MOTORSPACINGX = 3000
-motorOffsetY = 500
-comment = 100 %(odd)s
-
-[Advanced Settings]
-rotationRadius = 140
-"""
 
 
 def gcode(machine=None, **options):
@@ -62,15 +55,6 @@ def moves(text):
 
 def plunges(text):
     return [move for move in moves(text) if move.end[2] < 0]
-
-
-def run(arguments, capsys):
-    """Exit code, standard output and standard error of one call."""
-    try:
-        code = grids.main(arguments)
-    except SystemExit as stop:
-        code = stop.code
-    return code, *capsys.readouterr()
 
 
 def lands_at(move, x, y):
@@ -221,9 +205,9 @@ def test_the_way_between_two_corners_is_checked_too():
 
 
 @pytest.mark.parametrize("words, hint", REFUSALS)
-def test_a_bad_request_gets_one_line_exit_code_2_and_no_file(words, hint, tmp_path, capsys):
-    files = ["--output", str(tmp_path / "grid.nc"), "--marks", str(tmp_path / "marks.toml")]
-    code, said, complaint = run([*words.split(), *files], capsys)
+def test_a_bad_request_gets_one_line_exit_code_2_and_no_file(words, hint, tmp_path, run):
+    files = ["--output", tmp_path / "grid.nc", "--marks", tmp_path / "marks.toml"]
+    code, said, complaint = run("grid", *words.split(), *files)
     assert code == 2
     assert said == ""
     assert complaint.count("\n") == 1 and complaint.endswith("\n")
@@ -231,30 +215,13 @@ def test_a_bad_request_gets_one_line_exit_code_2_and_no_file(words, hint, tmp_pa
     assert list(tmp_path.iterdir()) == []
 
 
-def test_readings_already_written_are_never_overwritten(tmp_path, capsys):
+def test_readings_already_written_are_never_overwritten(tmp_path, run):
     readings = tmp_path / "marks.toml"
     readings.write_text("an hour's work")
-    code, _, complaint = run(["--marks", str(readings), "--output", str(tmp_path / "g.nc")], capsys)
+    code, _, complaint = run("grid", "--marks", readings, "--output", tmp_path / "g.nc")
     assert code == 2 and "exists" in complaint
     assert readings.read_text() == "an hour's work"
     assert list(tmp_path.iterdir()) == [readings]
-
-
-@pytest.mark.parametrize(
-    "old, new, hint",
-    [
-        ("bedwidth = 2000\n", "", "bedWidth"),
-        ("= 500", "= high", "motorOffsetY"),
-        ("[Advanced Settings]", "[Other]", "rotationRadius"),
-        ("2000", "\xff", "groundcontrol.ini"),
-    ],
-)
-def test_unusable_settings_are_named_with_their_file_and_key(old, new, hint, tmp_path, capsys):
-    path = tmp_path / "groundcontrol.ini"
-    path.write_text(INI.replace(old, new), encoding="latin-1")
-    code, said, complaint = run(["--settings", str(path)], capsys)
-    assert code == 2 and said == "" and complaint.count("\n") == 1
-    assert hint in complaint and str(path) in complaint
 
 
 def test_the_list_of_marks_holds_every_target_and_approach_in_the_sheet_frame():
@@ -267,3 +234,20 @@ def test_the_list_of_marks_holds_every_target_and_approach_in_the_sheet_frame():
         assert entry["target"] == pytest.approx([mark.x + 1219.2, 609.6 - mark.y])
         assert entry["approach"] == [0.0, -40.0]
         assert "measured" not in entry
+
+
+def test_the_tool_writes_a_grid_without_any_installation(tmp_path):
+    tool = Path(__file__).resolve().parents[2] / "calibration_grid.py"
+
+    def made(*words):
+        command = [sys.executable, "-I", "-S", tool, *words]
+        return subprocess.run(command, capture_output=True, text=True)
+
+    whole = grids.program(grids.PRESETS["nine"], grids.PlainMachine())
+    assert made("--preset", "nine").stdout == whole
+    path = tmp_path / "grid.nc"
+    assert made("--preset", "nine", "--output", path).returncode == 0 and path.read_text() == whole
+    again = made("--output", path)
+    assert again.returncode == 2 and "exists" in again.stderr and path.read_text() == whole
+    narrow = made("--margin", "700")
+    assert narrow.returncode == 2 and "--margin is 700" in narrow.stderr

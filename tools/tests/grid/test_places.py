@@ -1,22 +1,14 @@
-"""`tools/calibration_grid.py`: marks at given places, and forms that wait for distances."""
+"""`plumb grid`: marks at given places, and forms that wait for distances."""
 
 import re
 import tomllib
 
 import numpy as np
 import pytest
-from plumb.grid import main
 
 
-def run(words, capsys):
-    """Exit code, screen and complaint of the tool."""
-    code = main(words)
-    said = capsys.readouterr()
-    return code, said.out, said.err
-
-
-def test_places_are_cut_in_their_order_and_nothing_else(capsys):
-    code, said, _ = run(["--places=-900.5,400 900,420 0,-400"], capsys)
+def test_places_are_cut_in_their_order_and_nothing_else(run):
+    code, said, _ = run("grid", "--places=-900.5,400 900,420 0,-400")
     assert code == 0 and "(pattern: places, 3 marks with repeats)" in said
     cut = [line for line in said.splitlines() if line.startswith("G1 X")]
     assert cut == ["G1 X-900.5 Y400 F700", "G1 X900 Y420 F700", "G1 X0 Y-400 F700"]
@@ -27,18 +19,17 @@ def test_places_are_cut_in_their_order_and_nothing_else(capsys):
     [
         (["--places=0,0 0,700"], "mark 2 at x 0.0 y 660.0 is outside the sheet"),
         (["--places=0,0", "--margin", "3"], "--margin is of marks in columns and rows"),
-        (["--preset", "benchmark", "--margin", "3"], "--margin is of marks in columns and rows"),
     ],
 )
-def test_places_that_cannot_be_are_refused(words, hint, capsys):
-    code, said, complaint = run(words, capsys)
+def test_places_that_cannot_be_are_refused(words, hint, run):
+    code, said, complaint = run("grid", *words)
     assert code == 2 and said == "" and hint in complaint
 
 
-def test_a_form_waits_for_sides_diagonals_and_halves(tmp_path, capsys):
+def test_a_form_waits_for_sides_diagonals_and_halves(tmp_path, run):
     form, cut = tmp_path / "form.toml", tmp_path / "cut.nc"
     words = ["--preset", "distances", "--marks", str(form), "--output", str(cut)]
-    code, _, complaint = run(words, capsys)
+    code, _, complaint = run("grid", *words)
     assert code == 0, complaint
     listed = tomllib.loads(re.sub(r"^# (?=\[\[dist|between)", "", form.read_text(), flags=re.M))
     place = {mark["name"]: np.array(mark["target"]) for mark in listed["mark"]}

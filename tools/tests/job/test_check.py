@@ -214,6 +214,12 @@ def test_a_hundred_thousand_lines_are_checked_and_the_share_that_is_done_grows()
     assert shares == sorted(shares) and 20 < len(shares) < 200 and shares[-1] == 1
 
 
+def test_a_program_that_is_looked_at_in_pieces_has_the_same_answers(ask, monkeypatch):
+    whole = ask("check", POCKET, SETTINGS, "--marks", MARKS)
+    monkeypatch.setattr("plumb.job.dry_run.BLOCK", 7)
+    assert ask("check", POCKET, SETTINGS, "--marks", MARKS) == whole
+
+
 def test_the_command_says_all_of_it(ask, run, tmp_path):
     picture, outline = tmp_path / "job.svg", tmp_path / "outline.nc"
     code, answer = ask(

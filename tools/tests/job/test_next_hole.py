@@ -5,10 +5,10 @@ from itertools import product
 import numpy as np
 import pytest
 from plumb.bench.causes import MAKER
-from plumb.bench.slipped_chains import MISHAPS, fitted_machine, touched
 from plumb.job.home import Touch
 from plumb.job.slip import CANNOT_TELL, LINK, SHEET, SLIP, find_slip, next_hole
 from plumb.model.predict import lengths, places
+from slipped_machine import fitted_machine, touched
 
 FIRST = (-900.0, 250.0)
 
@@ -41,14 +41,13 @@ def test_no_other_hole_is_much_better(links, first):
 
 
 def test_the_worst_pair_of_slips_is_named_after_it():
-    mishap = next(each for each in MISHAPS if each.links == (3, -3))
-    machine = fitted_machine(1054)  # its first two touches are the least lucky of 300
-    two = touched(machine, mishap, np.random.default_rng([1054, 41]))
-    finding = find_slip(machine.settings, two)
-    assert (finding.verdict, finding.best.links) == (CANNOT_TELL, (3, -3))
-    place = next_hole(machine.settings, finding)
+    pair, number = (3, -3), 1054  # its first two touches are the least lucky of 300
+    settings = fitted_machine(number)[1]
+    two = touched(number, links=pair, seed=[number, 41])
+    finding = find_slip(settings, two)
+    assert (finding.verdict, finding.best.links) == (CANNOT_TELL, pair)
+    place = np.array([next_hole(settings, finding)])
     for seed in range(5):
-        source = np.random.default_rng(seed)
-        (third,) = touched(machine, mishap, source, marks=np.array([place]))
-        settled = find_slip(machine.settings, [*two, third])
-        assert (settled.verdict, settled.best.links) == (SLIP, (3, -3))
+        third = touched(number, links=pair, seed=seed, holes=place)
+        settled = find_slip(settings, [*two, *third])
+        assert (settled.verdict, settled.best.links) == (SLIP, pair)

@@ -30,8 +30,6 @@ def line(monkeypatch):
     [
         ("groundcontrol.ini", f"holds settings of GroundControl, not a program; {NUMBERS}"),
         ("marks.toml", f"holds marks, not a program; {CODE}"),
-        ("lengths.csv", f"holds a table, not a program; {CODE}"),
-        ("places.csv", f"holds a table, not a program; {CODE}"),
         (".", "is a folder; name the file inside it"),
         ("nothing.nc", "there is no such file; check the name"),
     ],

@@ -20,6 +20,7 @@ from plumb.job.slip import (
 )
 from plumb.model.predict import lengths, places
 from plumb.settings.toml import FitRecord
+from slipped_machine import fitted_machine, touched
 
 HOLES = np.array([(-900.0, 250.0), (900.0, -250.0)])
 THIRD = np.array([(0.0, -400.0)])
@@ -97,3 +98,22 @@ def test_a_tape_on_a_turned_sheet_finds_the_holes_where_the_fit_has_them(turn):
     # Holes that the machine made are where it was sent, however the sheet hangs.
     made = find_slip(fitted, touches(holes, moved=(0.0, 0.0, -turn)))
     assert made.verdict == SHEET
+
+
+@pytest.mark.parametrize(
+    ("links", "moved", "named"),
+    [
+        ((3, -3), (0.0, 0.0), 11),  # looks most like a turned sheet
+        ((1, 0), (3.0, 0.001), 0),  # and the sheet moves: two holes rarely tell
+        (NO_LINKS, (0.0, 0.0), 0),
+        (NO_LINKS, (10.0, 0.004), 0),
+    ],
+)
+def test_on_machines_of_the_judge_no_slip_is_named_that_is_not_so(links, moved, named):
+    """Machines on which neither odds nor gate were chosen."""
+    found = [
+        find_slip(fitted_machine(number)[1], touched(number, links=links, moved=moved, seed=number))
+        for number in range(1001, 1013)
+    ]
+    slips = [finding.best.links for finding in found if finding.verdict == SLIP]
+    assert len(slips) >= named and slips == [links] * len(slips)

@@ -1,4 +1,4 @@
-"""Marks in inches are the same marks: toml, csv and the benchmark's form."""
+"""Marks in inches are the same marks: toml and csv."""
 
 import pytest
 from plumb.marks.read import read_marks

@@ -53,28 +53,27 @@ class TestEach:
         example = library()[0]
         assert set(example) <= set(words) and words["where"] == "lab"
         assert set(example["parameters"][0]) == set(words["parameters"][0])
-        texts = [effect.summary, effect.pattern, effect.look_alikes, effect.remedy, effect.needs]
+        said = [words[key] for key in ("summary", "pattern", "look_alikes", "remedy")]
+        texts = [*said, effect.needs]
         assert all(re.match(r"\w", text) and not text.endswith(".") for text in texts)
         assert effect.acts_on in (SLED, EDGES, TAPE)
 
     def test_is_not_among_those_of_the_firmware(self, effect):
         assert effect.name not in known_effects()
-        assert parameter_names(effect.name) == effect.parameter_names
+        assert parameter_names(effect.name) == (effect.parameter,)
 
     def test_zero_is_plausible_and_so_is_what_is_typical(self, effect):
-        assert all(
-            parameter.low <= 0 < parameter.typical < parameter.high
-            for parameter in effect.parameters
-        )
+        (words,) = effect.words["parameters"]
+        assert words["low"] <= 0 < words["typical"] < words["high"]
 
     def test_zero_means_absent(self, effect):
         without = seen({}, names=())
-        zero = seen(dict.fromkeys(effect.parameter_names, 0.0))
+        zero = seen({effect.parameter: 0.0})
         assert zero.read.where.tobytes() == without.read.where.tobytes()
         assert zero.taped.where.tobytes() == without.taped.where.tobytes()
 
     def test_zero_has_a_slope(self, effect):
-        at_zero = seen({}, names=effect.parameter_names).read.slopes
+        at_zero = seen({}, names=(effect.parameter,)).read.slopes
         assert (np.abs(at_zero).max(axis=(0, 1)) > 0).all()
 
 

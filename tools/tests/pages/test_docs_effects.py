@@ -6,8 +6,8 @@ from xml.etree import ElementTree
 import numpy as np
 import pytest
 from effects_page import PAGE, pages, picture_name
+from fields import LONGEST, SCALE, Picture, drawing, factor_for
 from plumb.model.catalogue import every_effect
-from plumb.pictures.fingerprints import LONGEST, SCALE, Picture, drawing, factor_for
 
 TEXTS = pages()
 EFFECTS = {element["name"]: element for element in every_effect()}

@@ -26,8 +26,8 @@ def svg_of(*panels, **how):
 
 @pytest.mark.parametrize("form", FORMATS)
 def test_each_form_is_what_it_says_and_the_same_each_time(form):
-    named = Panel("$\\frac{$ 7.0 mm", PLACES, ERRORS, names=("$\\frac{$", "$5 $6", "c"))
-    first, again = (draw([named], sheet=SHEET, form=form, names=True) for _ in range(2))
+    named = Panel("$\\frac{$ 7.0 mm", PLACES, ERRORS)
+    first, again = (draw([named], sheet=SHEET, form=form) for _ in range(2))
     assert first.startswith(STARTS[form]) and first == again
     assert first != draw([AFTER], sheet=SHEET, form=form)
 
@@ -63,15 +63,10 @@ def test_all_sheets_of_a_picture_have_a_single_scale_and_it_is_said():
     assert "life size" not in svg_of(Panel("no marks"))
 
 
-@pytest.mark.parametrize(("count", "without", "with_names"), [(60, 60, 60), (61, 0, 61)])
-def test_words_are_as_many_as_can_be_read_and_names_come_when_asked(count, without, with_names):
+@pytest.mark.parametrize(("count", "written"), [(60, 60), (61, 0)])
+def test_words_are_as_many_as_can_be_read(count, written):
     places = np.array([[40.0 * i - 1190, 0.0] for i in range(count)])
-    panel = Panel(
-        "", places, np.full((count, 2), 0.5), names=tuple(f"mark{i}" for i in range(count))
-    )
-    plain, named = (svg_of(panel, names=on) for on in (False, True))
-    assert plain.count("<!-- 0.7 -->") == without and "<!-- mark" not in plain
-    assert named.count("<!-- mark") == with_names
+    assert svg_of(Panel("", places, np.full((count, 2), 0.5))).count("<!-- 0.7 -->") == written
 
 
 def test_marks_that_repeat_each_other_have_one_number():

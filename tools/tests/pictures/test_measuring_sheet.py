@@ -15,7 +15,6 @@ MACHINE = marks_grid.PlainMachine()
 SIDE, ABOVE, BELOW = 10.0, 18.0, 279.0
 GRIDS = {
     "usual": {},
-    "benchmark": marks_grid.PRESETS["benchmark"]._asdict(),
     "two pages": {"columns": 9, "rows": 7},
     "dense": {"columns": 15, "rows": 9, "margin": 60},
     "four": {"columns": 2, "rows": 2, "repeats": False},
@@ -69,7 +68,7 @@ def test_every_reading_has_its_row_and_each_number_a_box(options):
             assert not same_column or second[1] >= first[3] - 1e-6
 
 
-@pytest.mark.parametrize("name", ["usual", "benchmark", "two pages", "dense", "four"])
+@pytest.mark.parametrize("name", ["usual", "two pages", "dense", "four"])
 def test_no_words_cover_each_other(name):
     for figure in pages_of(content(**GRIDS[name])):
         written = [each for each in extents(figure) if each[0] and each[0] not in ("x", "y")]

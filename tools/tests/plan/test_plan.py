@@ -7,8 +7,7 @@ import pytest
 from hidden_boards import board, board_cut, size_for
 from plumb.bench.boards import plan
 from plumb.bench.causes import MAKER
-from plumb.bench.judged_board import BoardOwner
-from plumb.diagnosis import diagnose
+from plumb.diagnosis import Checked, diagnose
 from plumb.fit.inputs import Inputs
 from plumb.model.catalogue import effect_names
 from plumb.model.predict import FOUND, lengths
@@ -20,11 +19,6 @@ from plumb.plan.separation import ENOUGH, Chooser
 
 NINE = plan(3, 3)
 NOISE = 0.5
-
-
-def owner():
-    """Who measures a board further, and reads the same each time."""
-    return BoardOwner(np.random.default_rng(2), NOISE)
 
 
 def nine(effect, seed=101):
@@ -112,7 +106,11 @@ def test_look_alikes_are_told_by_what_parts_them_only(pitch, proposed):
     assert best.option.kind == "check" and best.chance > 0.3
     heavier = [each for each in proposals if each.option.kind == "weight"]
     assert max(each.chance for each in heavier) < best.chance - 0.2
-    done = diagnose(Inputs(MAKER, marks, checked=owner().checked(cut, best.option.checks)))
+    true = cut.machine.hidden.parameters
+    checked = [
+        Checked(each.name, true.get(each.name, 0.0), each.sigma) for each in best.option.checks
+    ]
+    done = diagnose(Inputs(MAKER, marks, checked=checked))
     assert done.verdict == "one_suspect" and done.suspects == ("chain_pitch",)
 
 

@@ -9,7 +9,7 @@ import plumb
 import pytest
 from nanobind.stubgen import StubGen
 from plumb import _core, _judge
-from plumb.model import python_effect
+from plumb.model import effect_words
 
 
 def stub_of(module: ModuleType) -> str:
@@ -18,7 +18,7 @@ def stub_of(module: ModuleType) -> str:
     return Path(plumb.__file__).with_name(f"{name}.pyi").read_text()
 
 
-TYPES = stub_of(_core) + Path(python_effect.__file__).read_text()
+TYPES = stub_of(_core) + Path(effect_words.__file__).read_text()
 VALUES = np.array([field["usual"] for field in _core.frame()] + [0.0] * 100)
 VALUES = VALUES[: len(_core.settings())]
 POINT = np.zeros((1, 2))

@@ -8,7 +8,7 @@ from plumb.model.catalogue import effect_names, empirical_effects
 PACKAGE = Path(__file__).resolve().parents[2] / "plumb"
 NAMES = {*effect_names(), *(effect["name"] for effect in empirical_effects())}
 # Where effects are written, and stories of particular effects on particular boards.
-OF_EFFECTS = ("model/lab_effects", "model/sketches")
+OF_EFFECTS = ("model/lab_effects",)
 STORIES = {
     # What published settings leave out, and what a usual machine has.
     "bench/causes.py",
@@ -18,8 +18,7 @@ STORIES = {
     # The example of an option, whose help must not wait for the catalogue.
     "cli/add.py",
     "cli/inputs.py",
-    # Machines on which chains slip, and a question to the owner about the links of a chain.
-    "bench/slipped_chains.py",
+    # A question to the owner about the links of a chain.
     "lab/known.py",
     "cure/machine_file.py",
     "cli/demo.py",

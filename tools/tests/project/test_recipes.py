@@ -17,7 +17,7 @@ from commands import compiled  # noqa: E402
 
 PAGE = ROOT / "docs/new-effect.md"
 EIGEN = ROOT / ".pio/libdeps/native/ArduinoEigen/ArduinoEigen"
-HEADER = re.compile(r"`([\w/.]+\.h)`, with the sketch's words.*?```cpp\n(.*?)```", re.DOTALL)
+HEADER = re.compile(r"`([\w/.]+\.h)`, with its words.*?```cpp\n(.*?)```", re.DOTALL)
 RECIPES = ROOT / "docs/recipes.md"
 NAMED = re.compile(r"\[`(\w+)`\]\(([^)#]+)[^)]*\)")
 LINES = 25  # of a recipe, at most

@@ -106,10 +106,10 @@ def test_bad_files_are_refused_with_the_place(tmp_path, old, new, hint):
 
 def test_without_a_list_any_effect_passes(tmp_path):
     path = tmp_path / "machine.toml"
-    settings = replace(SETTINGS, effects={"my_sketch": {"size": 1.0}})
+    settings = replace(SETTINGS, effects={"my_effect": {"size": 1.0}})
     write_machine_toml(path, settings)
     assert read_settings(path) == settings
-    with pytest.raises(InputError, match="my_sketch"):
+    with pytest.raises(InputError, match="my_effect"):
         read_settings(path, known=KNOWN)
 
 

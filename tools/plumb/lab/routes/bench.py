@@ -44,7 +44,7 @@ from plumb.lab.rounds import (
     usual_words,
 )
 from plumb.lab.routes.project import ProjectAnswer, TheProject, show
-from plumb.model.catalogue import every_effect, is_sketch, parameter_words
+from plumb.model.catalogue import every_effect, parameter_words
 from plumb.model.plain import noun_of, plain_size, plainly
 from plumb.model.predict import Array
 from plumb.text.errors import InputError
@@ -72,7 +72,7 @@ class BenchEffect(BaseModel):
     name: str
     noun: str
     summary: str
-    where: str  # "firmware", "lab" or "sketch"
+    where: str  # "firmware" or "lab"
     in_settings: bool
     parameters: list[BenchParameter]
 
@@ -300,8 +300,6 @@ def save(change: BenchSave, project: TheProject, warm: Warm) -> ProjectAnswer:
     if warm.slips:
         names = ", ".join(dict.fromkeys(slip.called for slip in warm.slips))
         raise InputError(f"look at {names} again under Readings first, or clear the reading there")
-    for name in filter(is_sketch, chosen.effects):
-        raise InputError(f"{name} is a sketch, which no firmware has; take it away to write")
     result = add(inputs, effects=chosen.effects, held=chosen.held, noise=warm.live.noise)
     source = inputs.measurements.source
     content = toml_of(result, source=source, record=record_of(result, warm.inputs))

@@ -7,7 +7,6 @@ from dataclasses import dataclass
 from html import escape
 
 import numpy as np
-
 from plumb.pictures.drawing import EDGE, INK, WOOD, round_down
 
 Array = np.ndarray

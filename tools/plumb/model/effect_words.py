@@ -1,0 +1,134 @@
+"""The words of an effect, as the firmware's library has them (lib/Kinematics/src/effect.h)."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Literal
+
+from typing_extensions import TypedDict
+
+
+class PlainWords(TypedDict):
+    """The size of a parameter in a maker's words."""
+
+    more: str
+    less: str
+    unit: str
+    times: float
+    shown: str
+
+
+Curve = Literal["straight", "square", "tangent squared"]  # of the tangent: degrees
+Unit = Literal["mm", "kg", "g", "degrees"]
+
+
+class ReadingWords(TypedDict):
+    """What the owner reads off a rule or a scale for a parameter."""
+
+    title: str
+    unit: Unit
+    usual: float
+    factor: float
+    digits: int
+    zero: float
+    curve: Curve
+
+
+class ParameterWords(TypedDict):
+    """What people read about a parameter of an effect."""
+
+    name: str
+    setting: int | None
+    unit: str
+    low: float
+    high: float
+    typical: float
+    summary: str
+    sigma: float
+    plain: PlainWords | None
+    reading: ReadingWords | None
+    published: tuple[int, float] | None
+
+
+class CheckWords(TypedDict):
+    """How an effect is measured directly."""
+
+    title: str
+    steps: str
+    value: str
+    minutes: float
+
+
+class ExampleWords(TypedDict):
+    """Sizes to try, and how far they move a mark."""
+
+    label: str
+    sizes: dict[str, float]
+    most: float
+
+
+class EffectWords(TypedDict):
+    """What people read about an effect."""
+
+    name: str
+    noun: str
+    where: str
+    summary: str
+    pattern: str
+    look_alikes: str
+    remedy: str
+    empirical: bool
+    belongs_to: str
+    in_frame: bool
+    weight_power: int
+    check: CheckWords | None
+    examples: list[ExampleWords]
+    parameters: list[ParameterWords]
+
+
+@dataclass(frozen=True)
+class Reading:
+    """What somebody reads off a rule or a scale for a number: factor * curve(reading - zero)."""
+
+    title: str
+    usual: float  # how far a careful reading may be off
+    factor: float = 1.0
+    unit: Unit = "mm"
+    digits: int = 1
+    zero: float = 0.0
+    curve: Curve = "straight"
+
+    def value(self, read: float) -> float:
+        """Return the number that a reading says."""
+        return self.factor * CURVES[self.curve][0](read - self.zero)
+
+    def read(self, value: float) -> float:
+        """Return what would be read for a number."""
+        return self.zero + CURVES[self.curve][1](value / self.factor)
+
+
+def _root(number: float) -> float:
+    return math.sqrt(max(number, 0.0))
+
+
+# Each with its inverse, for readings from zero on.
+CURVES: Mapping[str, tuple[Callable[[float], float], Callable[[float], float]]] = {
+    "straight": (lambda read: read, lambda number: number),
+    "square": (lambda read: read * read, _root),
+    "tangent squared": (
+        lambda read: math.tan(math.radians(read)) ** 2,
+        lambda number: math.degrees(math.atan(_root(number))),
+    ),
+}
+
+
+@dataclass(frozen=True)
+class DirectCheck:
+    """How the owner measures an effect directly, without marks on a sheet."""
+
+    title: str
+    steps: str  # what to do, and how exactly
+    value: str  # how the parameters follow from what was measured
+    minutes: float
