@@ -18,9 +18,7 @@ def main() -> int:
     """Write the G-code to a file that is not there yet, or to the standard output."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--preset", choices=PRESETS, default="fifteen", help="[%(default)s]")
-    parser.add_argument(
-        "--margin", type=float, metavar="MM", help="from the outer marks to the edge"
-    )
+    parser.add_argument("--margin", type=float, metavar="MM", help="outer marks to the edge")
     parser.add_argument("--output", type=Path, metavar="FILE", help="a new file [standard output]")
     wanted = parser.parse_args()
     grid = PRESETS[wanted.preset]

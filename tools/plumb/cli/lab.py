@@ -24,8 +24,7 @@ def run(arguments: argparse.Namespace) -> int:
 
 EXAMPLES = (
     "plumb lab my-maslow",
-    "plumb lab my-maslow --port 8080 --no-browser",
-    "plumb lab my-maslow --share",
+    "plumb lab my-maslow --share --no-browser",
 )
 EXIT = "Exit: 0 ended with Ctrl-C; 2 it cannot be started."
 PORT = 8450

@@ -37,6 +37,8 @@ QUESTIONS = (
     ("diagnose", *BOARD),
     ("diagnose", *SLIPPED),
     ("effects",),
+    ("forward", INI, "--lengths", EXAMPLE / "lengths.csv"),
+    ("inverse", INI, "0,0", "0,9000"),
     ("grid", *GRID),
     ("grid", *GRID, "--settings", INI, "--details"),
     ("grid", *GRID, "--output", "grid.nc", "--marks", "form.toml"),

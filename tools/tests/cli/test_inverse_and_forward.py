@@ -39,7 +39,7 @@ def test_a_place_out_of_reach_is_null_and_bad_news(ask, run, file):
 @pytest.mark.parametrize(
     ("text", "hint"),
     [
-        ("", "has no numbers"),
+        ("x,y\n", "has no numbers"),
         ("1;2\n", "line 1: has 1 value instead of 2; write x,y on each line"),
         ("y,x\n1,2\n", "line 1: the header is 'y,x'; write x,y on each line, in mm"),
         ("x_inch,y_inch\n1,2\n", "the header is 'x_inch,y_inch'"),

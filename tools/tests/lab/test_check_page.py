@@ -67,7 +67,7 @@ def test_two_check_marks_hold_then_miss_and_others_are_planned(lab, page):
     type_off(lab, page, 2, -4, 0.4)
     expect(page.locator(JUDGED)).to_contain_text("More than noise, at mark 2", timeout=PATIENCE)
     expect(within).to_have_count(1)
-    beyond = page.locator(".sheet g:has(> .noise) > .arrow.beyond")
+    beyond = page.locator(".sheet g:has(> .place) > .arrow.beyond")
     expect(beyond).to_have_count(1)
     # It was read 4 mm too far left and 0.4 mm too far down: from the target, the arrow says so.
     x, y, tip_x, tip_y = map(float, re.findall(r"-?[\d.]+", beyond.get_attribute("d"))[:4])
