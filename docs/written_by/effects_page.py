@@ -1,4 +1,4 @@
-"""What docs/effects.md and its pictures show of the registry."""
+"""Contents of docs/effects.md and its pictures: the registry."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What each effect does to marks on the default machine: its field, its size, its look-alikes."""
+"""Fingerprints of all effects on the default machine: field, size, look-alikes."""
 
 from __future__ import annotations
 
@@ -55,7 +55,7 @@ class Showing:
 
     @cached_property
     def field(self) -> Field:
-        """What it does to a grid of marks over the sheet."""
+        """Shifts of a grid of marks over the sheet."""
         return self.field_on(COLUMNS, ROWS)
 
     def field_on(self, columns: int, rows: int) -> Field:

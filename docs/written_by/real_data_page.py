@@ -1,4 +1,4 @@
-"""What docs/real-data.md and its pictures show of the published sets."""
+"""Contents of docs/real-data.md and its pictures: the published sets."""
 
 from __future__ import annotations
 

@@ -49,7 +49,7 @@ class RealSet:
 
     @cached_property
     def diagnosis(self) -> Diagnosis:
-        """What `plumb diagnose` says."""
+        """Answer of `plumb diagnose`."""
         return self.diagnosed()
 
     @cached_property

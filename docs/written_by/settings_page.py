@@ -1,4 +1,4 @@
-"""What docs/settings.md shows of the firmware's table."""
+"""Contents of docs/settings.md: the firmware's table."""
 
 from __future__ import annotations
 

@@ -1,5 +1,5 @@
-"""What can be hidden in a board: each effect of the library in the judge's numbers, and things
-that the library has no word for.
+"""Causes that can be hidden in a board: each effect of the library in the judge's numbers, and
+things that the library has no word for.
 """
 
 from __future__ import annotations
@@ -95,7 +95,7 @@ def causes_of(effect: str) -> tuple[Cause, ...]:
 
 @dataclass(frozen=True)
 class Hidden:
-    """What is wrong with a machine and its board, next to a frame that lies off by chance."""
+    """Faults of a machine and its board, next to a frame that lies off by chance."""
 
     causes: tuple[tuple[Cause, float], ...] = ()  # with sizes in typical sizes
     outside: str = ""  # of OUTSIDE: what no effect of the library does

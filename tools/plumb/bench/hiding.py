@@ -1,4 +1,4 @@
-"""What is hidden in boards, drawn by chance or in turns, and slips of the pen."""
+"""Effects to hide in boards, drawn by chance or in turns, and slips of the pen."""
 
 from __future__ import annotations
 

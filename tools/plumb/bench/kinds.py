@@ -67,7 +67,7 @@ class HiddenBoard:
 
     @property
     def hidden(self) -> Hidden:
-        """What is wrong with the machine."""
+        """Faults of the machine."""
         return self.board.machine.hidden
 
 

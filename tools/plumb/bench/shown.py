@@ -1,4 +1,4 @@
-"""What the marks of a board can show of what is hidden in it, without any noise."""
+"""Hidden effects that the marks of a board can show, without any noise."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ FRAME = "frame"
 
 @dataclass(frozen=True)
 class Truth:
-    """What a diagnosis could know."""
+    """Knowledge that a diagnosis could have."""
 
     effects: tuple[str, ...]  # that were hidden
     usual: tuple[str, ...]  # what else the machine has and the settings leave out
@@ -36,7 +36,7 @@ class Truth:
 
     @property
     def allowed(self) -> frozenset[str]:
-        """What may be named: all that is there, and look-alikes of it that the marks show."""
+        """Effects that may be named: all that are there, and look-alikes that the marks show."""
         shown = [name for name in self.usual if self.shows(name)]
         alike = (self.alike[name] for name in (*self.effects, *shown))
         return frozenset[str]().union(self.effects, self.usual, *alike)

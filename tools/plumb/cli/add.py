@@ -60,12 +60,12 @@ NONE = "none"  # as an effect: the frame alone
 
 @dataclass(frozen=True, kw_only=True)
 class WrittenMachine(Written):
-    """What was written of the new machine."""
+    """Files of the new machine."""
 
     @computed_field
     @property
     def unsaid(self) -> tuple[str, ...]:
-        """What the firmware cannot do, a sentence each."""
+        """Limits of the firmware, a sentence each."""
         return self.client.unsaid if self.client else ()
 
 

@@ -1,4 +1,4 @@
-"""What to write, for people: few facts or all, and the headline in its colour."""
+"""The decision for people: few facts or all, and the headline in its colour."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What each command prints with --json, and the schema of it: `python -m plumb.cli.answers`.
+"""JSON answers of all commands, and their schema: `python -m plumb.cli.answers`.
 
 The schema is written from the types of the answers; with --check it is only compared.
 """

@@ -65,7 +65,7 @@ class Round:
     @computed_field
     @property
     def next(self) -> tuple[Proposal, ...]:
-        """What to measure, the best first."""
+        """Proposed measurements, the best first."""
         return self.advice.proposals if self.advice else ()
 
     @computed_field
@@ -92,7 +92,7 @@ class Round:
 
     @property
     def best(self) -> Proposal | None:
-        """What to measure first; more marks where they are too few, or lie too close together."""
+        """First measurement to make; more marks where they are too few or lie too close together."""
         proposals = self.next
         if self.decision.diagnosis.left_open.is_too_much:
             proposals = tuple(each for each in proposals if each.option.is_cut) or proposals

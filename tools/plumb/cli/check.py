@@ -55,7 +55,7 @@ NAMED = 30  # parts that get their number in the picture
 
 @dataclass(frozen=True)
 class CheckAnswer:
-    """What to expect of a program."""
+    """Expectations of a program."""
 
     checked: Internal[Checked]
     written: list[str]

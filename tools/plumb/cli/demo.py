@@ -91,7 +91,7 @@ FALLEN = 0.5  # of the error before, at most, for the demo to have worked
 
 @dataclass(frozen=True)
 class Shown:
-    """What the demo came to."""
+    """Result of the demo."""
 
     loop: Loop
     files: dict[str, bytes]

@@ -53,7 +53,7 @@ class ShownMark:
 
 @dataclass
 class HomeAnswer:
-    """What the command says and writes."""
+    """Answer of the command, and the files it writes."""
 
     settings: Internal[MachineSettings]
     kept: Internal[dict[str, HomeMark]]

@@ -1,4 +1,4 @@
-"""What a command line says of a machine, its marks and a picture."""
+"""Machine, marks and picture, as named on a command line."""
 
 from __future__ import annotations
 
@@ -97,7 +97,7 @@ EXAMPLE = "motor_level.height_difference=4+-1"
 
 
 class Measured(NamedTuple):
-    """What --checked says; whether such a number is fitted comes out when the model is loaded."""
+    """Number of --checked; whether it is fitted comes out when the model is loaded."""
 
     name: str
     value: str  # in the unit, or without one in that of the number

@@ -24,7 +24,7 @@ FIRST_EFFECT = 100  # from here on zero means that the machine does without
 
 @dataclass(frozen=True)
 class MachineNumbers:
-    """What a machine says."""
+    """Numbers and place of a machine."""
 
     settings: dict[Annotated[str, Field(pattern=r"^\$[0-9]+$")], float]
     place: Annotated[

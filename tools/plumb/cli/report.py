@@ -31,7 +31,7 @@ ENDINGS = (".html", ".htm")
 
 @dataclass(frozen=True)
 class ReportAnswer:
-    """What the page says."""
+    """Contents of the report."""
 
     findings: Internal[Findings]
     written: tuple[str, ...]

@@ -1,4 +1,4 @@
-"""What people see: tables, sentences and bars, as wide as the screen but at most 80 columns.
+"""Output for people: tables, sentences and bars, as wide as the screen but at most 80 columns.
 
 Colour and width come from rich: none in a file, in a pipe, or with NO_COLOR set.
 """

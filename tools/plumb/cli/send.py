@@ -46,7 +46,7 @@ SHOWN = 20  # changed numbers in the answer
 
 @dataclass
 class SendAnswer:
-    """What was sent, and what came of it."""
+    """Outcome of sending."""
 
     lines: Annotated[int, meant("Of the program, or numbers, without comments.")] = 0
     stopped_at: Annotated[

@@ -190,13 +190,13 @@ class Written:
     @computed_field
     @property
     def steps(self) -> tuple[str, ...]:
-        """What the owner does with the files, a sentence each."""
+        """Steps of the owner with the files, a sentence each."""
         return self.client.steps if self.client else ()
 
     @computed_field
     @property
     def typed(self) -> dict[str, str]:
-        """What the owner types into the client, by `section: key`."""
+        """Values to type into the client, by `section: key`."""
         return typed_json(self.client)
 
 

@@ -47,7 +47,7 @@ class SlipTouch(Touch):
 
 @dataclass(frozen=True)
 class SlipAnswer:
-    """What happened to the chains, and what to do."""
+    """Verdict on the chains, and the repair."""
 
     verdict: str
     sentence: str

@@ -38,7 +38,7 @@ SAVE_EVERY, LOOK_EVERY = 1.0, 0.1  # [s] of this computer's time
 
 @dataclass(frozen=True)
 class VmAnswer:
-    """What a client needs; printed as soon as the machine is there."""
+    """Port for a client; printed as soon as the machine is there."""
 
     port: str | None  # None: with --preload no machine starts
     preload: str | None  # None: without --preload

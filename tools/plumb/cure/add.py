@@ -167,12 +167,12 @@ class Addition:
 
     @property
     def by_hand(self) -> tuple[str, ...]:
-        """What a hand must do before the numbers keep what they promise, in sentences."""
+        """Work by hand without which the numbers do not keep their promise, in sentences."""
         return (*_turn_sentences(self), *self.cures)
 
     @property
     def notes(self) -> tuple[Note, ...]:
-        """What is to be known of the numbers, the heaviest first."""
+        """Notes on the numbers, the heaviest first."""
         light = [each for each in self.warnings if each not in self.stops]
         return (
             *(Note("stop", each) for each in self.stops),

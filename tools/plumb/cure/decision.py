@@ -1,4 +1,4 @@
-"""What to write: the one decision that the terminal, the page and the report ask for.
+"""The decision on what to write, for terminal, page and report.
 
 The diagnosis says what the marks prove. Here it is decided what follows for the machine: a reading
 is looked at again; the settings are good and stay; new numbers are better, and by how much; or
@@ -40,7 +40,7 @@ class NextStep:
 
 @dataclass(frozen=True)
 class Decision:
-    """What to write, and why."""
+    """Decision on what to write, and its reasons."""
 
     diagnosis: Internal[Diagnosis]
     inputs: Internal[Inputs]  # with what is usual of the sizes that were added
@@ -62,7 +62,7 @@ class Decision:
     @computed_field
     @property
     def state(self) -> Annotated[str, among(STATES)]:
-        """What follows for the machine."""
+        """Result for the machine."""
         if self.diagnosis.outliers:
             return "read_again"
         if self.addition is None:
@@ -82,7 +82,7 @@ class Decision:
     @computed_field
     @property
     def notes(self) -> tuple[Note, ...]:
-        """What is to be known of the new numbers, the heaviest first."""
+        """Notes on the new numbers, the heaviest first."""
         return tuple(_notes(self))
 
     @computed_field

@@ -210,7 +210,7 @@ def noise_of(inputs: Inputs, board: Board) -> tuple[Noise, tuple[str, ...]]:
 
 @dataclass(frozen=True)
 class Drawn:
-    """What effects add to the frame's fit."""
+    """Shifts that effects add to the frame's fit."""
 
     moved: Array  # (k, 2) [mm] of the marks on the sheet
     curves: SuspectCurves

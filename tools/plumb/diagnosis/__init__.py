@@ -1,4 +1,4 @@
-"""What the marks prove: outliers, suspects, and what could still hide."""
+"""Diagnosis of marks: outliers, suspects, and effects that could still hide."""
 
 from plumb.diagnosis.answer import VERDICTS, Diagnosis
 from plumb.diagnosis.diagnosis import diagnose

@@ -93,7 +93,7 @@ class Together:
 
 @dataclass(frozen=True)
 class Fall:
-    """What is left once another effect is fitted too."""
+    """Error that is left once another effect is fitted too."""
 
     effect: str
     rms: Annotated[float, key("rms_mm")]
@@ -101,7 +101,7 @@ class Fall:
 
 @dataclass(frozen=True)
 class Diagnosis:
-    """What the marks prove, and what they do not."""
+    """Diagnosis of the marks: all that they prove, and all that they leave open."""
 
     verdict: Verdict
     readings: Internal[CleanReadings]  # with the posterior that all of this is read from
@@ -164,7 +164,7 @@ class Diagnosis:
 
     @property
     def pattern_mm(self) -> float:
-        """What is left with the effects to go on with, beyond noise [mm RMS]."""
+        """Error with the effects to go on with, beyond noise [mm RMS]."""
         by_noise = left_by_noise(self.best, self.noise)
         return float(np.sqrt(max(self.best.rms**2 - by_noise**2, 0.0)))
 

@@ -25,7 +25,7 @@ from plumb.text.values import worded
 
 @dataclass(frozen=True)
 class Found:
-    """What all that is said of marks goes by: the readings that count, and what explains them."""
+    """Readings that count, and the explanations of them: the base of all that is said of marks."""
 
     readings: CleanReadings
     judgement: Judgement

@@ -48,7 +48,7 @@ class Board:
 
     @property
     def rows(self) -> Observations:
-        """What was measured."""
+        """Measured numbers."""
         return self.problem.observations
 
     @property
@@ -79,7 +79,7 @@ class Board:
 
     @property
     def usual_checks(self) -> tuple[Checked, ...]:
-        """What is held near what is usual."""
+        """Sizes that are held near their usual values."""
         count = len(self.problem.checked)
         return self.problem.checked[count - self.usual :]
 
@@ -109,7 +109,7 @@ class Explanation:
 
     @property
     def residual(self) -> Array:
-        """What is left, whitened: measured numbers, priors, direct checks."""
+        """Residuals, whitened: measured numbers, priors, direct checks."""
         return self.at.residual
 
     @property
@@ -129,7 +129,7 @@ class Explanation:
 
     @property
     def numbers(self) -> Array:
-        """What is left of the measured numbers (n,) [mm]."""
+        """Residuals of the measured numbers (n,) [mm]."""
         return self.residual[: self.board.rows.count] * self.board.sigma
 
     @property

@@ -1,4 +1,4 @@
-"""What comes nearest where the machine does something that no effect draws.
+"""Nearest causes where the machine does something that no effect draws.
 
 There a smooth field explains nearly as much as effects do, so the weight of an account says little
 of which machine to set. What predicts best the readings that a fit did not see says more: each

@@ -1,4 +1,4 @@
-"""What an outlier most likely was: axes exchanged, digits transposed, a round number off."""
+"""Likely cause of an outlier: axes exchanged, digits transposed, a round number off."""
 
 from __future__ import annotations
 
@@ -154,19 +154,19 @@ class Outlier:
 
     @property
     def called(self) -> str:
-        """What it is, with its name."""
+        """Kind and name."""
         return f"{'distance' if len(self.offset) == 1 else 'mark'} {self.name}"
 
     @computed_field
     @property
     def sentence(self) -> str:
-        """What to do, for people."""
+        """Advice for people."""
         because = f"; {self.guess}" if self.guess else self._advice
         return f"remeasure {self.called}: it reads {worded(self.length, 1)} {self.way}{because}"
 
     @property
     def _advice(self) -> str:
-        """What it is if it is no outlier: where nothing was read twice, the marks cannot know."""
+        """Other cause if it is no outlier: where nothing was read twice, the marks cannot know."""
         if self.against != EXPLANATIONS or len(self.offset) == 1:
             return ""
         return "; if it stays, it is the machine there"
@@ -203,7 +203,7 @@ def described(shift: Shift, measurements: Measurements, sheet: tuple[float, floa
 
 @dataclass(frozen=True)
 class Guess:
-    """What an outlier most likely was."""
+    """Likely cause of an outlier."""
 
     said: str = ""  # for people; nothing if nobody knows
     corrected: tuple[float, ...] | None = None  # [mm] the reading that was meant

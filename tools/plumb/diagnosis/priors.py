@@ -1,4 +1,4 @@
-"""What is known of machines and readings before any mark is read: the priors of the posterior.
+"""Priors of the posterior: machines and readings before any mark is read.
 
 Each number stands here with its source. To change what the lab believes, change it here.
 """
@@ -47,7 +47,7 @@ UNSTATED_SPREAD = 0.5  # of tapes in general, about USUAL_SIGMA
 
 @dataclass(frozen=True)
 class Usual:
-    """What every machine has of a parameter, as shares of its typical size."""
+    """Usual sizes of a parameter on every machine, as shares of its typical size."""
 
     mean: float  # of machines whose settings do not know it
     spread: float  # from machine to machine, where the settings do not know it

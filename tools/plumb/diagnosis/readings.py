@@ -36,7 +36,7 @@ SHARE_OF_OUTLIERS = 12  # with more than one in this many readings outliers are 
 
 @dataclass(frozen=True)
 class CleanReadings:
-    """What is left without outliers, and what it says."""
+    """Readings without outliers, and their posterior."""
 
     outliers: tuple[Outlier, ...]  # readings to look at again
     posterior: Posterior  # of what is left

@@ -1,4 +1,4 @@
-"""What an explanation draws into the errors of the chains, mark by mark and over the whole sheet.
+"""Errors of the chains that an explanation draws, mark by mark and over the whole sheet.
 
 An explanation refits the frame, so it changes what the frame alone leaves. That change is what the
 marks can show of it: its dots at the marks, and its curve against each covariate.
@@ -28,7 +28,7 @@ SAME_PLACE = 1.0  # [mm] between marks that were visited in several ways
 
 @dataclass(frozen=True)
 class Curve:
-    """What an explanation draws on a chain against a covariate, over the whole sheet [mm]."""
+    """Curve of an explanation on a chain against a covariate, over the whole sheet [mm]."""
 
     at: Array  # (b,) of the covariate, rising
     middle: Array  # (b,) mean
@@ -38,7 +38,7 @@ class Curve:
 
 @dataclass(frozen=True)
 class SuspectCurves:
-    """What an explanation adds to the frame's fit, in chain."""
+    """Chain that an explanation adds to the frame's fit."""
 
     effects: tuple[str, ...]
     chains: Array  # (k, 2) [mm] at the marks, left and right

@@ -29,7 +29,7 @@ class UnseenCause:
 
 @dataclass(frozen=True)
 class Unseen:
-    """What may act unseen, and the words that say so."""
+    """Effects that may act unseen, and the words for them."""
 
     causes: tuple[UnseenCause, ...]  # that with the largest size first
     silent: str  # a sentence on the causes of which the marks say nothing; empty: there is none

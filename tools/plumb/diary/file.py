@@ -35,7 +35,7 @@ Folder = str | PathLike[str]
 
 @dataclass(frozen=True)
 class Entry:
-    """What was written down at a time."""
+    """Entry of the diary."""
 
     kind: str  # "fit", "numbers", "program", "check", "recheck", "slip" or "home"
     at: Moment  # with its offset from UTC

@@ -1,4 +1,4 @@
-"""What a diary shows over time: errors of the fits, and each number with its interval."""
+"""Course of a diary over time: errors of the fits, and each number with its interval."""
 
 from __future__ import annotations
 

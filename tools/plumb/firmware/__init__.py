@@ -1,1 +1,1 @@
-"""What the flashed program keeps and says: its settings by number, and its telemetry."""
+"""Settings of the flashed program by number, and its telemetry."""

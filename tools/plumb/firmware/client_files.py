@@ -32,7 +32,7 @@ CORRECTIONS = ("chain_sag_correction", "left_tolerance", "right_tolerance")
 
 @dataclass(frozen=True)
 class ClientFiles:
-    """What to write, and what the owner does with it."""
+    """Files for a client, and the owner's steps with them."""
 
     files: dict[str, bytes]  # by name; empty if there is nothing but to type
     steps: tuple[str, ...]  # in their order, a sentence each

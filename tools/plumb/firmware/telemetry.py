@@ -28,7 +28,7 @@ class Slip:
 
 @dataclass(frozen=True)
 class Telemetry:
-    """What an owner may have to look at in an answer to B30.
+    """Findings in an answer to B30 that an owner may have to look at.
 
     How far a motor fell behind is no matter: the feed yields, and the machine says so.
     """

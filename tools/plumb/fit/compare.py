@@ -83,7 +83,7 @@ class Comparison:
     @computed_field
     @property
     def promised_rms_mm(self) -> float | None:
-        """What that fit left of these marks [mm]."""
+        """Error of these marks by that fit [mm]."""
         return self.promised.rms if self.promised else None
 
 

@@ -1,4 +1,4 @@
-"""What an error of a chain may depend on: its tension, length, angle, wrap, phase, place and way.
+"""Covariates of a chain's error: its tension, length, angle, wrap, phase, place and way.
 
 Each covariate has a number for each visit and chain, by a model of the machine.
 """

@@ -41,7 +41,7 @@ COLUMNS, ROWS, MARGIN = 7, 5, 100.0  # of the places that are looked at; [mm] fr
 
 @dataclass(frozen=True)
 class Expected:
-    """What is normal, RMS over the sheet [mm]."""
+    """Usual error, RMS over the sheet [mm]."""
 
     frame: Internal[float]  # by the frame's numbers and where the sheet lies
     shape: Internal[float]  # by the same, the sheet laid at its best

@@ -1,4 +1,4 @@
-"""What a board is judged by, as it goes into a fit, a diagnosis and the proposals."""
+"""Settings and readings of a board, as they go into a fit, a diagnosis and the proposals."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from plumb.text.errors import InputError, to_do
 
 @dataclass(frozen=True)
 class Stated:
-    """What somebody said that a reading is good to."""
+    """Stated accuracy of a reading."""
 
     sigma: float  # [mm]
     is_final: bool = False  # given to the command: it is used as it is, whatever repeats say
@@ -43,7 +43,7 @@ class Inputs:
 
     @property
     def stated(self) -> Stated | None:
-        """What a reading is good to, as stated here or in the file of the marks."""
+        """Accuracy of a reading, as stated here or in the file of the marks."""
         if self.sigma:
             return Stated(self.sigma, is_final=True)
         tape = self.measurements.tape_sigma

@@ -1,4 +1,4 @@
-"""What a fit has to explain: chains that were paid out, and where the sled was measured."""
+"""Observations for a fit: chains that were paid out, and where the sled was measured."""
 
 from __future__ import annotations
 

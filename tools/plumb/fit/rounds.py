@@ -1,4 +1,4 @@
-"""What later rounds of marks do not share with the first: chains zeroed again, another sheet.
+"""Differences between rounds of marks: chains zeroed again, another sheet.
 
 Each such round adds unknowns to those of the frame: how far the zeros of both chains moved, or
 how the sheet lies against the first.

@@ -28,7 +28,7 @@ class Places:
 
 @dataclass(frozen=True)
 class Sighting:
-    """What would be measured of every visit."""
+    """Predicted readings of every visit."""
 
     read: Places  # from the sheet's edges
     taped: Places  # places whose distances are those that a tape gives

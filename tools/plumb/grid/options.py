@@ -1,4 +1,4 @@
-"""What a grid of marks is made by: its options, and the machine that cuts it.
+"""Options of a grid of marks, and the machine that cuts it.
 
 Frame: origin in the middle of the sheet, x right, y up. Lengths are mm, forces N, feeds mm/min.
 """
@@ -42,7 +42,7 @@ NUMBERS = {
 
 
 class GridError(ValueError):
-    """What is wrong, where, and what to do, in one line."""
+    """A fault, its place and its remedy, in one line."""
 
 
 class Grid(NamedTuple):

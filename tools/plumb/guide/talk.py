@@ -174,7 +174,7 @@ FILE = "guide.json"
 
 @dataclass
 class Progress:
-    """What is done, and what the owner said of the machine."""
+    """Steps that are done, and the owner's statements on the machine."""
 
     folder: Path
     done: list[str] = field(default_factory=list)

@@ -36,7 +36,7 @@ class Bit:
 
 @dataclass(frozen=True)
 class Tools:
-    """What a job is cut with, and the sheet it is cut from."""
+    """Bits of a job, and the sheet it is cut from."""
 
     bits: tuple[Bit, ...]  # in the order of the program; empty: nobody names one
     thickness: Annotated[float | None, key("sheet_mm")]  # None: nobody says it

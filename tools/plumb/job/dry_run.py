@@ -43,7 +43,7 @@ class Refused:
 
 @dataclass(frozen=True)
 class Done:
-    """What the machine did with a program."""
+    """Record of a machine that ran a program."""
 
     moves: Moves
     said: tuple[tuple[int, str], ...]  # line (counted from 1) and what the machine said to it

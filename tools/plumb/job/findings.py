@@ -1,4 +1,4 @@
-"""What the machine said to a program's lines, how long they take, and how hard the chains pull."""
+"""Findings of a dry run: answers to lines, times, and the pull of the chains."""
 
 from __future__ import annotations
 

@@ -120,7 +120,7 @@ def _with(lines: Sequence[str], others: dict[int, str]) -> list[str]:
 
 @dataclass
 class _Modes:
-    """What is in force between two lines of a program."""
+    """Modes in force between two lines of a program."""
 
     motion: int = 0
     before_cycle: int = 0

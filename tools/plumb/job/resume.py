@@ -92,7 +92,7 @@ def _last_free(machine: Machine, lines: Sequence[str], moves: Moves, before: int
 
 
 class _Head:
-    """What a resumed program says before the job goes on."""
+    """First lines of a resumed program, before the job goes on."""
 
     def __init__(self, machine: Machine, done: Sequence[str], run: Run, safe: float) -> None:
         """Take the run of the lines done, and use it up."""
@@ -336,7 +336,7 @@ STRONGEST = 255.0  # of a laser without an S
 
 @dataclass(frozen=True)
 class ToolsInUse:
-    """What turns or shines."""
+    """State of spindle and laser."""
 
     spindle: str  # M3, M4 or nothing
     laser: bool

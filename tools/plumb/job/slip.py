@@ -51,7 +51,7 @@ FAR_OFF = 30.0  # [mm] of a coordinate that nothing else explains
 
 @dataclass(frozen=True)
 class Account:
-    """What may have happened, and its odds among all accounts."""
+    """Possible course of events, and its odds among all accounts."""
 
     kind: str  # NOTHING, SLIP, SHEET or OTHER
     links: Links  # by how much longer left and right are than the machine believes
@@ -60,7 +60,7 @@ class Account:
 
 @dataclass(frozen=True)
 class SlipFinding:
-    """What was weighed, and what follows."""
+    """Weighed accounts, and the verdict on them."""
 
     verdict: str  # of the kinds, or CANNOT_TELL
     accounts: tuple[Account, ...]  # the likeliest first
@@ -242,7 +242,7 @@ RIVALS = 4  # accounts that are held against the likeliest
 
 @dataclass(frozen=True)
 class _Expected:
-    """What an account expects of a touch at each place."""
+    """Expected touch at each place, by an account."""
 
     error: Array  # (m, 2) [mm] hole - place by the machine's chains
     covariance: Array  # (m, 2, 2) [mm^2]

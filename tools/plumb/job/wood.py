@@ -1,4 +1,4 @@
-"""What a job takes out of the sheet: a map of heights, and the moves that spoil it or the bit."""
+"""Wood that a job takes away: a map of heights, and the moves that spoil it or the bit."""
 
 from __future__ import annotations
 

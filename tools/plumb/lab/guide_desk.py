@@ -29,7 +29,7 @@ PAYS_OUT = "chains"  # the step that does
 
 @dataclass(frozen=True)
 class Question:
-    """What the guide asks; lengths in mm, a mass in kg."""
+    """A question of the guide; lengths in mm, a mass in kg."""
 
     kind: Kind
     text: str

@@ -1,4 +1,4 @@
-"""What the owner knows of the machine, as the fit takes it: errors stated, numbers measured."""
+"""Knowledge of the owner, as the fit takes it: errors stated, numbers measured."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from plumb.text.values import shown_in, worded
 
 @dataclass(frozen=True)
 class Statements:
-    """What the owner states."""
+    """Statements of the owner."""
 
     priors: dict[str, float]
     checked: tuple[Checked, ...]

@@ -46,7 +46,7 @@ class Project:
 
     @property
     def choices(self) -> Choices:
-        """What its owner chose. Raises InputError if the file is damaged."""
+        """Choices of its owner. Raises InputError if the file is damaged."""
         return read_choices(self)[0]
 
     def path(self, name: str) -> Path:
@@ -169,14 +169,14 @@ class Number(BaseModel):
 
 
 class Bench(BaseModel):
-    """What lies on the bench: effects in the order they were added, and sizes held by hand."""
+    """Contents of the bench: effects in the order they were added, and sizes held by hand."""
 
     effects: list[str] = []
     held: dict[str, float] = {}
 
 
 class Choices(BaseModel):
-    """What somebody chose. A new choice is a new field with a default."""
+    """Choices made on the page. A new choice is a new field with a default."""
 
     model_config = ConfigDict(extra="forbid", allow_inf_nan=False)
 

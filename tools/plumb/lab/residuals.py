@@ -1,4 +1,4 @@
-"""What the page draws of residuals: on the sheet, in chain, and against noise."""
+"""Residuals as the page draws them: on the sheet, in chain, and against noise."""
 
 from __future__ import annotations
 

@@ -22,7 +22,7 @@ SAME = 1e-5  # of a value: the machine prints seven digits
 
 @dataclass(frozen=True)
 class Written:
-    """What became of numbers that were sent."""
+    """Numbers that were sent, and the machine's answer to them."""
 
     before: dict[int, float]  # all numbers of the machine
     changed: dict[int, tuple[float, float]]  # old and new value by number

@@ -1,4 +1,4 @@
-"""What a line to a machine must be able to do, whether a board or a simulation hangs on it."""
+"""Interface of a line to a machine, whether a board or a simulation hangs on it."""
 
 from __future__ import annotations
 

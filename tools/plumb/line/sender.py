@@ -58,7 +58,7 @@ def lost_place(said: Iterable[str]) -> str:
 
 @dataclass(frozen=True)
 class Status:
-    """What the machine last reported."""
+    """Last report of the machine."""
 
     state: str
     place: tuple[float, float, float]  # [mm] x, y, z

@@ -36,7 +36,7 @@ HAS_HALTED = "The machine has halted: press Stop."
 
 @dataclass(frozen=True)
 class _Done:
-    """What came of work."""
+    """Outcome of work."""
 
     changes: dict[str, Any] = field(default_factory=dict)  # of the state; then the line is ready
     then: Callable[[], None] = lambda: None  # called once the line is ready again
@@ -69,7 +69,7 @@ class LineState:
     @computed_field
     @property
     def waits_for(self) -> str:
-        """What somebody is to do before the program goes on; empty if it does not wait."""
+        """Work for a hand before the program goes on; empty if it does not wait."""
         wait = self.program.wait if self.program and self.holds else None
         return wait.do if wait else ""
 

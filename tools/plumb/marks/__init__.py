@@ -1,1 +1,1 @@
-"""What was measured on a sheet, and the files that hold it."""
+"""Measurements on a sheet, and the files that hold them."""

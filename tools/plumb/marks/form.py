@@ -25,7 +25,7 @@ DIGITS = {"mm": 4, "inch": 5}  # a 1/128 inch stays what it is
 
 @dataclass(frozen=True)
 class Form:
-    """What a marks.toml says, as TOML has it and as marks."""
+    """Contents of a marks.toml, as TOML has it and as marks."""
 
     head: Mapping[str, Any]
     comment: tuple[str, ...]  # the lines before its first key

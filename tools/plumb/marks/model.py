@@ -1,4 +1,4 @@
-"""What was measured on the sheet: marks and distances in the machine frame.
+"""Measurements on the sheet: marks and distances in the machine frame.
 
 Machine frame: origin in the middle of the sheet, x right, y up, mm.
 """

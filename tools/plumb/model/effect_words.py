@@ -25,7 +25,7 @@ Unit = Literal["mm", "kg", "g", "degrees"]
 
 
 class ReadingWords(TypedDict):
-    """What the owner reads off a rule or a scale for a parameter."""
+    """Reading on a rule or a scale, from which a parameter follows."""
 
     title: str
     unit: Unit
@@ -37,7 +37,7 @@ class ReadingWords(TypedDict):
 
 
 class ParameterWords(TypedDict):
-    """What people read about a parameter of an effect."""
+    """Words for people about a parameter of an effect."""
 
     name: str
     setting: int | None
@@ -70,7 +70,7 @@ class ExampleWords(TypedDict):
 
 
 class EffectWords(TypedDict):
-    """What people read about an effect."""
+    """Words for people about an effect."""
 
     name: str
     noun: str
@@ -90,7 +90,7 @@ class EffectWords(TypedDict):
 
 @dataclass(frozen=True)
 class Reading:
-    """What somebody reads off a rule or a scale for a number: factor * curve(reading - zero)."""
+    """Reading on a rule or a scale, from which a number follows: factor * curve(reading - zero)."""
 
     title: str
     usual: float  # how far a careful reading may be off

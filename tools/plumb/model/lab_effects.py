@@ -37,7 +37,7 @@ class Seen:
 
 @dataclass(frozen=True)
 class Change:
-    """What an effect does to places, and its slopes with everything else held."""
+    """Shifts of places by an effect, and its slopes with everything else held."""
 
     moved: Array  # (n, 2) [mm] to be added to the places
     by_size: Array  # (n, 2) [mm per unit]

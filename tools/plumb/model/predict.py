@@ -30,7 +30,7 @@ REACH_LIMITS: Mapping[str, float] = _core.reach_limits()  # the usual limits, by
 
 @dataclass(frozen=True)
 class Reached:
-    """What n places are good for; a place where nothing hangs has zeros."""
+    """Use of n places; a place where nothing hangs has zeros."""
 
     verdict: Codes  # (n,) USABLE ...
     tension: Array  # (n, 2) [N] of left and right chain at their sprockets

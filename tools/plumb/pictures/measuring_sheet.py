@@ -50,7 +50,7 @@ class Reading:
 
 @dataclass(frozen=True)
 class MeasuringSheet:
-    """What is printed."""
+    """Contents of a printed sheet."""
 
     title: str
     how: tuple[str, ...]  # how to measure, a line each

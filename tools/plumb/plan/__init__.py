@@ -1,4 +1,4 @@
-"""What to measure next, and what a plan could tell apart before any hole is drilled."""
+"""Proposals for the next measurement, and the power of a plan before any hole is drilled."""
 
 from plumb.plan.proposal import Next, Proposal, propose
 

@@ -1,4 +1,4 @@
-"""What is known before the next measurement: the accounts that are likely, and the next machine."""
+"""Knowledge before the next measurement: the accounts that are likely, and the next machine."""
 
 from __future__ import annotations
 

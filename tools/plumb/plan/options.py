@@ -1,4 +1,4 @@
-"""What could be measured next: marks, repeats, heavier sleds, sides, swapped chains, checks."""
+"""Options to measure next: marks, repeats, heavier sleds, sides, swapped chains, checks."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a planned measurement is worth, by simulating what it would bring under the posterior.
+"""Worth of a planned measurement, by simulating its readings under the posterior.
 
 Truths are drawn from the posterior: an account as often as it is likely, then its sizes and the
 frame as the marks so far leave them, then new readings with noise. Each simulated board is weighed
@@ -45,7 +45,7 @@ BACKGROUND = (*EVERY_MACHINE, PITCH)  # what may be named too: it is there on ev
 
 @dataclass(frozen=True)
 class Outlook:
-    """What to expect after a measurement."""
+    """Expectation after a measurement."""
 
     chance: float  # that it settles the question, or finds what is hidden
     left: float | None  # explanations on average; None where they are not counted

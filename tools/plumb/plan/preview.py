@@ -1,4 +1,4 @@
-"""What a plan could tell apart before any hole is drilled: effect against effect, in sigmas.
+"""Power of a plan before any hole is drilled: effect against effect, in sigmas.
 
 Each effect is there in its typical size. A cell is the length of what the row's effect draws and
 neither the refitted frame nor the column's effect can imitate, over the reading error. With several
@@ -70,7 +70,7 @@ class Outline:
 
 @dataclass(frozen=True)
 class Preview:
-    """What a plan could tell."""
+    """Power of a plan to show and to name effects."""
 
     sigma: Annotated[float, key("sigma_mm")]
     marks: int

@@ -1,4 +1,4 @@
-"""What to measure next, best first: chance to settle the question against the minutes it costs."""
+"""Proposals to measure next, by their chance to settle the question for their minutes."""
 
 from __future__ import annotations
 

@@ -27,7 +27,7 @@ _RIDGE = 1e-9  # for unknowns that nothing feels
 
 @dataclass(frozen=True)
 class Pair:
-    """What is there, and what must not be able to imitate it."""
+    """An effect that acts, and the effects that must not be able to imitate it."""
 
     at: Explanation
     drawn: Array  # (u, d) what is there, by unknowns

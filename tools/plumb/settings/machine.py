@@ -45,7 +45,7 @@ FRAME_FIELDS = tuple(Frame.__annotations__)
 
 @dataclass(frozen=True)
 class PublishedSettings:
-    """What only the formulas of the published firmware need, in its units."""
+    """Numbers that only the formulas of the published firmware need, in its units."""
 
     chain_sag_correction: float = 0.0  # $37 [1e-12/mm^2]
     left_tolerance: float = 0.0  # $40 [percent] positive: the chain is longer than nominal

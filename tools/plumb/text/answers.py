@@ -1,4 +1,4 @@
-"""What a command answers: a dataclass, from which its JSON and the schema follow.
+"""Answer of a command: a dataclass, from which its JSON and the schema follow.
 
 `key` names a field for the JSON where another name says more there. An `Internal` field stays out
 of it, and so does a property without `computed_field`.

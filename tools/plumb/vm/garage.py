@@ -37,7 +37,7 @@ EXTENDED = 1651.0  # [mm] of both chains when they were laid over the sprockets
 
 @dataclass(frozen=True)
 class Garage:
-    """What is true of a machine and of the sheet on it."""
+    """Truth of a machine and of the sheet on it."""
 
     hidden: Hidden
     motor_gap: float = MAKER.motor_gap  # [mm]
@@ -200,7 +200,7 @@ COLUMNS, ROWS = 72, 18  # characters are twice as high as wide
 
 
 class VmPicture:
-    """What rich draws, drawn again each time."""
+    """Contents for rich, drawn again each time."""
 
     def __init__(self, machine: VirtualMachine) -> None:
         self._machine = machine

@@ -32,7 +32,7 @@ OPEN = ("cannot_tell", "slip", "not_in_library")  # verdicts after which more is
 
 @dataclass(frozen=True)
 class Loop:
-    """What came of a closed loop."""
+    """Result of a closed loop."""
 
     owner: VirtualOwner
     forms: tuple[str, ...]  # what was read, as files of marks: the first sheet, the last sheet
@@ -46,7 +46,7 @@ class Loop:
 
     @property
     def addition(self) -> Addition:
-        """What was fitted."""
+        """Fitted effects."""
         assert self.auto.addition is not None
         return self.auto.addition
 
@@ -116,7 +116,7 @@ class _Cutting:
 
 @dataclass(frozen=True)
 class _Measured:
-    """What is known, what was done for it, and what that cost."""
+    """Knowledge, the work done for it, and its cost."""
 
     inputs: Inputs
     done: tuple[Proposal, ...]
@@ -222,7 +222,7 @@ def read(owner: VirtualOwner, form: str) -> Measurements:
 
 @dataclass(frozen=True)
 class Spent:
-    """What was spent so far."""
+    """Effort so far."""
 
     marks: int = 0  # cut
     minutes: float = 0.0

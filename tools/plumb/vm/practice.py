@@ -58,7 +58,7 @@ def secret_in(folder: Path) -> Secret:
 
 @dataclass(frozen=True)
 class Score:
-    """What was hidden, and what an answer to it is worth."""
+    """Hidden effects, and the worth of an answer."""
 
     hidden: str
     named: tuple[str, ...]  # effects that were hidden and claimed
@@ -69,7 +69,7 @@ class Score:
 
     @property
     def sentence(self) -> str:
-        """What was named, missed, and claimed though it is not there."""
+        """Effects named, missed, and claimed though they are not there."""
         parts = []
         if self.named:
             parts.append(f"You found {plainly(self.named)}.")

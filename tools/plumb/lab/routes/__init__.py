@@ -1,1 +1,1 @@
-"""What the page may ask: a file for each subject, with its answers' models and its routes."""
+"""Routes of the page: a file for each subject, with the models of its answers."""

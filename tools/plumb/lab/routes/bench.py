@@ -78,7 +78,7 @@ class BenchEffect(BaseModel):
 
 
 class BenchCovariate(BaseModel):
-    """What errors of the chains may depend on, left and right for each mark."""
+    """A covariate of the chains' errors, left and right for each mark."""
 
     name: str
     unit: str
@@ -87,7 +87,7 @@ class BenchCovariate(BaseModel):
 
 
 class BenchAnswer(BaseModel):
-    """What the bench needs when it opens."""
+    """First answer to the bench."""
 
     board: str  # another for other marks or settings
     sheet: Pair
@@ -153,7 +153,7 @@ class BenchStairs(BaseModel):
 
 
 class BenchCurve(BaseModel):
-    """What an effect draws on a chain against a covariate [mm]."""
+    """Curve that an effect draws on a chain against a covariate [mm]."""
 
     at: list[float]
     middle: list[float]
@@ -162,7 +162,7 @@ class BenchCurve(BaseModel):
 
 
 class BenchDrawn(BaseModel):
-    """What effects add to the frame's fit [mm]."""
+    """Shifts that effects add to the frame's fit [mm]."""
 
     noun: str
     moved: list[Pair | None]

@@ -56,7 +56,7 @@ class ChangedNumber(BaseModel):
 
 
 class CorrectionParts(BaseModel):
-    """What could be changed, and what is accepted of it."""
+    """Numbers that could be changed, and those that are accepted."""
 
     model_config = ConfigDict(json_schema_serialization_defaults_required=True)
     said: str  # the decision, in a sentence or two
@@ -97,7 +97,7 @@ class Write(BaseModel):
 
 
 class Written(BaseModel):
-    """What was written, and what to do with it."""
+    """Written files, and the steps to take with them."""
 
     file: str
     files: list[str]

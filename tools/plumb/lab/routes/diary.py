@@ -51,7 +51,7 @@ class Noted(BaseModel):
 
 
 class DiaryAnswer(BaseModel):
-    """What the folder remembers."""
+    """Rounds and notes of the folder's diary."""
 
     rounds: list[Round]
     courses: list[NumberCourse]

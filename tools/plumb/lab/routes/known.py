@@ -1,4 +1,4 @@
-"""What the owner can know of the machine without a mark: each number as it is measured by hand."""
+"""Numbers that an owner can measure by hand, without a mark."""
 
 from __future__ import annotations
 
@@ -70,7 +70,7 @@ def measure(measuring: Measuring, project: TheProject, line: TheLine) -> Number:
 
 
 class HeldAnswer(BaseModel):
-    """What the open file and the machine say otherwise; empty while they agree."""
+    """Differences between the open file and the machine; empty while they agree."""
 
     file: str
     numbers: tuple[Difference, ...]

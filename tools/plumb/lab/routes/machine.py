@@ -104,7 +104,7 @@ class NumberChange(BaseModel):
 
 
 class NumbersAnswer(BaseModel):
-    """What was written and read back; `kept` is the file with the numbers that it replaced."""
+    """Numbers that were written and read back; `kept` is the file with the numbers before."""
 
     changed: list[NumberChange]
     back: bool  # they are those from before a file was sent

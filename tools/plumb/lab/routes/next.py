@@ -1,4 +1,4 @@
-"""What to measure next: the proposals, and taking one into the folder: a form and a program."""
+"""Proposals for the next measurement, and taking one into the folder: a form and a program."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ MOST_OTHERS = 7
 
 
 class Taking(BaseModel):
-    """What taking a proposal writes into the folder; nothing that is there is replaced."""
+    """Files that a proposal writes into the folder; nothing that is there is replaced."""
 
     choose: int  # its number, as plumb next --choose takes it
     digest: str  # of what would be written
@@ -71,7 +71,7 @@ class ProposedMark(BaseModel):
 
 
 class NextMeasurement(BaseModel):
-    """What to measure next."""
+    """The next measurement."""
 
     headline: str
     steps: list[str]

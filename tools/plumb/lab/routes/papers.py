@@ -1,4 +1,4 @@
-"""What somebody takes along: a report, a sheet to print, the readings as a table, the folder."""
+"""Files to take along: a report, a sheet to print, the readings as a table, the folder."""
 
 from __future__ import annotations
 

@@ -23,14 +23,14 @@ class PhonesAnswer(BaseModel):
 
 
 class PhoneAnswer(BaseModel):
-    """What the asking browser is, and may do."""
+    """Name and rights of the asking browser."""
 
     name: str  # empty on the computer itself
     may_move: bool
 
 
 class Pairing(BaseModel):
-    """What a phone sends to be paired."""
+    """Request of a phone to be paired."""
 
     pin: str = Field(max_length=12)
     kind: Literal["iPhone", "iPad", "Android", "phone"] = "phone"

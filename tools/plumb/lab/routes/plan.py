@@ -1,4 +1,4 @@
-"""What can be measured: layouts, what each could tell before a hole is cut, and the reach."""
+"""Layouts of marks, their power before a hole is cut, and the reach."""
 
 from __future__ import annotations
 
@@ -77,7 +77,7 @@ class PlannedEffect(BaseModel):
 
 
 class PlanAnswer(BaseModel):
-    """What a plan could tell."""
+    """Power of a plan to show and to name effects."""
 
     marks: int
     distances: int

@@ -41,7 +41,7 @@ ENDINGS = {".ini": "groundcontrol.ini", ".json": "webcontrol.json", ".toml": "ma
 
 
 class Machine(BaseModel):
-    """What the opened settings say of the machine. mm, N."""
+    """The machine of the opened settings. mm, N."""
 
     file: str
     controller: str
@@ -209,7 +209,7 @@ def _from_edges(doubt: Doubted, sheet: tuple[float, float], corner: str) -> Doub
 
 
 class Revealed(BaseModel):
-    """What was hidden; error of the sled all over the sheet [mm RMS]."""
+    """The hidden effect; error of the sled all over the sheet [mm RMS]."""
 
     hidden: str
     sentence: str

@@ -1,4 +1,4 @@
-"""What the tape said: each reading is saved into a marks.toml as it is typed."""
+"""Readings of the tape: each is saved into a marks.toml as it is typed."""
 
 from __future__ import annotations
 

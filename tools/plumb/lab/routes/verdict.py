@@ -71,7 +71,7 @@ class Card(BaseModel):
 
 
 class Verdict(BaseModel):
-    """What the marks say."""
+    """Verdict on the marks."""
 
     title: str
     sentence: str
