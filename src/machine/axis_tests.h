@@ -19,8 +19,7 @@ struct LoopTest {
 /// it works out the sled's place again. It returns whether it was completed.
 class AxisTests {
  public:
-  AxisTests(Basis& basis, MotorPower& motors, SledPlace& place)
-      : base_(basis), motors_(motors), place_(place) {}
+  explicit AxisTests(Parts& parts) : parts_(parts) {}
 
   /// B04: each motor to and fro, and whether its encoder counts the right way.
   bool testMotors();
@@ -49,9 +48,7 @@ class AxisTests {
   bool testLengths(const LoopTest& test);
   bool testDuties(const LoopTest& test);
 
-  Basis& base_;
-  MotorPower& motors_;
-  SledPlace& place_;
+  Parts& parts_;
   bool is_testing_ = false;
 };
 

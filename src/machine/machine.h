@@ -35,14 +35,8 @@ class Machine : private Waiting, private Dispatch {
   /// How often the machine needs its control tick; known after begin().
   uint8_t ticksPerSecond() const { return ticks_per_second_; }
 
-  // What a dry run looks at.
-  const Course& course() const { return parts_.course; }
-  const Axes& axes() const { return parts_.axes; }
-  const Planner& planner() const { return parts_.planner; }
-  const gcode::Modal& modal() const { return parts_.modal; }
-  const SledPlace& place() const { return parts_.place; }
-  const ProgramPlace& program() const { return parts_.program; }
-  const Coordinates& coordinates() const { return parts_.coordinates; }
+  /// What a dry run looks at.
+  const Parts& parts() const { return parts_; }
 
  private:
   // What goes on while anything waits.

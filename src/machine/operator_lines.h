@@ -2,7 +2,6 @@
 #pragma once
 
 #include "coordinates.h"
-#include "motion_door.h"
 #include "motor_power.h"
 #include "z_axis.h"
 
@@ -28,14 +27,7 @@ class Dispatch {
 /// refused with the reason, and never done later.
 class OperatorLines {
  public:
-  OperatorLines(Basis& basis, MotorPower& motors, ZAxis& z, MotionDoor& door,
-                const Coordinates& coordinates, Dispatch& dispatch)
-      : base_(basis),
-        motors_(motors),
-        z_(z),
-        door_(door),
-        coordinates_(coordinates),
-        dispatch_(dispatch) {}
+  explicit OperatorLines(Parts& parts);
 
   /// 0x84: everything brakes and the program waits.
   void hold() {
@@ -64,7 +56,7 @@ class OperatorLines {
 
   bool isForOperator(const gcode::Piece& piece) const;
   void wait(Event event);
-  bool isOperatorsTurn() const { return base_.course.lines() == Lines::kOperator; }
+  bool isOperatorsTurn() const;
   void comeBack();
   // Not inline: else every wait of the main program would have this line's stack.
   __attribute__((noinline)) void serveLine();
@@ -72,14 +64,9 @@ class OperatorLines {
   bool run(const char* line);
   bool jogZ(const gcode::Words& words);
 
-  Basis& base_;
-  MotorPower& motors_;
-  ZAxis& z_;
-  MotionDoor& door_;
-  const Coordinates& coordinates_;
-  Dispatch& dispatch_;
+  Parts& parts_;
   gcode::Input typed_;                          ///< lines of the operator
-  gcode::Input* coming_ = &base_.input;         ///< the room of the line that came last
+  gcode::Input* coming_;                        ///< the room of the line that came last
   gcode::Modal program_;                        ///< modes of the program, restored at the end
   uint8_t stale_ = 0;                           ///< lines that waited when a hold came
   uint32_t since_ms_ = 0;                       ///< when the wait began

@@ -9,8 +9,7 @@ namespace machine {
 /// Each waits for queued moves and for the end of a hold first, and returns false after a stop.
 class Pauses {
  public:
-  Pauses(Basis& basis, OperatorLines& operator_lines, Spindle& spindle, SledPlace& place)
-      : base_(basis), operator_lines_(operator_lines), spindle_(spindle), place_(place) {}
+  explicit Pauses(Parts& parts) : parts_(parts) {}
 
   /// M0 and M1.
   bool pauseAfterMoves();
@@ -23,10 +22,7 @@ class Pauses {
  private:
   bool pause();
 
-  Basis& base_;
-  OperatorLines& operator_lines_;
-  Spindle& spindle_;
-  SledPlace& place_;
+  Parts& parts_;
 };
 
 }  // namespace machine

@@ -2,6 +2,7 @@
 // simulated board on the host.
 #pragma once
 
+#include <Settings.h>
 #include <stdint.h>
 
 namespace machine {
@@ -99,6 +100,16 @@ class Clock {
 
  protected:
   ~Clock() = default;
+};
+
+/// What the machine needs of a board.
+struct Ports {
+  Wire& wire;
+  Drives& drives;
+  Aux& aux;
+  Clock& clock;
+  settings::Bytes& bytes;
+  const settings::Table& table;
 };
 
 /// Keeps the control tick off for the life of this object.

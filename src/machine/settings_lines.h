@@ -11,14 +11,7 @@ namespace machine {
 /// `$$` and `$n=value`.
 class SettingsLines {
  public:
-  SettingsLines(Basis& basis, Greeting& greeting, SledPlace& place, Spindle& spindle,
-                NewValues& new_values, Coordinates& coordinates)
-      : base_(basis),
-        greeting_(greeting),
-        place_(place),
-        spindle_(spindle),
-        new_values_(new_values),
-        coordinates_(coordinates) {}
+  explicit SettingsLines(Parts& parts) : parts_(parts) {}
 
   /// Does a line that begins with `$`, for a client of Maslow's.
   bool run(const char* line);
@@ -44,12 +37,7 @@ class SettingsLines {
   bool setValue(uint8_t number, float value, uint16_t first);
   bool refuseChainSpeed();
 
-  Basis& base_;
-  Greeting& greeting_;
-  SledPlace& place_;
-  Spindle& spindle_;
-  NewValues& new_values_;
-  Coordinates& coordinates_;
+  Parts& parts_;
 };
 
 }  // namespace machine

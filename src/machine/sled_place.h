@@ -1,9 +1,13 @@
 // Where the sled is: worked out from the chains, stored for power cuts, reported when it is lost.
 #pragma once
 
-#include "basis.h"
+#include "flash_text.h"
+#include "geometry.h"
+#include "program_place.h"
 
 namespace machine {
+
+struct Parts;
 
 /// What is known of the place of the sled.
 enum class Whereabouts : uint8_t {
@@ -30,15 +34,10 @@ enum class Search : uint8_t {
 /// why it is lost. Where the program is follows: see ProgramPlace.
 class SledPlace {
  public:
-  explicit SledPlace(Basis& basis) : base_(basis) {}
+  explicit SledPlace(Parts& parts) : parts_(parts) {}
 
-  Whereabouts whereabouts() const {
-    if (!base_.keeper.trustsChains()) return Whereabouts::kLost;
-    return hangs_ ? Whereabouts::kFound : Whereabouts::kNowhere;
-  }
+  Whereabouts whereabouts() const;
   bool isKnown() const { return whereabouts() == Whereabouts::kFound; }
-  /// Whether nothing has proved the chains or z wrong since they were declared.
-  bool isTrusted() const { return base_.keeper.trustsAll(); }
 
   /// Works out the place from the measured chains; all moves begin there. If the reason is one to
   /// say it and the chains are trusted, says it, and from now on the sled belongs there. Returns
@@ -77,7 +76,7 @@ class SledPlace {
   void followPulledChains();
   FoundPlace byChains(float left, float right) const;
 
-  Basis& base_;
+  Parts& parts_;
   Place sled_ = {0, 0, 0};  ///< where the tool was at the last search or call of now()
   int32_t shown_left_ = 0, shown_right_ = 0;  ///< set-points of `sled_` while it moves [counts]
   Place left_at_ = {0, 0, 0};                 ///< where the motors left the tool

@@ -12,17 +12,17 @@
 
 /// A main program whose rounds take a millisecond each; motors are simulated by B99.
 struct Rounds : machine::Waiting {
-  Rounds(BoardAtRest& board, machine::Basis& basis)
-      : Waiting(board, basis.axes, basis.planner, basis.course),
-        course(basis.course),
+  Rounds(BoardAtRest& board, machine::Parts& parts)
+      : Waiting(board, parts.axes, parts.planner, parts.course),
+        course(parts.course),
         board_(board),
-        basis_(basis) {}
+        parts_(parts) {}
 
   void service() override {
     ++rounds;
     in_each_round();
-    basis_.planner.fill(axes_, basis_.geometry);
-    basis_.memory.step();
+    parts_.planner.fill(axes_, parts_.geometry);
+    parts_.memory.step();
     if (++board_.now_ms % 10 == 0) axes_.tick();
   }
   void stop() { course.take(machine::Event::kStop); }
@@ -33,7 +33,7 @@ struct Rounds : machine::Waiting {
 
  private:
   BoardAtRest& board_;
-  machine::Basis& basis_;
+  machine::Parts& parts_;
 };
 
 /// What a machine needs of a board.
@@ -46,7 +46,8 @@ struct BoardOfParts {
 /// A machine with a ring whose sled hangs in the middle of the sheet.
 struct PartsAtRest : testing::Test, BoardOfParts, machine::Parts, machine::Dispatch {
   PartsAtRest()
-      : Parts({board, board, board, board, eeprom, table}, {2, ""}, waiting, *this),
+      : Parts({board, board, board, board, eeprom, BoardOfParts::table},
+              {2, "", machine::Start::kUsual}, waiting, *this),
         waiting(board, *this) {
     memory.start();
     values.setRow(kKinematics, 2);

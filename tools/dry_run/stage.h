@@ -42,7 +42,7 @@ class Stage : private machine::Wire,
   /// Lets the queued moves end.
   void drain();
 
-  const machine::Machine& machine() const { return machine_; }
+  const machine::Parts& parts() const { return machine_.parts(); }
   const std::vector<Queued>& moves() const { return moves_; }
   const std::vector<Said>& said() const { return said_; }
   double seconds() const { return 1e-3 * double(now_ms_); }

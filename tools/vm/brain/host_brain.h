@@ -28,7 +28,8 @@ class HostBrain : public Brain,
                   private machine::Clock {
  public:
   /// `world` must live as long as this object; an L298 drives its motors.
-  explicit HostBrain(world::World& world, const machine::BoardName& board = {2, ""})
+  explicit HostBrain(world::World& world,
+                     const machine::BoardName& board = {2, "", machine::Start::kUsual})
       : world_(world), board_(board) {}
   ~HostBrain() override { stop(); }
   HostBrain(const HostBrain&) = delete;
