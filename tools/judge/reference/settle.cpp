@@ -42,12 +42,9 @@ Hang settleFrom(const Machine& machine, const Hang& start, const Eigen::Vector2d
                         draw(root.at, Hand::kLeft), draw(root.at, Hand::kRight));
 }
 
-Settled settle(const Machine& machine, const Eigen::Vector2d& paid_out,
-               const Eigen::Vector2d& start) {
+Hang settle(const Machine& machine, const Eigen::Vector2d& paid_out, const Eigen::Vector2d& start) {
   const Hang first = hangAt(machine, start);
-  if (!first.solved) return Settled();
-  const Hang hang = settleFrom(machine, first, paid_out);
-  return {hang.solved, hang.bit, hang};
+  return first.solved ? settleFrom(machine, first, paid_out) : first;
 }
 
 }  // namespace reference

@@ -61,10 +61,10 @@ TiltedHang tiltedHangOf(bool found, double tilt, const Eigen::Vector2d& bit, con
                         const ChainForm& right) {
   // A sled could rest upside down too, but no machine brings it there.
   const double least = std::remainder(tilt, 2 * M_PI);
-  const bool solved = found && isSound(left, Hand::kLeft) && isSound(right, Hand::kRight) &&
-                      std::abs(least) < M_PI / 2;
-  if (!solved) return TiltedHang();
-  return {true, least, bit, {left.paid_out, right.paid_out}, left, right};
+  TiltedHang hang;
+  static_cast<Hang&>(hang) = detail::hangOf(found && std::abs(least) < M_PI / 2, bit, left, right);
+  hang.tilt = least;
+  return hang;
 }
 
 /// Rough start at some tilt: straight chains from the axes carry the weight; moments are ignored.

@@ -14,13 +14,9 @@ struct TwoBrackets {
   double center_depth = 79;   ///< [mm] centre of gravity below the bit
 };
 
-/// A tilted sled at rest. The other fields are valid only if `solved`.
-struct TiltedHang {
-  bool solved = false;
-  double tilt = 0;                                     ///< [rad] counterclockwise
-  Eigen::Vector2d bit = Eigen::Vector2d::Zero();       ///< [mm] where the bit is
-  Eigen::Vector2d paid_out = Eigen::Vector2d::Zero();  ///< [mm] counted left, right
-  ChainForm left, right;
+/// A tilted sled at rest. The tilt too is valid only if `solved`.
+struct TiltedHang : Hang {
+  double tilt = 0;  ///< [rad] counterclockwise
 };
 
 /// [mm] from the bit to a bracket.
