@@ -1,12 +1,10 @@
 """The registry of effects as its header has it: numbers and names, and the cases that time each."""
 
 import re
-from collections.abc import Sequence
 from pathlib import Path
 
 HEADER = Path(__file__).resolve().parents[2] / "lib/Kinematics/src/effects.h"
 ENTRY = re.compile(r"At<(\d+), (\w+)>")
-LIST = re.compile(r"(?<=Registry<).*?(?=>;)", re.DOTALL)
 # Timed one upon the other, as every machine has them: cases.h names these by hand.
 STEPS = ("chain_sag", "chain_stretch", "chain_pitch")
 
@@ -28,15 +26,3 @@ def cases() -> str:
         if name not in STEPS
     ]
     return "// Written by registry.py.\n" + "".join(lines)
-
-
-def only(names: Sequence[str]) -> tuple[str, int]:
-    """Return the header with these effects alone, and how many were left out."""
-    entries = {name: f"At<{number}, {_type(name)}>" for name, number in numbers().items()}
-    listed = ", ".join(entries[name] for name in entries if name in names)
-    text = HEADER.read_text(encoding="utf-8")
-    return LIST.sub(lambda _: listed, text, count=1), len(entries) - len(names)
-
-
-def _type(name: str) -> str:
-    return "".join(word.capitalize() for word in name.split("_"))
