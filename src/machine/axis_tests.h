@@ -42,10 +42,8 @@ class AxisTests {
   // loop_tests.cpp
   bool runLoopTest(uint8_t code, const LoopTest& test);
   void sayGains(Axis axis, bool position);
-  bool sampleSpeed(Axis axis, float rpm, uint8_t version);
-  bool testSpeeds(const LoopTest& test);
-  bool sampleLength(Axis axis, float goal, uint16_t ms, uint8_t version);
-  bool testLengths(const LoopTest& test);
+  bool sample(const LoopTest& test, bool is_length, float goal, uint16_t ms);
+  bool testSteps(const LoopTest& test, bool is_length);
   bool testDuties(const LoopTest& test);
 
   Parts& parts_;

@@ -41,9 +41,7 @@ bool AxisTests::runLoopTest(uint8_t code, const LoopTest& test) {
                                       : FLASH("--Voltage Test ");
   parts_.out << name;
   parts_.out.line(FLASH("Start--"));
-  const bool completed = code == 13   ? testSpeeds(test)
-                         : code == 14 ? testLengths(test)
-                                      : testDuties(test);
+  const bool completed = code == 16 ? testDuties(test) : testSteps(test, code == 14);
   parts_.axes.release(test.axis);
   parts_.out << name;
   parts_.out.line(FLASH("Stop--"));
@@ -52,60 +50,44 @@ bool AxisTests::runLoopTest(uint8_t code, const LoopTest& test) {
   return completed;
 }
 
-bool AxisTests::sampleSpeed(Axis axis, float rpm, uint8_t version) {
-  parts_.axes.turn(axis, rpm);
-  for (uint16_t ms = 0; ms < kStepMs; ms += kSampleMs) {
-    if (!parts_.waiting.waitFor(kSampleMs)) return false;
-    const AxisState state = parts_.axes.state(axis);
-    if (version == 2) {
-      parts_.out.fixed(rpm, 4) << ',';
-      parts_.out.fixed(state.rpm, 4) << ',';
-      parts_.out << int32_t(state.duty);
-    } else {
-      parts_.out.fixed(rpm - state.rpm, 4);
-    }
-    parts_.out.end();
-  }
-  return true;
-}
-
-bool AxisTests::testSpeeds(const LoopTest& test) {
-  sayGains(test.axis, false);
-  if (test.version == 2) parts_.out.line(FLASH("setpoint,input,output"));
-  bool completed = true;
-  for (uint8_t i = 0; i < test.steps && completed; ++i)
-    completed = sampleSpeed(test.axis, stepOf(test, i), test.version);
-  return completed;
-}
-
-bool AxisTests::sampleLength(Axis axis, float goal, uint16_t ms, uint8_t version) {
-  parts_.axes.jumpTo(axis, goal);
+/// Sets a length [mm] or a speed [rpm] and says for a while what the axis does.
+bool AxisTests::sample(const LoopTest& test, bool is_length, float goal, uint16_t ms) {
+  if (is_length)
+    parts_.axes.jumpTo(test.axis, goal);
+  else
+    parts_.axes.turn(test.axis, goal);
   for (uint16_t at = 0; at < ms; at = uint16_t(at + kSampleMs)) {
     if (!parts_.waiting.waitFor(kSampleMs)) return false;
-    const AxisState state = parts_.axes.state(axis);
-    const float is = parts_.axes.length(axis);
-    if (version == 2) {
-      parts_.out.fixed(goal, 4) << ',';
-      parts_.out.fixed(is, 4) << ',';
+    const AxisState state = parts_.axes.state(test.axis);
+    const float is = is_length ? parts_.axes.length(test.axis) : state.rpm;
+    if (test.version != 2) {
+      parts_.out.fixed(goal - is, 4).end();
+      continue;
+    }
+    parts_.out.fixed(goal, 4) << ',';
+    parts_.out.fixed(is, 4) << ',';
+    if (is_length) {
       parts_.out.fixed(state.wanted_rpm, 4) << ',';
       parts_.out.fixed(state.rpm, 4) << ',';
-      parts_.out.fixed(state.duty, 4);
+      parts_.out.fixed(state.duty, 4).end();
     } else {
-      parts_.out.fixed(goal - is, 4);
+      parts_.out << int32_t(state.duty);
+      parts_.out.end();
     }
-    parts_.out.end();
   }
   return true;
 }
 
-bool AxisTests::testLengths(const LoopTest& test) {
-  sayGains(test.axis, true);
-  if (test.version == 2) parts_.out.line(FLASH("setpoint,input,output,rpminput,voltage"));
-  const float from = parts_.axes.length(test.axis);
+bool AxisTests::testSteps(const LoopTest& test, bool is_length) {
+  sayGains(test.axis, is_length);
+  if (test.version == 2)
+    parts_.out.line(is_length ? FLASH("setpoint,input,output,rpminput,voltage")
+                              : FLASH("setpoint,input,output"));
+  const float from = is_length ? parts_.axes.length(test.axis) : 0;
+  const uint16_t ms = is_length && test.step_ms ? test.step_ms : kStepMs;
   bool completed = true;
   for (uint8_t i = 0; i < test.steps && completed; ++i)
-    completed = sampleLength(test.axis, from + stepOf(test, i),
-                             test.step_ms ? test.step_ms : kStepMs, test.version);
+    completed = sample(test, is_length, from + stepOf(test, i), ms);
   return completed;
 }
 

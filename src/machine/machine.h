@@ -12,7 +12,7 @@ namespace machine {
 ///
 /// Commands run to their end in the main program. While a command waits, service() keeps everything
 /// else going (waiting.h). Functions that may wait return whether they were completed.
-class Machine : private Waiting, private Dispatch {
+class Machine : private Waiting {
  public:
   Machine(const Ports& ports, const BoardName& board);
 
@@ -45,7 +45,6 @@ class Machine : private Waiting, private Dispatch {
   void readWire();
   void takeQuick(gcode::Quick quick);
   void resetSoftly();
-  Place placeNow();
   bool isFarAhead() const;
 
   // What is done with a line.

@@ -114,7 +114,8 @@ bool Moves::moveStraight(Place target, bool across, float feed) {
   if (!parts_.z.hasMotor() && target.z != z) {
     const float kSameDepth = 0.1f;  // [mm]
     const bool asks = float(fabs(target.z - z)) > kSameDepth;
-    if (asks && !parts_.pauses.setZByHand(target.z, target.z < parts_.coordinates.begin(kZAxis)))
+    if (asks &&
+        !parts_.operator_lines.setZByHand(target.z, target.z < parts_.coordinates.begin(kZAxis)))
       return false;
     target.z = parts_.program.aim().z;
   }

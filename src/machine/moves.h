@@ -2,7 +2,7 @@
 #pragma once
 
 #include "edge_cut.h"
-#include "pauses.h"
+#include "operator_lines.h"
 
 namespace machine {
 

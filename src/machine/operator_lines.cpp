@@ -1,4 +1,4 @@
-// Lines of the operator, and z on its way back.
+// Holds, pauses, lines of the operator, and z on its way back.
 #include "b_lines.h"
 #include "parts.h"
 
@@ -14,6 +14,47 @@ void OperatorLines::wait(Event event) {
   if (parts_.course.isRunning()) program_ = parts_.modal;
   const bool was_turn = isOperatorsTurn();
   if (parts_.course.take(event) && !was_turn) since_ms_ = parts_.clock.milliseconds();
+}
+
+bool OperatorLines::pause() {
+  parts_.out.line(FLASH("Maslow Paused"));
+  wait(Event::kPause);
+  // The operator's `~` brings z back and ends the pause.
+  return parts_.waiting.untilRunning();
+}
+
+bool OperatorLines::pauseAfterMoves() {
+  if (!parts_.waiting.drain() || !parts_.waiting.untilRunning()) return false;
+  // A `~` that came after this line while earlier moves still ran is meant for this pause.
+  if (!parts_.input.takeResume()) return pause();
+  parts_.out.line(FLASH("Maslow Paused"));
+  return true;
+}
+
+bool OperatorLines::changeTool(uint16_t tool) {
+  if (tool == parts_.modal.tool_in_spindle) return true;
+  if (!parts_.waiting.drain() || !parts_.spindle.turn(false) || !parts_.waiting.untilRunning())
+    return false;
+  parts_.out << FLASH("Tool Change: Please insert tool ") << int32_t(tool);
+  parts_.out.end();
+  if (!pause()) return false;
+  parts_.modal.tool_in_spindle = tool;
+  return true;
+}
+
+bool OperatorLines::setZByHand(float z, bool into_work) {
+  const bool inches = parts_.modal.inches;
+  if (!parts_.waiting.drain()) return false;
+  const bool stands_meanwhile = parts_.cutter.isSpindleOn() && !into_work;
+  if ((stands_meanwhile && !parts_.spindle.turn(false)) || !parts_.waiting.untilRunning())
+    return false;
+  const float shown = parts_.modal.fromMm(z);
+  parts_.out << FLASH("Message: Please adjust Z-Axis to a depth of ");
+  if (shown > 0) parts_.out << '+';
+  parts_.out.fixed(shown, 2).line(inches ? FLASH(" in") : FLASH(" mm"));
+  if (!pause()) return false;
+  parts_.place.declareZ(z);
+  return stands_meanwhile ? parts_.spindle.turn(true) : parts_.waiting.waitFor(1000);
 }
 
 void OperatorLines::resume() {
@@ -67,7 +108,7 @@ void OperatorLines::serveLine() {
   parts_.answers.serve(true);
   const bool done = runOrRefuse(line);
   parts_.answers.serve(false);
-  parts_.dispatch.answer(done);
+  parts_.waiting.answer(done);
   parts_.answers.setAnswered(is_other_answered);
 }
 
@@ -120,7 +161,7 @@ bool OperatorLines::run(const char* line) {
     parts_.out << line;
     parts_.out.end();
   }
-  if (line[0] == 'B' || line[0] == '$') return parts_.dispatch.runQuestion(line);
+  if (line[0] == 'B' || line[0] == '$') return parts_.waiting.runQuestion(line);
   gcode::Piece piece;
   for (gcode::Pieces pieces(line); pieces.next(piece);) {
     if (piece.tenths == 100)

@@ -1,4 +1,5 @@
-// What the operator may do while the program waits: move z, ask questions, resume.
+// Holds and pauses, and what the operator may do while the program waits: move z, ask questions,
+// resume.
 #pragma once
 
 #include "coordinates.h"
@@ -6,18 +7,6 @@
 #include "z_axis.h"
 
 namespace machine {
-
-/// Does lines that are no motion, and answers lines.
-class Dispatch {
- public:
-  /// A B code or `$$`.
-  virtual bool runQuestion(const char* line) = 0;
-  /// Says `ok` if the line is done and nothing has answered it.
-  virtual void answer(bool done) = 0;
-
- protected:
-  ~Dispatch() = default;
-};
 
 /// Serves a hold or a pause from its beginning until z is back at the program's height.
 ///
@@ -34,10 +23,17 @@ class OperatorLines {
     stale_ = typed_.lines();
     wait(Event::kHold);
   }
-  /// The program waits at the line in execution.
-  void pause() { wait(Event::kPause); }
   /// `~`.
   void resume();
+  // Pauses of the program. Each waits for queued moves and for the end of a hold first, and returns
+  // false after a stop.
+  /// M0 and M1.
+  bool pauseAfterMoves();
+  /// M6.
+  bool changeTool(uint16_t tool);
+  /// Asks the operator to bring z to a height [mm]; afterwards z counts as there. The spindle
+  /// stands meanwhile, unless the bit goes into the work.
+  bool setZByHand(float z, bool into_work);
   /// A stop: forgets the operator's lines.
   void clear() {
     typed_.clear();
@@ -56,6 +52,7 @@ class OperatorLines {
 
   bool isForOperator(const gcode::Piece& piece) const;
   void wait(Event event);
+  bool pause();
   bool isOperatorsTurn() const;
   void comeBack();
   // Not inline: else every wait of the main program would have this line's stack.

@@ -17,16 +17,10 @@ namespace machine {
 /// The board, the numbers, the axes, the words to the computer, and the parts that act. Those that
 /// act get all of it, and use what is above them, never what is below.
 struct Parts : Ports {
-  Parts(const Ports& ports, const BoardName& board, Waiting& whoever_waits,
-        Dispatch& whoever_dispatches)
-      : Ports(ports),
-        waiting(whoever_waits),
-        dispatch(whoever_dispatches),
-        greeting(board, out),
-        telemetry(*this, board.start) {}
+  Parts(const Ports& ports, const BoardName& board, Waiting& whoever_waits)
+      : Ports(ports), waiting(whoever_waits), greeting(board, out), telemetry(*this, board.start) {}
 
   Waiting& waiting;
-  Dispatch& dispatch;
   Printer out{wire};
   float room[kSettingCount];
   settings::Values values{table, room};
@@ -54,7 +48,6 @@ struct Parts : Ports {
   Coordinates coordinates{*this};
   SettingsLines settings_lines{*this};
   OperatorLines operator_lines{*this};
-  Pauses pauses{*this};
   Moves moves{*this};
   Drilling drilling{*this};
   SingleAxis single_axis{*this};

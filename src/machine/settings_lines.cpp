@@ -102,10 +102,7 @@ void SettingsLines::restoreDefaults(settings::Reset what) {
   parts_.place.sayUnset(true);
 }
 
-void SettingsLines::dump() { dumpFrom(0); }
-
-/// Says all listed settings, with numbers from `first` on.
-void SettingsLines::dumpFrom(uint16_t first) {
+void SettingsLines::dump(uint16_t first) {
   PutLetter put = {parts_.out};
   const bool speaks_grbl = parts_.out.speaksGrbl();
   for (uint8_t i = 0; i < parts_.values.count(); ++i) {
@@ -122,7 +119,7 @@ void SettingsLines::dumpFrom(uint16_t first) {
 
 void SettingsLines::dumpForGrbl() {
   sayGrblNumbers();
-  dumpFrom(kFirstForGrbl);
+  dump(kFirstForGrbl);
 }
 
 void SettingsLines::sayGrblNumbers() {

@@ -17,8 +17,8 @@ class SettingsLines {
   bool run(const char* line);
   /// `$RST=` and a letter.
   bool reset(const char* what);
-  /// Says all listed settings, a line each.
-  void dump();
+  /// Says all listed settings, a line each, with numbers from `first` on.
+  void dump(uint16_t first = 0);
   /// Takes the text behind the `$`: a number, `=`, a value.
   bool set(const char* text);
   /// For a sender of Grbl: Grbl's numbers that mean something here, and the settings from 1000
@@ -33,7 +33,6 @@ class SettingsLines {
   /// `$n=value` behind the `$`; false, with a refusal, if it is none.
   void restoreDefaults(settings::Reset what);
   bool read(const char* text, float& number, float& value);
-  void dumpFrom(uint16_t first);
   bool setValue(uint8_t number, float value, uint16_t first);
   bool refuseChainSpeed();
 

@@ -84,7 +84,7 @@ void SledPlace::standHere() {
 
 void SledPlace::declareZ(float z) {
   parts_.axes.declare(kZAxis, z);
-  parts_.program.beginAtZ(z);
+  parts_.program.endAtZ(z);
   parts_.planner.standAt(parts_.axes.setPoint());
   parts_.keeper.declareZ();
 }

@@ -97,7 +97,6 @@ class TickedAxis {
   int32_t followSetPoint(float turned);
   void letGoInTime();
   void note(motion::Fault seen);
-  void imagine(int32_t counts);
   int32_t measured() const { return scale_.fineOf(counts_); }
   void forgetMissed() { missed_before_ = drives_.illegalSteps(axis_); }
 

@@ -25,6 +25,8 @@ struct Rounds : machine::Waiting {
     parts_.memory.step();
     if (++board_.now_ms % 10 == 0) axes_.tick();
   }
+  bool runQuestion(const char*) override { return true; }
+  void answer(bool) override {}
   void stop() { course.take(machine::Event::kStop); }
 
   machine::Course& course;
@@ -44,10 +46,10 @@ struct BoardOfParts {
 };
 
 /// A machine with a ring whose sled hangs in the middle of the sheet.
-struct PartsAtRest : testing::Test, BoardOfParts, machine::Parts, machine::Dispatch {
+struct PartsAtRest : testing::Test, BoardOfParts, machine::Parts {
   PartsAtRest()
       : Parts({board, board, board, board, eeprom, BoardOfParts::table},
-              {2, "", machine::Start::kUsual}, waiting, *this),
+              {2, "", machine::Start::kUsual}, waiting),
         waiting(board, *this) {
     memory.start();
     values.setRow(kKinematics, 2);
@@ -59,9 +61,6 @@ struct PartsAtRest : testing::Test, BoardOfParts, machine::Parts, machine::Dispa
     hangAt(0, 0);
     board.said.clear();
   }
-
-  bool runQuestion(const char*) override { return true; }
-  void answer(bool) override {}
 
   void hangAt(float x, float y) {
     const motion::Lengths<float> lengths = geometry.inverse({x, y});
