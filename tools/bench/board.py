@@ -1,9 +1,9 @@
 """What the kinematics costs on the Mega: cycles, by simulation."""
 
 import json
+import re
 from pathlib import Path
 
-import registry
 from commands import ROOT, ToolError, compiled, output
 from kept import kept
 
@@ -12,6 +12,10 @@ BUILD = ROOT / ".build/bench"
 FIRMWARE = ROOT / ".pio/build/megaatmega2560/firmware.elf"
 KINEMATICS = ROOT / "lib/Kinematics/src"
 FLOAT = ROOT / "src/board/float.S"  # the firmware's sum, product and quotient
+# An effect in the registry: the number of its first setting, and its type.
+ENTRY = re.compile(r"At<(\d+), (\w+)>")
+# Timed one upon the other, as every machine has them: cases.h names these by hand.
+STEPS = ("ChainSag", "ChainStretch", "ChainPitch")
 # Linked into a program, the simulator is a part of what a kept answer is known by.
 SIMAVR = ("-l:libsimavr.a", "-lelf")
 # As PlatformIO builds the firmware.
@@ -36,8 +40,24 @@ Figures = dict[str, tuple[float, ...]]
 def measure() -> Figures:
     """Return the median and most cycles of each case."""
     BUILD.mkdir(parents=True, exist_ok=True)
-    (BUILD / "effect_cases.h").write_text(registry.cases(), encoding="utf-8")
+    (BUILD / "effect_cases.h").write_text(effect_cases(), encoding="utf-8")
     return counted(linked())
+
+
+def effect_cases() -> str:
+    """Return lines of a table of cases (see cases.h): each effect that no step times."""
+    entries = ENTRY.findall((KINEMATICS / "effects.h").read_text(encoding="utf-8"))
+    lines = [
+        f'{{"inverse, the same and {_file_name(effect)}", kInverse, kSagStretchPitch, kUsual, '
+        f"{number}}},\n"
+        for number, effect in entries
+        if effect not in STEPS
+    ]
+    return "// Written by board.py.\n" + "".join(lines)
+
+
+def _file_name(effect: str) -> str:
+    return re.sub(r"(?<!^)(?=[A-Z])", "_", effect).lower()
 
 
 def linked() -> Path:

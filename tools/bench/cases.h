@@ -34,7 +34,7 @@ const Case kCases[] = {
     {"inverse, rigid", kInverse, kNone, kUsual, 0},
     {"inverse, sag, stretch and pitch", kInverse, kSagStretchPitch, kUsual, 0},
     {"inverse, sag, stretch and pitch, light sled", kInverse, kSagStretchPitch, kLightSled, 0},
-// registry.py adds "inverse, the same and EFFECT" for every other effect of the registry.
+// board.py adds "inverse, the same and EFFECT" for every other effect of the registry.
 #include "effect_cases.h"
     {"inverse, all effects", kInverse, kAll, kUsual, 0},
     {"forward, no guess", kForward, kSagStretchPitch, kUsual, 0},

@@ -8,6 +8,9 @@
 
 namespace reference {
 
+namespace {
+
+/// The chain when its motor has counted `paid_out` [mm] and it pulls like this at its end.
 ChainForm drawCounted(const Machine& machine, Hand hand, const Eigen::Vector3d& pull,
                       double paid_out) {
   const ChainSide& side = sideOf(machine, hand);
@@ -24,6 +27,8 @@ ChainForm drawCounted(const Machine& machine, Hand hand, const Eigen::Vector3d& 
   }
   return drawChain(machine, hand, {pull, free_length});
 }
+
+}  // namespace
 
 Hang settleFrom(const Machine& machine, const Hang& start, const Eigen::Vector2d& paid_out) {
   using detail::Unknowns;

@@ -7,11 +7,6 @@
 
 namespace reference {
 
-/// The chain's length [mm] without load when the motor has counted `paid_out` [mm] and the chain
-/// pulls like this at its end.
-ChainForm drawCounted(const Machine& machine, Hand hand, const Eigen::Vector3d& pull,
-                      double paid_out);
-
 /// Newton's method from a sled at rest to nearby lengths `paid_out` [mm left, right].
 Hang settleFrom(const Machine& machine, const Hang& start, const Eigen::Vector2d& paid_out);
 

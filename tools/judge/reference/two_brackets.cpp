@@ -109,23 +109,4 @@ TiltedHang hangTilted(const Machine& machine, const TwoBrackets& sled, const Eig
   return TiltedHang();
 }
 
-TiltedHang settleTilted(const Machine& machine, const TwoBrackets& sled,
-                        const Eigen::Vector2d& paid_out, const Eigen::Vector2d& start) {
-  const TiltedHang first = hangTilted(machine, sled, start);
-  if (!first.solved) return TiltedHang();
-  const auto draw = [&](const TiltedUnknowns& packed, Hand hand) {
-    const int side = hand == Hand::kLeft ? 0 : 1;
-    return drawCounted(machine, hand, packed.segment<3>(3 * side) * machine.sled_weight,
-                       paid_out[side]);
-  };
-  const auto defect = [&](const TiltedUnknowns& packed) {
-    return defects(machine, sled, packed[6], draw(packed, Hand::kLeft), draw(packed, Hand::kRight),
-                   packed.tail<2>() * machine.motor_gap);
-  };
-  const Root<9> root =
-      findRoot<9>(defect, pack(machine, first.left.pull, first.right.pull, first.tilt, start));
-  return tiltedHangOf(root.found, root.at[6], root.at.tail<2>() * machine.motor_gap,
-                      draw(root.at, Hand::kLeft), draw(root.at, Hand::kRight));
-}
-
 }  // namespace reference

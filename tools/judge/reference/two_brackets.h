@@ -3,7 +3,7 @@
 
 #include <Eigen/Core>
 
-#include "reference/settle.h"
+#include "reference/hang.h"
 
 namespace reference {
 
@@ -32,11 +32,5 @@ double momentOf(const Machine& machine, const TwoBrackets& sled, double tilt, co
 
 /// The chains and the tilt that hold the sled still with its bit at `bit` [mm].
 TiltedHang hangTilted(const Machine& machine, const TwoBrackets& sled, const Eigen::Vector2d& bit);
-
-/// The place and the tilt at which the sled rests on chains of `paid_out` [mm left, right]. The
-/// search starts at `start` [mm], where a sled must be able to hang.
-TiltedHang settleTilted(const Machine& machine, const TwoBrackets& sled,
-                        const Eigen::Vector2d& paid_out,
-                        const Eigen::Vector2d& start = Eigen::Vector2d::Zero());
 
 }  // namespace reference

@@ -41,7 +41,6 @@ class VirtualBoard {
   void send(const std::string& characters);
   /// Whether a status report has just begun, so that the main program is busy with it.
   bool reports() const { return partial_ == "<"; }
-  bool hasSent() const { return to_send_.empty(); }
 
   /// Lines that the board sent since the last call, without their ends.
   std::deque<std::string> lines;
