@@ -29,32 +29,18 @@ struct Shield {
   uint8_t spindle, laser, probe;
 };
 
+// clang-format off
 const Shield kShields[] = {
     {61, 0, Driver::kL298, {18, 19, 9, 8, 6}, {2, 3, 11, 10, 7}, {21, 20, 12, 13, 5}, 17, 16, 14},
     {62, 1, Driver::kL298, {20, 21, 6, 4, 5}, {19, 18, 9, 7, 8}, {2, 3, 10, 11, 12}, 17, 16, 14},
     {63, 2, Driver::kL298, {20, 21, 4, 6, 5}, {19, 18, 7, 9, 8}, {2, 3, 11, 12, 10}, 17, 16, 14},
     {52, 3, Driver::kTle5206, {20, 21, 6, 4, 5}, {19, 18, 7, 9, 8}, {2, 3, 10, 11, 12}, 40, 41, 43},
     {4, 4, Driver::kTle5206, {20, 21, 6, 4, 5}, {19, 18, 7, 9, 8}, {2, 3, 10, 11, 12}, 40, 41, 43},
-    {6,
-     5,
-     Driver::kTb6643,
-     {2, 3, 9, 10, kNoPin},
-     {18, 19, 7, 8, kNoPin},
-     {21, 20, 6, 5, kNoPin},
-     48,
-     50,
-     49},
+    {6, 5, Driver::kTb6643, {2, 3, 9, 10, kNoPin}, {18, 19, 7, 8, kNoPin}, {21, 20, 6, 5, kNoPin}, 48, 50, 49},
     {7, 6, Driver::kTle9201, {20, 21, 4, 5, 6}, {19, 18, 7, 8, 9}, {2, 3, 11, 12, 10}, 40, 41, 43},
-    {8,
-     8,
-     Driver::kTb6643,
-     {20, 21, 6, 5, kNoPin},
-     {19, 18, 8, 7, kNoPin},
-     {2, 3, 10, 9, kNoPin},
-     40,
-     41,
-     43},
+    {8, 8, Driver::kTb6643, {20, 21, 6, 5, kNoPin}, {19, 18, 8, 7, kNoPin}, {2, 3, 10, 9, kNoPin}, 40, 41, 43},
 };
+// clang-format on
 enum : uint8_t { kShieldCount = sizeof kShields / sizeof kShields[0] };
 
 }  // namespace board

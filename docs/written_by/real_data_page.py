@@ -1,103 +1,139 @@
-"""Contents of docs/real-data.md and its pictures: the published sets."""
+"""Contents of docs/real-data.md: the published sets of real machines in tools/plumb/examples."""
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+
 import numpy as np
-from fields import Picture, drawing
-from plumb.cure.add import Addition, Parameter
-from plumb.fit.compare import best_pose
+from plumb.cure.add import Addition, Parameter, add
+from plumb.diagnosis import Diagnosis, diagnose
+from plumb.fit.compare import Comparison, compare
+from plumb.fit.inputs import Inputs
 from plumb.fit.observations import rms
-from real_sets import (
-    BRACKETS,
-    CUTS,
-    HOLES,
-    NINE,
-    PAIRS,
-    RealSet,
-    middle_shift,
-    mirrored,
-    pooled,
-    predicted,
-    real_set,
-    refusal_of,
-    with_y_errors_flipped,
-)
+from plumb.marks.read import Measurements, join_measurements, read_marks
+from plumb.model.predict import known_effects
+from plumb.settings.files import read_settings
+from plumb.settings.machine import MachineSettings
+from plumb.text.errors import InputError
 from template import filled
 
 PAGE = "docs/real-data.md"
-PICTURES = "docs/pictures/real-data"
-OTHER_NAMES = {"top and bottom exchanged": (1, -1), "left and right": (-1, 1), "both": (-1, -1)}
-SUNK, REACH = 2.0, 1170.0  # [mm] of a beam's tip, while the sled crosses so far from the middle
+EXAMPLES = Path(__file__).resolve().parents[2] / "tools/plumb/examples"
+HOLES = (
+    "madgrizzle-2018-08-30",
+    "madgrizzle-2018-09-01",
+    "madgrizzle-2018-09-02",
+    "madgrizzle-2018-09-04",
+)
+CUTS = "madgrizzle-2018-08-27"
+PAIRS = ((HOLES[0], HOLES[1]), (HOLES[2], HOLES[3]))  # before and after a fit of the owner
+BRACKETS = ("gero-2017-04-26", "blsteinhauer88-2017-06-18")
+
+
+@dataclass(frozen=True)
+class RealSet:
+    """A published set: settings said to be in force, and marks."""
+
+    name: str
+    settings: MachineSettings
+    marks: Measurements
+
+    @cached_property
+    def raw(self) -> Comparison:
+        """Against the settings as they stand."""
+        return compare(Inputs(self.settings, self.marks))
+
+    @cached_property
+    def diagnosis(self) -> Diagnosis:
+        """What `plumb diagnose` says."""
+        return diagnose(Inputs(self.settings, self.marks))
+
+    @cached_property
+    def pitched(self) -> Addition:
+        """Frame and chain pitch fitted."""
+        return _with_pitch(self.settings, self.marks)
+
+    @property
+    def nominal_rms(self) -> float:
+        """RMS [mm] of measured less nominal distances: what the settings in force left."""
+        ends = self.marks.distance_targets
+        nominal = np.linalg.norm(np.diff(ends, axis=1)[:, 0], axis=1)
+        return rms(self.marks.distance_lengths - nominal)
+
+
+@dataclass(frozen=True)
+class Pooled:
+    """All hole sets fitted together: a single machine, the settings of each set in force."""
+
+    fitted: Addition
+    errors: Mapping[str, np.ndarray]  # errors [mm] of each set's distances
+
+
+def real_set(name: str, marks: str = "marks.toml", settings: str = "groundcontrol.ini") -> RealSet:
+    """Return a set of examples/ by its folder."""
+    folder, known = EXAMPLES / name, known_effects()
+    machine = read_settings(folder / settings, known=known)
+    return RealSet(name, machine, read_marks(folder / marks, sheet=machine.sheet, known=known))
+
+
+def refusal_of(name: str) -> str:
+    """Return what the lab says of the groundcontrol.ini of a set; empty if it takes it."""
+    path = EXAMPLES / name / "groundcontrol.ini"
+    try:
+        read_settings(path, known=known_effects())
+    except InputError as error:
+        return str(error).replace(str(path), f"{name}/groundcontrol.ini")
+    return ""
+
+
+def pooled(sets: Sequence[RealSet]) -> Pooled:
+    """Fit several hole sets at once."""
+    marks = join_measurements([holes.marks for holes in sets])
+    fitted = _with_pitch(sets[0].settings, marks)
+    ends = np.cumsum([len(holes.marks.distances) for holes in sets])[:-1]
+    several = np.split(fitted.after_fit.distance_errors, ends)
+    return Pooled(fitted, {holes.name: part for holes, part in zip(sets, several, strict=True)})
+
+
+def predicted(settings: MachineSettings, other: RealSet) -> Comparison:
+    """Return how well a machine predicts a set that took no part in its fit."""
+    return compare(Inputs(settings, other.marks))
 
 
 def pages() -> dict[str, str]:
-    """Return the page and each picture by its name below the project's root."""
-    nine = real_set(NINE, "Calibration Measurements.ini", "groundcontrol.ini")
-    flipped = RealSet(nine.name, nine.settings, with_y_errors_flipped(nine.marks))
-    fifteen = real_set("c0depr1sm-2019-01-03", "marks.csv", "machine.toml")
+    """Return the page by its name below the project's root."""
     holes = {name: real_set(name) for name in HOLES}
+    boards = [
+        real_set("mibproj", "Calibration Measurements.ini"),
+        real_set("c0depr1sm-2019-01-03", "marks.csv", "machine.toml"),
+    ]
     together = pooled(list(holes.values()))
-    swing = pooled(list(holes.values()), ("chain_pitch", "sled_swing"))
-    gap = fifteen.settings.motor_gap
+    cuts = real_set(CUTS)
     text = filled(
         "real-data.md",
-        holes=list(holes.values()),
+        sets=[*holes.values(), *boards],
         pairs=[(holes[before], holes[after]) for before, after in PAIRS],
-        loud=[each.diagnosed(sigma=0.8).verdict for each in holes.values()],
         together=together,
-        swing=swing,
-        bit=next(each for each in swing.fitted.parameters if each.name == "sled_swing.right"),
-        cuts=real_set(CUTS),
-        beaten=sum(rms(together.errors[name]) < holes[name].nominal_rms for _, name in PAIRS),
-        renamed={
-            words: pooled([mirrored(each, *signs) for each in holes.values()]).fitted.after.fit_rms
-            for words, signs in OTHER_NAMES.items()
-        },
-        nine={"as published": nine, "y the other way": flipped},
-        fifteen=fifteen,
-        tip=largest_tip_give(fifteen),
-        # Moments: the tip on that side carries (gap / 2 + reach) / gap of the sled.
-        sinks=SUNK / (fifteen.settings.sled_weight * 2 * REACH / gap),
-        off_middle=middle_shift(fifteen.settings),
+        in_force=cuts.raw.distances,
+        foretold=predicted(together.fitted.settings, cuts).distances,
         brackets=[real_set(name, "squares.toml", "as-triangular.ini") for name in BRACKETS],
         refusal=refusal_of(BRACKETS[0]),
-        pitch=pitch,
+        pitch=_pitch,
         predicted=predicted,
         rms=rms,
         mm=lambda value: f"{value + 0.0:.2f}",
         percent=lambda strain: f"{100 * strain + 0.0:.2f}",
     )
-    return {
-        PAGE: text,
-        f"{PICTURES}/mibproj.svg": picture(nine, 3),
-        f"{PICTURES}/c0depr1sm.svg": picture(fifteen, 3),
-    }
+    return {PAGE: text}
 
 
-def pitch(fitted: Addition) -> list[Parameter]:
+def _with_pitch(settings: MachineSettings, marks: Measurements) -> Addition:
+    return add(Inputs(settings, marks), effects=("chain_pitch",))
+
+
+def _pitch(fitted: Addition) -> list[Parameter]:
     """Return how long both chains are by a fit."""
     return [each for each in fitted.parameters if each.name.startswith("chain_pitch.")]
-
-
-def largest_tip_give(board: RealSet) -> float:
-    """Return how far a beam's tips could give downwards [mm/N] without showing in the marks."""
-    sizes = {limit.name: limit.largest for limit in board.could_hide("frame_flex").limits}
-    return sizes["downward"] or 0.0
-
-
-def picture(board: RealSet, rows: int) -> str:
-    """Return the errors of a board as set, and their shape."""
-    raw = board.raw
-    sent, measured = (
-        np.array([getattr(mark, which) for mark in raw.marks])
-        for which in ("predicted", "measured")
-    )
-    pose = best_pose(sent, measured)
-    assert pose, "a board of marks has a shape"
-    order = np.lexsort((sent[:, 0], -np.round(np.array([mark.target[1] for mark in raw.marks]))))
-    as_set = np.array([mark.error for mark in raw.marks])
-    pictures = []
-    for name, errors in (("as set", as_set), ("its shape", pose.errors)):
-        places, arrows = (each[order].reshape(rows, -1, 2) for each in (sent, errors))
-        pictures.append(Picture(f"{name}: {rms(errors):.2f} mm RMS", places, arrows))
-    return drawing(f"errors of {board.name}", [(board.name, pictures)], sheet=board.settings.sheet)

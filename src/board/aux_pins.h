@@ -1,4 +1,4 @@
-// What else is connected to the shield: spindle (relay or servo), laser, probe.
+// Other pins of the shield: spindle (relay or servo), laser, probe.
 #pragma once
 
 #include "board_pins.h"

@@ -17,7 +17,7 @@ struct EncoderWiring {
   bool reversed;
 };
 
-/// What a change of state (high channel, low channel) adds to the count. The count rises when the
+/// Count that a change of state (high channel, low channel) adds. The count rises when the
 /// high channel leads: 0, 2, 3, 1. If both channels changed, the direction is unknown.
 const int8_t kQuadratureSteps[16] = {0, -1, +1, 0, +1, 0, 0, -1, -1, 0, 0, +1, 0, +1, -1, 0};
 

@@ -1,4 +1,4 @@
-// What the encoder counts of an axis are worth: in lengths, in turns, in counts of a set-point.
+// Worth of an axis' encoder counts: in lengths, in turns, in counts of a set-point.
 #pragma once
 
 #include <Motion.h>

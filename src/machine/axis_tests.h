@@ -19,8 +19,7 @@ struct LoopTest {
 /// it works out the sled's place again. It returns whether it was completed.
 class AxisTests {
  public:
-  AxisTests(Basis& basis, MotorPower& motors, SledPlace& place)
-      : base_(basis), motors_(motors), place_(place) {}
+  explicit AxisTests(Parts& parts) : parts_(parts) {}
 
   /// B04: each motor to and fro, and whether its encoder counts the right way.
   bool testMotors();
@@ -43,15 +42,11 @@ class AxisTests {
   // loop_tests.cpp
   bool runLoopTest(uint8_t code, const LoopTest& test);
   void sayGains(Axis axis, bool position);
-  bool sampleSpeed(Axis axis, float rpm, uint8_t version);
-  bool testSpeeds(const LoopTest& test);
-  bool sampleLength(Axis axis, float goal, uint16_t ms, uint8_t version);
-  bool testLengths(const LoopTest& test);
+  bool sample(const LoopTest& test, bool is_length, float goal, uint16_t ms);
+  bool testSteps(const LoopTest& test, bool is_length);
   bool testDuties(const LoopTest& test);
 
-  Basis& base_;
-  MotorPower& motors_;
-  SledPlace& place_;
+  Parts& parts_;
   bool is_testing_ = false;
 };
 

@@ -1,4 +1,4 @@
-// What each B code does.
+// Actions of the B codes.
 #include "b_codes.h"
 
 namespace machine {
@@ -26,21 +26,7 @@ Axis testedAxis(const Words& words) {
 
 }  // namespace
 
-/// A code and the function that does it.
-struct BCodes::Code {
-  uint8_t code;
-  Run run;
-};
-
 bool BCodes::run(const char* line) {
-  static const Code kCodes[] PROGMEM = {
-      {1, &BCodes::sayNoCalibration}, {2, &BCodes::measureOut},    {4, &BCodes::testMotors},
-      {5, &BCodes::sayVersion},       {6, &BCodes::setChains},     {8, &BCodes::setChainsToMarks},
-      {9, &BCodes::moveChains},       {10, &BCodes::measureChain}, {11, &BCodes::pullChain},
-      {13, &BCodes::testLoop},        {14, &BCodes::testLoop},     {15, &BCodes::goHome},
-      {16, &BCodes::testLoop},        {17, &BCodes::setZLimit},    {18, &BCodes::setZLimit},
-      {19, &BCodes::clearZLimits},    {20, &BCodes::showZLimits},  {30, &BCodes::tellTelemetry},
-  };
   const uint8_t code = bCodeOf(line);
   if (code == 99) return switchMotors(line + 3);
   Words words;
@@ -62,29 +48,53 @@ bool BCodes::run(const char* line) {
     if (!SingleAxis::isLength(words.value('L')) || !SingleAxis::isLength(words.value('R')))
       return parts_.answers.refuseMotion(tooLongForChains());
   }
-  for (uint8_t i = 0; i < sizeof kCodes / sizeof kCodes[0]; ++i) {
-    Code found;
-    memcpy_P(&found, kCodes + i, sizeof found);
-    if (found.code == code) return (this->*found.run)(code, words);
+  return runCode(code, words);
+}
+
+bool BCodes::runCode(uint8_t code, const Words& words) {
+  switch (code) {
+    case 1:
+      parts_.out.line(FLASH("Motor Calibration Not Needed"));
+      return true;
+    case 2:
+      return parts_.single_axis.measureOut(words.value('L') != 0 ? kLeftAxis : kRightAxis);
+    case 4:
+      return wakeForTest() && parts_.axis_tests.testMotors();
+    case 5:
+      parts_.out.line(FLASH("Firmware Version 1.28"));
+      return true;
+    case 6:
+      return setChains(words);
+    case 8:
+      return parts_.single_axis.setChainsToMarks();
+    case 9:
+      return parts_.single_axis.moveChains(words);
+    case 10:
+      return parts_.single_axis.measureChain(words.has('L'));
+    case 11:
+      return pullChain(words);
+    case 13:
+    case 14:
+    case 16:
+      return testLoop(code, words);
+    case 15:
+      return parts_.single_axis.goHome();
+    case 17:
+    case 18:
+      return parts_.z.setLimit(code == 17);
+    case 19:
+      return parts_.z.clearLimits();
+    case 20:
+      return parts_.z.showLimits();
+    case 30:
+      parts_.telemetry.tell();
+      return true;
+    default:
+      return parts_.answers.refuseStatement();
   }
-  return parts_.answers.refuseStatement();
 }
 
-bool BCodes::sayVersion(uint8_t, const Words&) {
-  parts_.out.line(FLASH("Firmware Version 1.28"));
-  return true;
-}
-
-bool BCodes::sayNoCalibration(uint8_t, const Words&) {
-  parts_.out.line(FLASH("Motor Calibration Not Needed"));
-  return true;
-}
-
-bool BCodes::measureOut(uint8_t, const Words& words) {
-  return parts_.single_axis.measureOut(words.value('L') != 0 ? kLeftAxis : kRightAxis);
-}
-
-bool BCodes::setChains(uint8_t, const Words& words) {
+bool BCodes::setChains(const Words& words) {
   if (!words.has('L') || !words.has('R'))
     return parts_.answers.refuseWords(FLASH("B06 needs the lengths of both chains, L and R"));
   if (!parts_.single_axis.mayHang(words.value('L'), words.value('R'))) return false;
@@ -92,17 +102,9 @@ bool BCodes::setChains(uint8_t, const Words& words) {
   return parts_.single_axis.setChains(words.value('L'), words.value('R'));
 }
 
-bool BCodes::measureChain(uint8_t, const Words& words) {
-  return parts_.single_axis.measureChain(words.has('L'));
-}
-
 bool BCodes::wakeForTest() { return parts_.motors.wake() && parts_.waiting.untilRunning(); }
 
-bool BCodes::testMotors(uint8_t, const Words&) {
-  return wakeForTest() && parts_.axis_tests.testMotors();
-}
-
-bool BCodes::pullChain(uint8_t, const Words& words) {
+bool BCodes::pullChain(const Words& words) {
   const float duty = words.has('S') ? words.value('S') : 100;
   const float seconds = words.has('T') ? words.value('T') : 1;
   if (!(fabs(duty) <= 255 && seconds >= 0 && seconds <= 60))
@@ -121,11 +123,6 @@ bool BCodes::testLoop(uint8_t code, const Words& words) {
   if (!isMild(code, test.first) || !isMild(code, test.last))
     return parts_.answers.refuse(FLASH("S and F are at most 255, of B14 at most 1000"));
   return parts_.axis_tests.testLoop(code, test);
-}
-
-bool BCodes::tellTelemetry(uint8_t, const Words&) {
-  parts_.telemetry.tell();
-  return true;
 }
 
 bool BCodes::switchMotors(const char* word) {

@@ -15,30 +15,12 @@ class BCodes {
   bool run(const char* line);
 
  private:
-  typedef bool (BCodes::*Run)(uint8_t code, const gcode::Words& words);
-  struct Code;
-
-  bool sayVersion(uint8_t, const gcode::Words&);
-  bool sayNoCalibration(uint8_t, const gcode::Words&);
-  bool measureOut(uint8_t, const gcode::Words& words);
+  bool runCode(uint8_t code, const gcode::Words& words);
   /// Gives the motors power for a test that drives them in a hold too: it begins after the hold.
   bool wakeForTest();
-  bool testMotors(uint8_t, const gcode::Words&);
-  bool setChains(uint8_t, const gcode::Words& words);
-  bool setChainsToMarks(uint8_t, const gcode::Words&) {
-    return parts_.single_axis.setChainsToMarks();
-  }
-  bool moveChains(uint8_t, const gcode::Words& words) {
-    return parts_.single_axis.moveChains(words);
-  }
-  bool measureChain(uint8_t, const gcode::Words& words);
-  bool pullChain(uint8_t, const gcode::Words& words);
+  bool setChains(const gcode::Words& words);
+  bool pullChain(const gcode::Words& words);
   bool testLoop(uint8_t code, const gcode::Words& words);
-  bool goHome(uint8_t, const gcode::Words&) { return parts_.single_axis.goHome(); }
-  bool setZLimit(uint8_t code, const gcode::Words&) { return parts_.z.setLimit(code == 17); }
-  bool clearZLimits(uint8_t, const gcode::Words&) { return parts_.z.clearLimits(); }
-  bool showZLimits(uint8_t, const gcode::Words&) { return parts_.z.showLimits(); }
-  bool tellTelemetry(uint8_t, const gcode::Words&);
   /// B99: only the word ON simulates the motors.
   bool switchMotors(const char* word);
   bool simulateMotors(bool on);

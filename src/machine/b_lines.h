@@ -1,4 +1,4 @@
-// What kind a line is, and the numbers of B codes.
+// Kinds of lines, and the numbers of B codes.
 #pragma once
 
 #include <avr/pgmspace.h>

@@ -5,7 +5,7 @@
 
 namespace machine {
 
-/// What can happen to the board.
+/// Faults of a board.
 enum class BoardEvent : uint8_t {
   kNone,
   kSupplyLow,    ///< the supply is below its limit; said once, until it was 0.1 V above

@@ -1,4 +1,4 @@
-// What each G and M code does. lib/GCode takes the codes that only change how words are read.
+// Actions of the G and M codes. lib/GCode takes the codes that only change how words are read.
 #include "codes.h"
 
 namespace machine {
@@ -255,7 +255,7 @@ bool Codes::startSpindle(const gcode::Piece& piece) {
 
 bool Codes::changeTool(const gcode::Piece& piece) {
   return (!piece.words.has('T') || setTool(piece.words)) &&
-         parts_.pauses.changeTool(parts_.modal.tool);
+         parts_.operator_lines.changeTool(parts_.modal.tool);
 }
 
 bool Codes::armLaser(const gcode::Piece& piece) {

@@ -39,7 +39,7 @@ class Codes {
   bool beginCycle(const gcode::Piece& piece);
   bool shift(const gcode::Piece& piece) { return parts_.coordinates.shift(piece.words); }
   bool endShift(const gcode::Piece& piece);
-  bool pause(const gcode::Piece&) { return parts_.pauses.pauseAfterMoves(); }
+  bool pause(const gcode::Piece&) { return parts_.operator_lines.pauseAfterMoves(); }
   bool endProgram(const gcode::Piece&);
   bool startSpindle(const gcode::Piece& piece);
   bool stopSpindle(const gcode::Piece&) {

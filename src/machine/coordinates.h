@@ -8,11 +8,10 @@ namespace machine {
 /// G10 L2 and L20, G28.1, G30.1, G43.1, G49, G92, and `$#`. Moves nothing.
 class Coordinates {
  public:
-  Coordinates(Basis& basis, const SledPlace& place)
-      : base_(basis), place_(place), offsets_(basis.values.from(kFirstPlaceSetting)) {}
+  explicit Coordinates(Parts& parts);
 
   /// [mm] Where the coordinate of an axis begins, in the system in force.
-  float begin(uint8_t axis) const { return offsets_.at(base_.modal.system, axis); }
+  float begin(uint8_t axis) const;
 
   /// Whether the sled may cross the sheet; refuses the line if not.
   bool mayCrossSheet() const;
@@ -35,7 +34,7 @@ class Coordinates {
   void show();
   /// Forgets G54 to G59, G28, G30 and G92.
   void forget();
-  /// What is kept: places 0 to 5 are the beginnings of G54 to G59, 6 and 7 those to which G28 and
+  /// Kept places: 0 to 5 are the beginnings of G54 to G59, 6 and 7 those to which G28 and
   /// G30 go; 0,0,0 where none is kept [mm].
   Place kept(uint8_t place) const;
   const gcode::WorkOffsets& offsets() const { return offsets_; }
@@ -44,8 +43,7 @@ class Coordinates {
   bool keep(uint8_t row, float value);
   void say(FlashText name, int32_t number, float x, float y, float z);
 
-  Basis& base_;
-  const SledPlace& place_;
+  Parts& parts_;
   gcode::WorkOffsets offsets_;
 };
 

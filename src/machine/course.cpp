@@ -6,7 +6,7 @@
 namespace machine {
 namespace {
 
-/// What an event makes of a state, and what the state allows.
+/// State after an event, and the permissions of each state.
 struct Row {
   State after[uint8_t(Event::kCount)];
   bool path_goes;

@@ -1,11 +1,11 @@
-// What the machine is doing: the table of states, events and what may move.
+// State of the machine: the table of states, events and permissions to move.
 #pragma once
 
 #include "axes.h"
 
 namespace machine {
 
-/// What the machine is doing. docs/states.md draws it.
+/// State of the machine. docs/states.md draws it.
 enum class State : uint8_t {
   kRunning,   ///< lines are done, the path goes on
   kChecking,  ///< `$C`: lines are read for mistakes, and nothing is done
@@ -23,7 +23,7 @@ enum class State : uint8_t {
   kCount,
 };
 
-/// What may change it.
+/// Events that change it.
 enum class Event : uint8_t {
   kHold,    ///< 0x84
   kPause,   ///< a line that waits for `~` is next
@@ -40,7 +40,7 @@ enum class Event : uint8_t {
   kCount,
 };
 
-/// What a line would do, as far as a state lets it or not.
+/// Kind of act of a line, as far as a state lets it or not.
 enum Kind : uint8_t {
   kQuestion = 1,  ///< says something, and changes nothing
   kSetting = 2,   ///< sets numbers

@@ -1,5 +1,5 @@
 // The steps of a hole as moves.
-#include "drilling.h"
+#include "parts.h"
 
 namespace machine {
 namespace {
@@ -25,22 +25,23 @@ FlashText textOf(gcode::DrillFault fault) {
 }  // namespace
 
 void Drilling::begin(uint8_t cycle) {
-  if (base_.modal.motion <= gcode::kNoMotion) cycle_.begin(base_.program.aim().z);
-  base_.modal.motion = cycle;
+  if (parts_.modal.motion <= gcode::kNoMotion) cycle_.begin(parts_.program.aim().z);
+  parts_.modal.motion = cycle;
 }
 
-bool Drilling::refuse(gcode::DrillFault fault) { return base_.answers.refuseWords(textOf(fault)); }
+bool Drilling::refuse(gcode::DrillFault fault) { return parts_.answers.refuseWords(textOf(fault)); }
 
 bool Drilling::drill(const gcode::Words& words) {
-  if (base_.modal.plane != 17)
-    return base_.answers.refuseWords(FLASH("holes are drilled in the plane of G17 only"));
-  if (base_.modal.inverse_time || base_.modal.machine_coordinates)
-    return base_.answers.refuseWords(FLASH("no hole is drilled with G53 or G93"));
-  if (!coordinates_.mayCrossSheet()) return false;
-  const Place at = base_.program.counted();
+  if (parts_.modal.plane != 17)
+    return parts_.answers.refuseWords(FLASH("holes are drilled in the plane of G17 only"));
+  if (parts_.modal.inverse_time || parts_.modal.machine_coordinates)
+    return parts_.answers.refuseWords(FLASH("no hole is drilled with G53 or G93"));
+  if (!parts_.coordinates.mayCrossSheet()) return false;
+  const Place at = parts_.program.counted();
   const float from[] = {at.x, at.y, at.z};
-  const float offset[] = {coordinates_.begin(0), coordinates_.begin(1), coordinates_.begin(2)};
-  const gcode::DrillFault fault = cycle_.read(base_.modal, words, from, offset);
+  const float offset[] = {parts_.coordinates.begin(0), parts_.coordinates.begin(1),
+                          parts_.coordinates.begin(2)};
+  const gcode::DrillFault fault = cycle_.read(parts_.modal, words, from, offset);
   if (fault != gcode::DrillFault::kNone) return refuse(fault);
   gcode::DrillStep step;
   while (cycle_.next(step))
@@ -50,19 +51,20 @@ bool Drilling::drill(const gcode::Words& words) {
 
 bool Drilling::runStep(const gcode::DrillStep& step) {
   if (step.kind == gcode::DrillStep::kDwell)
-    return base_.waiting.drain() && base_.waiting.dwell(cycle_.dwell());
+    return parts_.waiting.drain() && parts_.waiting.dwell(cycle_.dwell());
   const bool across = step.kind == gcode::DrillStep::kAcross;
-  const float feed = moves_.feedOf(step.kind == gcode::DrillStep::kFeed ? 1 : 0);
-  const float z = z_.within(step.z);
+  const float feed = parts_.moves.feedOf(step.kind == gcode::DrillStep::kFeed ? 1 : 0);
+  const float z = parts_.z.within(step.z);
   if (across) {
-    if (!moves_.moveStraight({step.x, step.y, base_.program.aim().z}, true, feed)) return false;
+    if (!parts_.moves.moveStraight({step.x, step.y, parts_.program.aim().z}, true, feed))
+      return false;
     // Beyond the sheet the sled stays at the edge, so the hole would be in a wrong place.
-    return !base_.program.isCountedBeyond() ||
-           base_.answers.refuseMotion(FLASH("the hole is beyond the sheet"));
+    return !parts_.program.isCountedBeyond() ||
+           parts_.answers.refuseMotion(FLASH("the hole is beyond the sheet"));
   }
-  Place next = base_.program.counted();
+  Place next = parts_.program.counted();
   next.z = z;
-  return moves_.moveStraight(next, false, feed);
+  return parts_.moves.moveStraight(next, false, feed);
 }
 
 }  // namespace machine

@@ -8,8 +8,7 @@ namespace machine {
 /// The cycle in force. lib/GCode works out its steps.
 class Drilling {
  public:
-  Drilling(Basis& basis, const Coordinates& coordinates, const ZAxis& z, Moves& moves)
-      : base_(basis), coordinates_(coordinates), z_(z), moves_(moves) {}
+  explicit Drilling(Parts& parts) : parts_(parts) {}
 
   /// Begins G81 to G83 by their number: the words of this line and of the next lines drill.
   void begin(uint8_t cycle);
@@ -20,10 +19,7 @@ class Drilling {
   bool refuse(gcode::DrillFault fault);
   bool runStep(const gcode::DrillStep& step);
 
-  Basis& base_;
-  const Coordinates& coordinates_;
-  const ZAxis& z_;
-  Moves& moves_;
+  Parts& parts_;
   gcode::Drilling cycle_;
 };
 

@@ -10,7 +10,7 @@
 
 namespace machine {
 
-/// What forward() answers.
+/// Answer of forward().
 struct FoundPlace {
   motion::Point<float> at;  ///< [mm] use it only if `found`
   bool found;
@@ -51,7 +51,7 @@ class Geometry {
   /// motors. Its chains count as straight.
   float torqueAt(motion::Point<float> place) const;
 
-  /// What lib/Motion needs to know of the chains.
+  /// Features of the chains that lib/Motion depends on.
   const motion::Sprockets<float>& sprockets() const { return sprockets_; }
 
   /// The area where inverse() counts as smooth: the sheet.

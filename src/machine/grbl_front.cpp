@@ -1,4 +1,4 @@
-// What a sender of Grbl asks for: the status at each `?`, lines with a `$`, and jogs. How lines
+// Requests of a sender of Grbl: the status at each `?`, lines with a `$`, and jogs. How lines
 // look to such a sender is the printer's.
 #include "grbl_front.h"
 
@@ -61,7 +61,7 @@ void GrblFront::answerStatus(bool is_executing) {
       parts_.place.now(parts_.waiting.isMoving() || parts_.waiting.isStopping()));
   parts_.out << FLASH("|FS:");
   parts_.out.fixed(inches ? speed / gcode::kMmPerInch : speed, inches ? 1 : 0) << ',';
-  parts_.out.fixed(parts_.spindle.isOn() ? parts_.cutter.s() : 0, 0) << FLASH("|WCO:");
+  parts_.out.fixed(parts_.cutter.isSpindleOn() ? parts_.cutter.s() : 0, 0) << FLASH("|WCO:");
   parts_.reports.sayPlace(
       {parts_.coordinates.begin(0), parts_.coordinates.begin(1), parts_.coordinates.begin(2)});
   parts_.out << FLASH("|Ov:") << int32_t(parts_.overrides.now().feed()) << ','
@@ -163,7 +163,7 @@ void GrblFront::showModes() {
   parts_.out << (parts_.modal.inches ? FLASH(" G20") : FLASH(" G21"));
   parts_.out << (parts_.modal.relative ? FLASH(" G91") : FLASH(" G90"));
   parts_.out << (parts_.modal.inverse_time ? FLASH(" G93") : FLASH(" G94"));
-  parts_.out << (parts_.spindle.isOn() ? FLASH(" M3 M9 T") : FLASH(" M5 M9 T"))
+  parts_.out << (parts_.cutter.isSpindleOn() ? FLASH(" M3 M9 T") : FLASH(" M5 M9 T"))
              << int32_t(parts_.modal.tool);
   parts_.out << FLASH(" F");
   parts_.out.fixed(parts_.modal.fromMm(parts_.modal.feed), parts_.modal.inches ? 1 : 0)

@@ -1,4 +1,4 @@
-// What the machine says at its start: its board, the source of its settings, its name, `ready`.
+// Greeting at the start: the board, the source of its settings, its name, `ready`.
 #pragma once
 
 #include <Settings.h>
@@ -11,8 +11,6 @@ namespace machine {
 /// Which motor shield is plugged in, and why the firmware started. Without a shield no motor is
 /// ever driven.
 struct BoardName {
-  BoardName(uint8_t version, const char* driver, Start start = Start::kUsual)
-      : version(version), driver(driver), start(start) {}
   uint8_t version;     ///< N of "v1.N"
   const char* driver;  ///< as the greeting names it; null: the straps are unknown
   Start start;

@@ -6,7 +6,7 @@ namespace machine {
 
 Machine::Machine(const Ports& ports, const BoardName& board)
     : Waiting(ports.clock, parts_.axes, parts_.planner, parts_.course),
-      parts_(ports, board, *this, *this),
+      parts_(ports, board, *this),
       stops_(parts_),
       codes_(parts_),
       b_codes_(parts_),
@@ -51,15 +51,13 @@ void Machine::keepReporting() {
   parts_.clock.idle();
   if (parts_.out.speaksGrbl()) return grbl_.answerStatus(is_executing_);
   if (!parts_.reports.areDue()) return;
+  // A stop drops the path before it works out where the program begins next.
   parts_.reports.sayStatus(parts_.course.isWaiting()  ? FLASH("Pause")
                            : parts_.course.isHalted() ? FLASH("Stop")
                                                       : FLASH("Idle"),
-                           placeNow());
+                           parts_.place.now(isMoving() || isStopping()));
   parts_.reports.sayErrors();
 }
-
-/// Where the tool is. A stop drops the path before it works out where the program begins next.
-Place Machine::placeNow() { return parts_.place.now(isMoving() || isStopping()); }
 
 bool Machine::isFarAhead() const {
   const float ahead = parts_.values.at(kMotionAhead) * 1e-3f * float(ticks_per_second_) *

@@ -12,7 +12,7 @@ namespace machine {
 ///
 /// Commands run to their end in the main program. While a command waits, service() keeps everything
 /// else going (waiting.h). Functions that may wait return whether they were completed.
-class Machine : private Waiting, private Dispatch {
+class Machine : private Waiting {
  public:
   Machine(const Ports& ports, const BoardName& board);
 
@@ -35,14 +35,8 @@ class Machine : private Waiting, private Dispatch {
   /// How often the machine needs its control tick; known after begin().
   uint8_t ticksPerSecond() const { return ticks_per_second_; }
 
-  // What a dry run looks at.
-  const Course& course() const { return parts_.course; }
-  const Axes& axes() const { return parts_.axes; }
-  const Planner& planner() const { return parts_.planner; }
-  const gcode::Modal& modal() const { return parts_.modal; }
-  const SledPlace& place() const { return parts_.place; }
-  const ProgramPlace& program() const { return parts_.program; }
-  const Coordinates& coordinates() const { return parts_.coordinates; }
+  /// What a dry run looks at.
+  const Parts& parts() const { return parts_; }
 
  private:
   // What goes on while anything waits.
@@ -51,7 +45,6 @@ class Machine : private Waiting, private Dispatch {
   void readWire();
   void takeQuick(gcode::Quick quick);
   void resetSoftly();
-  Place placeNow();
   bool isFarAhead() const;
 
   // What is done with a line.

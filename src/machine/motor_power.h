@@ -11,9 +11,8 @@ namespace machine {
 /// heavier than $62. A sled that slides is held again where it was.
 class MotorPower {
  public:
-  MotorPower(Basis& basis, SledPlace& place) : base_(basis), place_(place) {}
+  explicit MotorPower(Parts& parts) : parts_(parts) {}
 
-  bool areOn() const { return base_.axes.isPowered(); }
   /// Returns once all motors hold their set-points; false after a stop.
   bool wake();
   /// To be called often. `is_busy`: something moves or holds on purpose.
@@ -23,8 +22,16 @@ class MotorPower {
   /// Waits at most a second for the position's record.
   bool awaitRecord();
 
+  // What a motion is refused for before its motors get power, whichever line asks for it.
+  /// Refuses to go on from where nobody sent the sled: it moved while its motors were off.
+  bool goOnFromHere();
+  /// Refuse to move chains, or z, by motors whose position loop has no gain: they would lag without
+  /// an alarm.
+  bool doChainsFollow();
+  bool doesZFollow();
+
  private:
-  /// What the motors do at rest.
+  /// Behaviour of the motors at rest.
   enum class Rest : uint8_t {
     kUnwatched,  ///< on, or switched off by a command, a stop or an alarm
     kLetGo,      ///< off and watched
@@ -35,8 +42,7 @@ class MotorPower {
   bool doesFrictionHold() const;
   void sayThatTheyStayOn();
 
-  Basis& base_;
-  SledPlace& place_;
+  Parts& parts_;
   Rest rest_ = Rest::kUnwatched;
   bool has_said_so_ = false;  ///< that they stay on where the sled is high
   uint32_t last_busy_ms_ = 0;

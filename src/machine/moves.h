@@ -2,21 +2,14 @@
 #pragma once
 
 #include "edge_cut.h"
-#include "pauses.h"
+#include "operator_lines.h"
 
 namespace machine {
 
 /// Lines and arcs over the sheet. Functions return false if the move was refused or stopped.
 class Moves {
  public:
-  Moves(Basis& basis, MotorPower& motors, Coordinates& coordinates, ZAxis& z, MotionDoor& door,
-        Pauses& pauses)
-      : base_(basis),
-        motors_(motors),
-        coordinates_(coordinates),
-        z_(z),
-        door_(door),
-        pauses_(pauses) {}
+  explicit Moves(Parts& parts) : parts_(parts) {}
 
   /// Takes an F word.
   void takeFeed(const gcode::Words& words);
@@ -58,12 +51,7 @@ class Moves {
                   uint8_t beam);
   void sayBeyondSheet(motion::Point<float> end);
 
-  Basis& base_;
-  MotorPower& motors_;
-  Coordinates& coordinates_;
-  ZAxis& z_;
-  MotionDoor& door_;
-  Pauses& pauses_;
+  Parts& parts_;
 };
 
 }  // namespace machine

@@ -1,7 +1,6 @@
 // Which part takes over which values.
-#include "new_values.h"
-
 #include "carried_twice.h"
+#include "parts.h"
 
 namespace machine {
 namespace {
@@ -26,52 +25,53 @@ void NewValues::takeAll() {
 void NewValues::take(uint8_t touches) {
   using namespace settings;
   if (touches & kDrives) arrangeDrives();
-  if ((touches & (kScale | kLoops)) && base_.axes.prepare(base_.values)) base_.keeper.reconsider();
-  if (touches & kLimits) base_.planner.prepare(base_.values, base_.axes.secondsPerTick());
-  if (touches & kCutter) base_.cutter.off();
+  if ((touches & (kScale | kLoops)) && parts_.axes.prepare(parts_.values))
+    parts_.keeper.reconsider();
+  if (touches & kLimits) parts_.planner.prepare(parts_.values, parts_.axes.secondsPerTick());
+  if (touches & kCutter) parts_.cutter.off();
   if (!(touches & kGeometry)) return;
   is_geometry_stale_ = true;
-  geometry_changed_ms_ = base_.clock.milliseconds();
+  geometry_changed_ms_ = parts_.clock.milliseconds();
 }
 
 void NewValues::arrangeDrives() {
-  base_.axes.releaseAll();
+  parts_.axes.releaseAll();
   // A tick in between would take the change of the encoders' wiring for motion.
-  const WithoutTicks hold(base_.clock);
-  base_.drives.arrange(base_.values.at(kFeedSide) == 1, uint8_t(base_.values.at(kPwmFrequency)));
-  base_.axes.forgetRawCounts();
+  const WithoutTicks hold(parts_.clock);
+  parts_.drives.arrange(parts_.values.at(kFeedSide) == 1, uint8_t(parts_.values.at(kPwmFrequency)));
+  parts_.axes.forgetRawCounts();
 }
 
 void NewValues::prepareGeometry() {
   is_geometry_stale_ = false;
-  base_.geometry.prepare(base_.values);
-  base_.planner.setGeometry(base_.geometry);
+  parts_.geometry.prepare(parts_.values);
+  parts_.planner.setGeometry(parts_.geometry);
   // A correction that was cured is news again when it comes back.
-  said_twice_ &= twiceBits(base_.values);
+  said_twice_ &= twiceBits(parts_.values);
 }
 
 void NewValues::sayCarriedTwice() {
-  const uint8_t twice = twiceBits(base_.values);
+  const uint8_t twice = twiceBits(parts_.values);
   if (twice == said_twice_) return;
   said_twice_ = twice;
   // Clients show this line. They would drop a line with "[" and stop for "Message:".
-  base_.out << FLASH("Corrected twice: the machine adds");
+  parts_.out << FLASH("Corrected twice: the machine adds");
   bool is_first = true;
   for (uint8_t i = 0; twice >> i != 0; ++i) {
     if (!(twice >> i & 1)) continue;
     const Carriers carriers = carriersOf(i);
-    base_.out << (is_first ? FLASH(" $") : FLASH(", $")) << int32_t(carriers.published);
-    base_.out << FLASH(" to $") << int32_t(carriers.ours);
+    parts_.out << (is_first ? FLASH(" $") : FLASH(", $")) << int32_t(carriers.published);
+    parts_.out << FLASH(" to $") << int32_t(carriers.ours);
     is_first = false;
   }
-  base_.out.line(FLASH(". Set one of each pair to 0, in your client too."));
+  parts_.out.line(FLASH(". Set one of each pair to 0, in your client too."));
 }
 
 void NewValues::refreshGeometry(Search why) {
   prepareGeometry();
   sayCarriedTwice();
-  place_.search(why);
-  base_.keeper.reconsider();
+  parts_.place.search(why);
+  parts_.keeper.reconsider();
 }
 
 void NewValues::refreshBeforeLine() {
@@ -80,7 +80,7 @@ void NewValues::refreshBeforeLine() {
 
 void NewValues::refreshWhenQuiet(bool is_moving) {
   if (!is_geometry_stale_ || is_moving ||
-      base_.clock.milliseconds() - geometry_changed_ms_ < kQuietMs)
+      parts_.clock.milliseconds() - geometry_changed_ms_ < kQuietMs)
     return;
   refreshGeometry(Search::kNewSettings);
 }

@@ -10,7 +10,7 @@ class NewValues {
  public:
   enum : uint8_t { kAll = 255 };  ///< everything is touched
 
-  NewValues(Basis& basis, SledPlace& place) : base_(basis), place_(place) {}
+  explicit NewValues(Parts& parts) : parts_(parts) {}
 
   /// At the start: takes over all settings, without working out the place.
   void takeAll();
@@ -32,8 +32,7 @@ class NewValues {
   void refreshGeometry(Search why);
   void arrangeDrives();
 
-  Basis& base_;
-  SledPlace& place_;
+  Parts& parts_;
   uint32_t geometry_changed_ms_ = 0;
   uint8_t said_twice_ = 0;  ///< a bit for each correction that was said and is still carried twice
   bool is_geometry_stale_ = false;

@@ -1,24 +1,12 @@
-// What the operator may do while the program waits: move z, ask questions, resume.
+// Holds and pauses, and what the operator may do while the program waits: move z, ask questions,
+// resume.
 #pragma once
 
 #include "coordinates.h"
-#include "motion_door.h"
 #include "motor_power.h"
 #include "z_axis.h"
 
 namespace machine {
-
-/// Does lines that are no motion, and answers lines.
-class Dispatch {
- public:
-  /// A B code or `$$`.
-  virtual bool runQuestion(const char* line) = 0;
-  /// Says `ok` if the line is done and nothing has answered it.
-  virtual void answer(bool done) = 0;
-
- protected:
-  ~Dispatch() = default;
-};
 
 /// Serves a hold or a pause from its beginning until z is back at the program's height.
 ///
@@ -28,24 +16,24 @@ class Dispatch {
 /// refused with the reason, and never done later.
 class OperatorLines {
  public:
-  OperatorLines(Basis& basis, MotorPower& motors, ZAxis& z, MotionDoor& door,
-                const Coordinates& coordinates, Dispatch& dispatch)
-      : base_(basis),
-        motors_(motors),
-        z_(z),
-        door_(door),
-        coordinates_(coordinates),
-        dispatch_(dispatch) {}
+  explicit OperatorLines(Parts& parts);
 
   /// 0x84: everything brakes and the program waits.
   void hold() {
     stale_ = typed_.lines();
     wait(Event::kHold);
   }
-  /// The program waits at the line in execution.
-  void pause() { wait(Event::kPause); }
   /// `~`.
   void resume();
+  // Pauses of the program. Each waits for queued moves and for the end of a hold first, and returns
+  // false after a stop.
+  /// M0 and M1.
+  bool pauseAfterMoves();
+  /// M6.
+  bool changeTool(uint16_t tool);
+  /// Asks the operator to bring z to a height [mm]; afterwards z counts as there. The spindle
+  /// stands meanwhile, unless the bit goes into the work.
+  bool setZByHand(float z, bool into_work);
   /// A stop: forgets the operator's lines.
   void clear() {
     typed_.clear();
@@ -64,7 +52,8 @@ class OperatorLines {
 
   bool isForOperator(const gcode::Piece& piece) const;
   void wait(Event event);
-  bool isOperatorsTurn() const { return base_.course.lines() == Lines::kOperator; }
+  bool pause();
+  bool isOperatorsTurn() const;
   void comeBack();
   // Not inline: else every wait of the main program would have this line's stack.
   __attribute__((noinline)) void serveLine();
@@ -72,14 +61,9 @@ class OperatorLines {
   bool run(const char* line);
   bool jogZ(const gcode::Words& words);
 
-  Basis& base_;
-  MotorPower& motors_;
-  ZAxis& z_;
-  MotionDoor& door_;
-  const Coordinates& coordinates_;
-  Dispatch& dispatch_;
+  Parts& parts_;
   gcode::Input typed_;                          ///< lines of the operator
-  gcode::Input* coming_ = &base_.input;         ///< the room of the line that came last
+  gcode::Input* coming_;                        ///< the room of the line that came last
   gcode::Modal program_;                        ///< modes of the program, restored at the end
   uint8_t stale_ = 0;                           ///< lines that waited when a hold came
   uint32_t since_ms_ = 0;                       ///< when the wait began

@@ -1,11 +1,11 @@
 // Takes an override and hands it on.
-#include "overrides.h"
+#include "parts.h"
 
 namespace machine {
 
 void LiveOverrides::take(gcode::Quick quick) {
   // A Maslow client knows the feed's only.
-  if (quick > gcode::Quick::kFeedDownOne && !base_.out.speaksGrbl()) return;
+  if (quick > gcode::Quick::kFeedDownOne && !parts_.out.speaksGrbl()) return;
   if (now_.take(quick)) apply();
 }
 
@@ -14,13 +14,13 @@ void LiveOverrides::reset() {
 }
 
 void LiveOverrides::apply() {
-  base_.axes.goAt(uint16_t(now_.shareOfPlan() * float(motion::Playback::kAllOfIt)));
-  base_.planner.boost(now_.boost(), float(now_.rapid()) * 0.01f);
-  base_.cutter.override(now_.spindle());
+  parts_.axes.goAt(uint16_t(now_.shareOfPlan() * float(motion::Playback::kAllOfIt)));
+  parts_.planner.boost(now_.boost(), float(now_.rapid()) * 0.01f);
+  parts_.cutter.override(now_.spindle());
   // A sender of Grbl reads them from the status.
-  if (base_.out.speaksGrbl()) return;
-  base_.out << FLASH("[Feed: ") << int32_t(now_.feed());
-  base_.out.line(FLASH(" %]"));
+  if (parts_.out.speaksGrbl()) return;
+  parts_.out << FLASH("[Feed: ") << int32_t(now_.feed());
+  parts_.out.line(FLASH(" %]"));
 }
 
 }  // namespace machine

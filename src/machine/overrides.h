@@ -1,9 +1,11 @@
 // Overrides: the operator makes feeds, rapids and the spindle's speed slower or faster.
 #pragma once
 
-#include "basis.h"
+#include <GCode.h>
 
 namespace machine {
+
+struct Parts;
 
 /// Percent of a number of the program, as quick characters change it in steps.
 class Percent {
@@ -68,7 +70,7 @@ class Overrides {
 /// The overrides in force, handed to the axes, the planner and the cutter.
 class LiveOverrides {
  public:
-  explicit LiveOverrides(Basis& basis) : base_(basis) {}
+  explicit LiveOverrides(Parts& parts) : parts_(parts) {}
 
   void take(gcode::Quick quick);
   void reset();
@@ -77,7 +79,7 @@ class LiveOverrides {
  private:
   void apply();
 
-  Basis& base_;
+  Parts& parts_;
   Overrides now_;
 };
 

@@ -1,57 +1,57 @@
-// The parts that act, wired.
+// The parts of the machine, wired.
 #pragma once
 
+#include "answers.h"
 #include "axis_tests.h"
+#include "cutter.h"
 #include "drilling.h"
+#include "greeting.h"
 #include "overrides.h"
+#include "position_keeper.h"
 #include "settings_lines.h"
 #include "single_axis.h"
 #include "telemetry.h"
 
 namespace machine {
 
-/// The basis and the parts that act on it. Each knows the parts above it, never the parts below.
-/// What takes a line or ends one stands on all of them.
-struct Parts : Basis {
-  Parts(const Ports& ports, const BoardName& board, Waiting& whoever_waits, Dispatch& dispatch)
-      : Basis(ports, whoever_waits),
-        overrides(*this),
-        greeting(board, out),
-        place(*this),
-        reports(*this),
-        telemetry(*this, place, board.start),
-        motors(*this, place),
-        spindle(*this),
-        z(*this, place),
-        door(*this, place),
-        new_values(*this, place),
-        coordinates(*this, place),
-        settings_lines(*this, greeting, place, spindle, new_values, coordinates),
-        operator_lines(*this, motors, z, door, coordinates, dispatch),
-        pauses(*this, operator_lines, spindle, place),
-        moves(*this, motors, coordinates, z, door, pauses),
-        drilling(*this, coordinates, z, moves),
-        single_axis(*this, reports, motors, place, z, door),
-        axis_tests(*this, motors, place) {}
+/// The board, the numbers, the axes, the words to the computer, and the parts that act. Those that
+/// act get all of it, and use what is above them, never what is below.
+struct Parts : Ports {
+  Parts(const Ports& ports, const BoardName& board, Waiting& whoever_waits)
+      : Ports(ports), waiting(whoever_waits), greeting(board, out), telemetry(*this, board.start) {}
 
-  LiveOverrides overrides;
+  Waiting& waiting;
+  Printer out{wire};
+  float room[kSettingCount];
+  settings::Values values{table, room};
+  settings::Memory memory{bytes, values};
+  Geometry geometry;
+  gcode::Input input;
+  gcode::Modal modal;
+  Axes axes{drives, clock};
+  Course course{axes};
+  Planner planner;
+  PositionKeeper keeper{memory, axes};
+  Cutter cutter{aux, values};
+  Answers answers{out, values};
+  ProgramPlace program;
+
+  LiveOverrides overrides{*this};
   Greeting greeting;
-  SledPlace place;
-  Reports reports;
+  SledPlace place{*this};
+  Reports reports{*this};
   Telemetry telemetry;
-  MotorPower motors;
-  Spindle spindle;
-  ZAxis z;
-  MotionDoor door;
-  NewValues new_values;
-  Coordinates coordinates;
-  SettingsLines settings_lines;
-  OperatorLines operator_lines;
-  Pauses pauses;
-  Moves moves;
-  Drilling drilling;
-  SingleAxis single_axis;
-  AxisTests axis_tests;
+  MotorPower motors{*this};
+  Spindle spindle{*this};
+  ZAxis z{*this};
+  NewValues new_values{*this};
+  Coordinates coordinates{*this};
+  SettingsLines settings_lines{*this};
+  OperatorLines operator_lines{*this};
+  Moves moves{*this};
+  Drilling drilling{*this};
+  SingleAxis single_axis{*this};
+  AxisTests axis_tests{*this};
 };
 
 }  // namespace machine

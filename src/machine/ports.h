@@ -1,7 +1,8 @@
-// What the machine's logic needs of a board: small interfaces, behind which is the hardware, or a
+// Interfaces of a board that the machine's logic needs, behind which is the hardware, or a
 // simulated board on the host.
 #pragma once
 
+#include <Settings.h>
 #include <stdint.h>
 
 namespace machine {
@@ -99,6 +100,16 @@ class Clock {
 
  protected:
   ~Clock() = default;
+};
+
+/// Interfaces of a board that the machine needs.
+struct Ports {
+  Wire& wire;
+  Drives& drives;
+  Aux& aux;
+  Clock& clock;
+  settings::Bytes& bytes;
+  const settings::Table& table;
 };
 
 /// Keeps the control tick off for the life of this object.

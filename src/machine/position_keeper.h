@@ -1,4 +1,4 @@
-// What the machine knows of its position. Nothing else stores it.
+// Knowledge of the machine's position. Nothing else stores it.
 #pragma once
 
 #include <Settings.h>

@@ -24,7 +24,7 @@ enum : uint8_t {
 enum : uint8_t { kAlarmOfTarget = 2, kAlarmOfFault = 3 };
 }  // namespace grbl
 
-/// What the program at the other end of the line understands.
+/// Dialect of the program at the other end of the line.
 enum class Dialect : uint8_t {
   kMaslow,  ///< GroundControl and WebControl
   kGrbl,    ///< a sender that asks with `?`
@@ -46,7 +46,7 @@ class Printer {
   /// Begins the words of a refusal, or of an alarm; end() ends them. The number is Grbl's.
   Printer& error(uint8_t number) { return begin(FLASH("error: "), FLASH("error:"), number); }
   Printer& alarm(uint8_t number) { return begin(FLASH("ALARM: "), FLASH("ALARM:"), number); }
-  /// What opens a machine that halted.
+  /// Way out of a halt.
   FlashText toOpen() const { return speaksGrbl() ? FLASH("Unlock ($X)") : FLASH("Press Stop"); }
   /// The same inside a sentence.
   FlashText alsoToOpen() const { return speaksGrbl() ? FLASH("unlock ($X)") : FLASH("press Stop"); }
@@ -71,7 +71,7 @@ class Printer {
   void line(FlashText text);
 
  private:
-  /// What has been written of the line in progress.
+  /// Written part of the line in progress.
   enum class Line : uint8_t { kNothing, kData, kMessage };
 
   Printer& begin(FlashText words, FlashText verdict, uint8_t number);

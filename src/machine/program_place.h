@@ -28,12 +28,10 @@ class ProgramPlace {
     aim_ = place;
     countFromAim();
   }
-  /// For SledPlace: the tool is at this z [mm].
-  void beginAtZ(float z) { aim_.z = z; }
 
   /// For Moves: the last piece in the queue ends here.
   void endAt(const Place& end) { aim_ = end; }
-  /// For Moves: the last piece in the queue moves z alone, to this height [mm].
+  /// The tool is at this z [mm], or the last piece in the queue moves z alone, to there.
   void endAtZ(float z) { aim_.z = z; }
   /// For Moves: the line ends here [mm], whether or not the sled goes so far.
   void countFrom(float x, float y) { counted_ = {x, y}; }

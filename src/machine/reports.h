@@ -7,7 +7,7 @@ namespace machine {
 
 class Reports {
  public:
-  explicit Reports(Basis& basis) : base_(basis) {}
+  explicit Reports(Parts& parts) : parts_(parts) {}
 
   /// True every 200 ms.
   bool areDue();
@@ -20,7 +20,7 @@ class Reports {
   void sayPlace(const Place& place);
 
  private:
-  Basis& base_;
+  Parts& parts_;
   uint32_t last_ms_ = 0;
 };
 

@@ -1,5 +1,5 @@
 // The dump of all settings, and setting a value.
-#include "settings_lines.h"
+#include "parts.h"
 
 namespace machine {
 namespace {
@@ -49,18 +49,18 @@ GrblSetting grblAt(uint8_t index) {
 bool SettingsLines::run(const char* line) {
   const char* const text = line + 1;
   if (*text == '\0') {
-    base_.out.line(
+    parts_.out.line(
         FLASH("$$ shows all settings, $n=value sets one, $RST=$ or # or * restores defaults"));
     return true;
   }
-  if (!base_.waiting.drain()) return false;
+  if (!parts_.waiting.drain()) return false;
   if (*text == '$') {
-    if (text[1] != '\0') return base_.answers.refuseStatement();
+    if (text[1] != '\0') return parts_.answers.refuseStatement();
     dump();
     return true;
   }
   if (text[0] == '#' && text[1] == '\0') {
-    coordinates_.show();
+    parts_.coordinates.show();
     return true;
   }
   if (strncmp_P(text, PSTR("RST="), 4) == 0) return reset(text + 4);
@@ -70,9 +70,9 @@ bool SettingsLines::run(const char* line) {
 bool SettingsLines::reset(const char* what) {
   using settings::Reset;
   const bool is_known = (what[0] == '$' || what[0] == '#' || what[0] == '*') && what[1] == '\0';
-  if (!is_known) return base_.answers.refuseStatement();
-  if (what[0] == '#' && base_.out.speaksGrbl()) {
-    coordinates_.forget();
+  if (!is_known) return parts_.answers.refuseStatement();
+  if (what[0] == '#' && parts_.out.speaksGrbl()) {
+    parts_.coordinates.forget();
     return true;
   }
   restoreDefaults(what[0] == '$'   ? Reset::kSettings
@@ -82,56 +82,53 @@ bool SettingsLines::reset(const char* what) {
 }
 
 void SettingsLines::restoreDefaults(settings::Reset what) {
-  base_.out.line(FLASH("Message: Restoring defaults "));
-  spindle_.switchLaser(false);
-  base_.memory.reset(what);
+  parts_.out.line(FLASH("Message: Restoring defaults "));
+  parts_.spindle.switchLaser(false);
+  parts_.memory.reset(what);
   const bool forgets_position = what != settings::Reset::kSettings;
   if (forgets_position) {
-    base_.axes.setCounts(0, 0, 0);
-    base_.keeper.startAfresh();
+    parts_.axes.setCounts(0, 0, 0);
+    parts_.keeper.startAfresh();
   }
-  base_.axes.simulate(base_.values.at(kSimulatedMotors) != 0);
-  new_values_.take(NewValues::kAll);
-  greeting_.sayBoard();
-  greeting_.sayMotors(base_.axes.isSimulated());
-  greeting_.sayReady();
-  base_.answers.setAnswered(true);
+  parts_.axes.simulate(parts_.values.at(kSimulatedMotors) != 0);
+  parts_.new_values.take(NewValues::kAll);
+  parts_.greeting.sayBoard();
+  parts_.greeting.sayMotors(parts_.axes.isSimulated());
+  parts_.greeting.sayReady();
+  parts_.answers.setAnswered(true);
   if (!forgets_position) return;
-  new_values_.prepareGeometry();
-  place_.search(Search::kErased);
-  place_.sayUnset(true);
+  parts_.new_values.prepareGeometry();
+  parts_.place.search(Search::kErased);
+  parts_.place.sayUnset(true);
 }
 
-void SettingsLines::dump() { dumpFrom(0); }
-
-/// Says all listed settings, with numbers from `first` on.
-void SettingsLines::dumpFrom(uint16_t first) {
-  PutLetter put = {base_.out};
-  const bool speaks_grbl = base_.out.speaksGrbl();
-  for (uint8_t i = 0; i < base_.values.count(); ++i) {
-    if (base_.values.table().at(i).access != settings::Access::kListed) continue;
-    settings::putSetting(base_.values, i, first, put);
-    base_.out.end();
+void SettingsLines::dump(uint16_t first) {
+  PutLetter put = {parts_.out};
+  const bool speaks_grbl = parts_.out.speaksGrbl();
+  for (uint8_t i = 0; i < parts_.values.count(); ++i) {
+    if (parts_.values.table().at(i).access != settings::Access::kListed) continue;
+    settings::putSetting(parts_.values, i, first, put);
+    parts_.out.end();
     // Whatever else goes on, goes on; a stop ends the dump.
-    base_.waiting.service();
-    if (base_.waiting.isStopping()) return;
+    parts_.waiting.service();
+    if (parts_.waiting.isStopping()) return;
     // A sender that takes the lines of both for one table keeps wrong numbers.
-    if (base_.out.speaksGrbl() != speaks_grbl) return dumpForGrbl();
+    if (parts_.out.speaksGrbl() != speaks_grbl) return dumpForGrbl();
   }
 }
 
 void SettingsLines::dumpForGrbl() {
   sayGrblNumbers();
-  dumpFrom(kFirstForGrbl);
+  dump(kFirstForGrbl);
 }
 
 void SettingsLines::sayGrblNumbers() {
-  PutLetter put = {base_.out};
+  PutLetter put = {parts_.out};
   for (uint8_t i = 0; i < kGrblCount; ++i) {
     const GrblSetting row = grblAt(i);
-    base_.out << '$' << int32_t(row.number) << '=';
-    settings::putNumber(row.isFixed() ? row.fixed : base_.values.at(row.setting), put);
-    base_.out.end();
+    parts_.out << '$' << int32_t(row.number) << '=';
+    settings::putNumber(row.isFixed() ? row.fixed : parts_.values.at(row.setting), put);
+    parts_.out.end();
   }
 }
 
@@ -144,18 +141,18 @@ bool SettingsLines::setForGrbl(const char* text) {
     const GrblSetting row = grblAt(i);
     if (float(row.number) != number) continue;
     if (!row.isFixed())
-      return setValue(base_.values.table().at(row.setting).number, value, kFirstForGrbl);
+      return setValue(parts_.values.table().at(row.setting).number, value, kFirstForGrbl);
     return value == row.fixed ||
-           base_.answers.refuse(FLASH("this machine cannot change that number of Grbl's"));
+           parts_.answers.refuse(FLASH("this machine cannot change that number of Grbl's"));
   }
-  return base_.answers.refuse(
+  return parts_.answers.refuse(
       FLASH("this machine has no such number; its settings begin at $1000"));
 }
 
 bool SettingsLines::set(const char* text) {
   float number, value;
   if (!read(text, number, value)) return false;
-  if (!(number >= 0 && number <= 255)) return base_.answers.refuseStatement();
+  if (!(number >= 0 && number <= 255)) return parts_.answers.refuseStatement();
   return setValue(uint8_t(number), value, 0);
 }
 
@@ -167,36 +164,36 @@ bool SettingsLines::read(const char* text, float& number, float& value) {
   if (has_number) ++text;
   const gcode::Number right = gcode::readNumber(text);
   if (!has_number || right.fault != gcode::Fault::kNone || *text != '\0')
-    return base_.answers.refuse(FLASH("Bad number format"), grbl::kBadNumber);
+    return parts_.answers.refuse(FLASH("Bad number format"), grbl::kBadNumber);
   if (!(left.value >= 0 && left.value < 2000) || left.value != float(uint16_t(left.value)))
-    return base_.answers.refuseStatement();
+    return parts_.answers.refuseStatement();
   number = left.value;
   value = right.value;
   return true;
 }
 
 bool SettingsLines::setValue(uint8_t number, float value, uint16_t first) {
-  const settings::Table& table = base_.values.table();
+  const settings::Table& table = parts_.values.table();
   const uint8_t meant = meantBy(number);
-  if (meant == table.at(kChainSpeed).number && value > Planner::mostChainSpeed(base_.values))
+  if (meant == table.at(kChainSpeed).number && value > Planner::mostChainSpeed(parts_.values))
     return refuseChainSpeed();
-  const settings::Refusal refusal = base_.memory.set(meant, value);
+  const settings::Refusal refusal = parts_.memory.set(meant, value);
   if (refusal == settings::Refusal::kNone) {
-    new_values_.take(table.at(settings::indexOf(table, meant)).touches);
+    parts_.new_values.take(table.at(settings::indexOf(table, meant)).touches);
     return true;
   }
-  base_.answers.beginError();
-  PutLetter put = {base_.out};
+  parts_.answers.beginError();
+  PutLetter put = {parts_.out};
   settings::putRefusal(table, number, refusal, first, put);
-  base_.out.end();
+  parts_.out.end();
   return false;
 }
 
 bool SettingsLines::refuseChainSpeed() {
-  base_.answers.beginError();
-  base_.out << FLASH("$68 must be at most ");
-  base_.out.fixed(Planner::mostChainSpeed(base_.values), 0);
-  base_.out.line(FLASH(": the gearbox turns a sprocket 20 times a minute at most"));
+  parts_.answers.beginError();
+  parts_.out << FLASH("$68 must be at most ");
+  parts_.out.fixed(Planner::mostChainSpeed(parts_.values), 0);
+  parts_.out.line(FLASH(": the gearbox turns a sprocket 20 times a minute at most"));
   return false;
 }
 

@@ -11,21 +11,14 @@ namespace machine {
 /// `$$` and `$n=value`.
 class SettingsLines {
  public:
-  SettingsLines(Basis& basis, Greeting& greeting, SledPlace& place, Spindle& spindle,
-                NewValues& new_values, Coordinates& coordinates)
-      : base_(basis),
-        greeting_(greeting),
-        place_(place),
-        spindle_(spindle),
-        new_values_(new_values),
-        coordinates_(coordinates) {}
+  explicit SettingsLines(Parts& parts) : parts_(parts) {}
 
   /// Does a line that begins with `$`, for a client of Maslow's.
   bool run(const char* line);
   /// `$RST=` and a letter.
   bool reset(const char* what);
-  /// Says all listed settings, a line each.
-  void dump();
+  /// Says all listed settings, a line each, with numbers from `first` on.
+  void dump(uint16_t first = 0);
   /// Takes the text behind the `$`: a number, `=`, a value.
   bool set(const char* text);
   /// For a sender of Grbl: Grbl's numbers that mean something here, and the settings from 1000
@@ -40,16 +33,10 @@ class SettingsLines {
   /// `$n=value` behind the `$`; false, with a refusal, if it is none.
   void restoreDefaults(settings::Reset what);
   bool read(const char* text, float& number, float& value);
-  void dumpFrom(uint16_t first);
   bool setValue(uint8_t number, float value, uint16_t first);
   bool refuseChainSpeed();
 
-  Basis& base_;
-  Greeting& greeting_;
-  SledPlace& place_;
-  Spindle& spindle_;
-  NewValues& new_values_;
-  Coordinates& coordinates_;
+  Parts& parts_;
 };
 
 }  // namespace machine

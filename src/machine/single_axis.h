@@ -1,7 +1,6 @@
 // Moves of a single axis by its length: calibration, chains by hand, the probe.
 #pragma once
 
-#include "motion_door.h"
 #include "motor_power.h"
 #include "reports.h"
 #include "z_axis.h"
@@ -11,9 +10,7 @@ namespace machine {
 /// B02, B06, B08 to B10, B15 and G38.2 to G38.5.
 class SingleAxis {
  public:
-  SingleAxis(Basis& basis, Reports& reports, MotorPower& motors, SledPlace& place, ZAxis& z,
-             MotionDoor& door)
-      : base_(basis), reports_(reports), motors_(motors), place_(place), z_(z), door_(door) {}
+  explicit SingleAxis(Parts& parts) : parts_(parts) {}
 
   /// [mm] Whether a chain or z can be that long.
   static bool isLength(float value) { return float(fabs(value)) <= kMostTravel; }
@@ -40,17 +37,12 @@ class SingleAxis {
   void sayProbed();
 
  private:
-  /// What ends a move before its goal.
+  /// Reasons to end a move before its goal.
   enum class Until : uint8_t { kGoal, kTouch, kLetGo };
   bool move(Axis axis, float goal, float feed, Until until = Until::kGoal);
   void sayProbing(float target, float feed);
 
-  Basis& base_;
-  Reports& reports_;
-  MotorPower& motors_;
-  SledPlace& place_;
-  ZAxis& z_;
-  MotionDoor& door_;
+  Parts& parts_;
   Place probed_ = {0, 0, 0};
   bool has_probed_ = false;
 };

@@ -1,5 +1,5 @@
 // Chain lengths, the sled's place, and the stored record of both.
-#include "sled_place.h"
+#include "parts.h"
 
 namespace machine {
 namespace {
@@ -26,19 +26,24 @@ FlashText textOf(settings::Doubt why) {
 
 }  // namespace
 
+Whereabouts SledPlace::whereabouts() const {
+  if (!parts_.keeper.trustsChains()) return Whereabouts::kLost;
+  return hangs_ ? Whereabouts::kFound : Whereabouts::kNowhere;
+}
+
 FoundPlace SledPlace::byChains(float left, float right) const {
-  return base_.geometry.forward(left, right, {sled_.x, sled_.y});
+  return parts_.geometry.forward(left, right, {sled_.x, sled_.y});
 }
 
 void SledPlace::say() const {
-  base_.out.line(FLASH("position loaded at:"));
-  base_.out.fixed(base_.modal.fromMm(sled_.x), 2).end();
-  base_.out.fixed(base_.modal.fromMm(sled_.y), 2).end();
+  parts_.out.line(FLASH("position loaded at:"));
+  parts_.out.fixed(parts_.modal.fromMm(sled_.x), 2).end();
+  parts_.out.fixed(parts_.modal.fromMm(sled_.y), 2).end();
 }
 
 void SledPlace::sayLengths() const {
-  base_.out.fixed(base_.axes.length(kLeftAxis), 2) << FLASH(", ");
-  base_.out.fixed(base_.axes.length(kRightAxis), 2);
+  parts_.out.fixed(parts_.axes.length(kLeftAxis), 2) << FLASH(", ");
+  parts_.out.fixed(parts_.axes.length(kRightAxis), 2);
 }
 
 bool SledPlace::isSaid(Search why) {
@@ -55,14 +60,14 @@ bool SledPlace::isSaid(Search why) {
 }
 
 bool SledPlace::search(Search why) {
-  const bool is_said = isSaid(why) && base_.keeper.trustsChains();
+  const bool is_said = isSaid(why) && parts_.keeper.trustsChains();
   if (is_said) moved_by_ = 0;
   // A sender of Grbl reads the place from the status.
-  const bool is_shown = is_said && !base_.out.speaksGrbl();
-  if (is_shown) base_.out.line(FLASH("[Forward Calculating Position]"));
-  const FoundPlace found = byChains(base_.axes.length(kLeftAxis), base_.axes.length(kRightAxis));
+  const bool is_shown = is_said && !parts_.out.speaksGrbl();
+  if (is_shown) parts_.out.line(FLASH("[Forward Calculating Position]"));
+  const FoundPlace found = byChains(parts_.axes.length(kLeftAxis), parts_.axes.length(kRightAxis));
   hangs_ = found.found;
-  base_.axes.standStill();
+  parts_.axes.standStill();
   sled_.x = hangs_ ? found.at.x : 0;
   sled_.y = hangs_ ? found.at.y : 0;
   standHere();
@@ -72,22 +77,22 @@ bool SledPlace::search(Search why) {
 }
 
 void SledPlace::standHere() {
-  sled_.z = base_.axes.length(kZAxis);
-  base_.program.beginAt(sled_);
-  base_.planner.standAt(base_.axes.setPoint());
+  sled_.z = parts_.axes.length(kZAxis);
+  parts_.program.beginAt(sled_);
+  parts_.planner.standAt(parts_.axes.setPoint());
 }
 
 void SledPlace::declareZ(float z) {
-  base_.axes.declare(kZAxis, z);
-  base_.program.beginAtZ(z);
-  base_.planner.standAt(base_.axes.setPoint());
-  base_.keeper.declareZ();
+  parts_.axes.declare(kZAxis, z);
+  parts_.program.endAtZ(z);
+  parts_.planner.standAt(parts_.axes.setPoint());
+  parts_.keeper.declareZ();
 }
 
 void SledPlace::sayNowhere() {
-  base_.out << FLASH("Message: Unable to find valid machine position for chain lengths ");
+  parts_.out << FLASH("Message: Unable to find valid machine position for chain lengths ");
   sayLengths();
-  base_.out.line(
+  parts_.out.line(
       FLASH(" . Please set the chains to a known length (Actions -> Set Chain Lengths)"));
 }
 
@@ -95,8 +100,8 @@ void SledPlace::restore(const settings::Started& started) {
   using settings::Known;
   const settings::Position& kept = started.position;
   const bool is_kept = started.known != Known::kNothing;
-  base_.axes.setCounts(is_kept ? kept.left : 0, is_kept ? kept.right : 0, is_kept ? kept.z : 0);
-  base_.keeper.begin(started.known);
+  parts_.axes.setCounts(is_kept ? kept.left : 0, is_kept ? kept.right : 0, is_kept ? kept.z : 0);
+  parts_.keeper.begin(started.known);
   switch (started.known) {
     case Known::kNothing:
       search(Search::kStart);
@@ -104,13 +109,13 @@ void SledPlace::restore(const settings::Started& started) {
     case Known::kMoving:
       return lose(settings::Doubt::kMoving);
     case Known::kDoubted:
-      return lose(base_.memory.doubted());
+      return lose(parts_.memory.doubted());
     case Known::kAtRest:
       break;
   }
   const bool is_found = search(Search::kStart);
   using settings::Agreement;
-  const Agreement agreement = settings::compare(kept, base_.memory.scale(), sled_.x, sled_.y);
+  const Agreement agreement = settings::compare(kept, parts_.memory.scale(), sled_.x, sled_.y);
   if (agreement == Agreement::kScaleChanged)
     lose(settings::Doubt::kScale);
   else if (is_found && agreement == Agreement::kPlaceDiffers)
@@ -118,29 +123,29 @@ void SledPlace::restore(const settings::Started& started) {
 }
 
 void SledPlace::sayUnset(bool has_defaults) {
-  if (has_defaults) base_.out << FLASH("Settings are the defaults. ");
-  base_.out.line(
+  if (has_defaults) parts_.out << FLASH("Settings are the defaults. ");
+  parts_.out.line(
       FLASH("Chain lengths are not known yet: send your settings, then set the chains "
             "(Actions -> Set Chain Lengths, or B06 L R)."));
 }
 
 void SledPlace::lose(settings::Doubt why) {
-  base_.keeper.doubt(kLeftAxis, why);
+  parts_.keeper.doubt(kLeftAxis, why);
   // A place that the chains contradict says nothing about z. Else nothing tells which axis moved.
-  if (why != settings::Doubt::kPlace) base_.keeper.doubt(kZAxis, why);
-  base_.axes.standStill();
+  if (why != settings::Doubt::kPlace) parts_.keeper.doubt(kZAxis, why);
+  parts_.axes.standStill();
   // Else the next move of z would start from chains of no length.
   standHere();
   // WebControl looks for the first two words.
-  base_.out.alarm(grbl::kAlarmOfFault)
+  parts_.out.alarm(grbl::kAlarmOfFault)
       << FLASH("Position Lost. ") << textOf(why) << FLASH(" Last known chain lengths: ");
   sayLengths();
-  base_.out.line(FLASH(" mm. Set them (B06 L R), or set the chains to their marks (B08)."));
+  parts_.out.line(FLASH(" mm. Set them (B06 L R), or set the chains to their marks (B08)."));
 }
 
 void SledPlace::doubtCounts() {
   for (uint8_t i = 0; i < kAxisCount; ++i)
-    if (base_.axes.isDisproved(Axis(i))) base_.keeper.doubt(Axis(i), settings::Doubt::kCounts);
+    if (parts_.axes.isDisproved(Axis(i))) parts_.keeper.doubt(Axis(i), settings::Doubt::kCounts);
 }
 
 FlashText SledPlace::whatIsLost() const {
@@ -157,10 +162,10 @@ FlashText SledPlace::whatIsLost() const {
 void SledPlace::followPulledChains() {
   if (farthestOff() <= kMovedByHand) return;
   const bool begins = moved_by_ == 0;
-  if (begins) left_at_ = base_.program.aim();
+  if (begins) left_at_ = parts_.program.aim();
   search(Search::kPulled);
   if (!isKnown()) return;
-  if (begins) base_.out.line(FLASH("The sled moves while its motors are off."));
+  if (begins) parts_.out.line(FLASH("The sled moves while its motors are off."));
   const float x = sled_.x - left_at_.x, y = sled_.y - left_at_.y, z = sled_.z - left_at_.z;
   moved_by_ = float(sqrt(x * x + y * y + z * z));
 }
@@ -168,7 +173,7 @@ void SledPlace::followPulledChains() {
 float SledPlace::farthestOff() const {
   float farthest = 0;
   for (uint8_t i = 0; i < kAxisCount; ++i) {
-    const float off = float(fabs(base_.axes.error(Axis(i))));
+    const float off = float(fabs(parts_.axes.error(Axis(i))));
     if (off > farthest) farthest = off;
   }
   return farthest;
@@ -177,29 +182,29 @@ float SledPlace::farthestOff() const {
 void SledPlace::keepWhenAtRest(uint32_t now_ms) {
   // A motor may have run on, somebody may pull a chain, a heavy sled may sink: what is reported,
   // and where the next move begins, is where the sled is.
-  if (base_.keeper.isReleased()) followPulledChains();
-  if (!base_.keeper.isDue(now_ms)) return;
+  if (parts_.keeper.isReleased()) followPulledChains();
+  if (!parts_.keeper.isDue(now_ms)) return;
   settings::Position position;
-  position.left = base_.axes.counts(kLeftAxis);
-  position.right = base_.axes.counts(kRightAxis);
-  position.z = base_.axes.counts(kZAxis);
+  position.left = parts_.axes.counts(kLeftAxis);
+  position.right = parts_.axes.counts(kRightAxis);
+  position.z = parts_.axes.counts(kZAxis);
   // The record's place follows from the measured chains, not from the command: the next start
   // compares it with the chains.
-  const FoundPlace found = byChains(base_.axes.length(kLeftAxis), base_.axes.length(kRightAxis));
+  const FoundPlace found = byChains(parts_.axes.length(kLeftAxis), parts_.axes.length(kRightAxis));
   position.x = found.at.x;
   position.y = found.at.y;
   position.has_place = found.found;
-  base_.keeper.keep(position);
+  parts_.keeper.keep(position);
 }
 
 Place SledPlace::now(bool is_moving) {
-  sled_.z = base_.axes.length(kZAxis);
+  sled_.z = parts_.axes.length(kZAxis);
   if (!is_moving || !isKnown()) {
-    sled_.x = base_.program.aim().x;
-    sled_.y = base_.program.aim().y;
+    sled_.x = parts_.program.aim().x;
+    sled_.y = parts_.program.aim().y;
     return sled_;
   }
-  const SetPoint point = base_.axes.setPoint();
+  const SetPoint point = parts_.axes.setPoint();
   // A search that begins at its last result may end a digit next to it.
   if (point.left == shown_left_ && point.right == shown_right_) return sled_;
   const FoundPlace found =

@@ -1,11 +1,15 @@
 // Where the sled is: worked out from the chains, stored for power cuts, reported when it is lost.
 #pragma once
 
-#include "basis.h"
+#include "flash_text.h"
+#include "geometry.h"
+#include "program_place.h"
 
 namespace machine {
 
-/// What is known of the place of the sled.
+struct Parts;
+
+/// Knowledge of the place of the sled.
 enum class Whereabouts : uint8_t {
   kLost,     ///< the lengths of the chains are not known
   kNowhere,  ///< the lengths are known, but no sled can hang on such chains
@@ -30,15 +34,10 @@ enum class Search : uint8_t {
 /// why it is lost. Where the program is follows: see ProgramPlace.
 class SledPlace {
  public:
-  explicit SledPlace(Basis& basis) : base_(basis) {}
+  explicit SledPlace(Parts& parts) : parts_(parts) {}
 
-  Whereabouts whereabouts() const {
-    if (!base_.keeper.trustsChains()) return Whereabouts::kLost;
-    return hangs_ ? Whereabouts::kFound : Whereabouts::kNowhere;
-  }
+  Whereabouts whereabouts() const;
   bool isKnown() const { return whereabouts() == Whereabouts::kFound; }
-  /// Whether nothing has proved the chains or z wrong since they were declared.
-  bool isTrusted() const { return base_.keeper.trustsAll(); }
 
   /// Works out the place from the measured chains; all moves begin there. If the reason is one to
   /// say it and the chains are trusted, says it, and from now on the sled belongs there. Returns
@@ -56,7 +55,7 @@ class SledPlace {
   void lose(settings::Doubt why);
   /// Takes over which axes' counts were proved wrong.
   void doubtCounts();
-  /// What must be set before the sled can cross the sheet.
+  /// Settings without which the sled cannot cross the sheet.
   FlashText whatIsLost() const;
   /// Stores the position once everything rests; to be called often.
   __attribute__((noinline)) void keepWhenAtRest(uint32_t now_ms);
@@ -77,7 +76,7 @@ class SledPlace {
   void followPulledChains();
   FoundPlace byChains(float left, float right) const;
 
-  Basis& base_;
+  Parts& parts_;
   Place sled_ = {0, 0, 0};  ///< where the tool was at the last search or call of now()
   int32_t shown_left_ = 0, shown_right_ = 0;  ///< set-points of `sled_` while it moves [counts]
   Place left_at_ = {0, 0, 0};                 ///< where the motors left the tool

@@ -1,5 +1,5 @@
 // Commands to the spindle, with the angles and times of the published firmware.
-#include "spindle.h"
+#include "parts.h"
 
 namespace machine {
 namespace {
@@ -14,37 +14,37 @@ bool Spindle::turnServo(uint8_t angle) {
   const uint8_t angles[] = {kIdleAngle, angle, kIdleAngle};
   bool completed = true;
   for (uint8_t i = 0; i < 3 && completed; ++i) {
-    base_.aux.turnServo(angles[i]);
-    completed = base_.waiting.waitFor(kServoMs);
+    parts_.aux.turnServo(angles[i]);
+    completed = parts_.waiting.waitFor(kServoMs);
   }
-  base_.aux.turnServo(kNoServo);
+  parts_.aux.turnServo(kNoServo);
   return completed;
 }
 
 bool Spindle::turn(bool on) {
-  const SpindleKind kind = base_.cutter.kind();
+  const SpindleKind kind = parts_.cutter.kind();
   if (kind == SpindleKind::kNone) return true;
-  base_.out.line(on ? FLASH("Turning Spindle On") : FLASH("Turning Spindle Off"));
-  base_.cutter.setSpindle(on);
+  parts_.out.line(on ? FLASH("Turning Spindle On") : FLASH("Turning Spindle Off"));
+  parts_.cutter.setSpindle(on);
   if (kind == SpindleKind::kServo && !turnServo(on ? kOnAngle : kOffAngle)) return false;
-  return base_.waiting.waitFor(kSwitchedMs);
+  return parts_.waiting.waitFor(kSwitchedMs);
 }
 
 bool Spindle::takeS(const gcode::Words& words) {
   if (!words.has('S')) return true;
   const float s = words.value('S');
   // Moves before the S word are made at the old speed.
-  if (base_.cutter.changesSpeed(s) && !base_.waiting.drain()) return false;
-  base_.cutter.takeS(s);
+  if (parts_.cutter.changesSpeed(s) && !parts_.waiting.drain()) return false;
+  parts_.cutter.takeS(s);
   return true;
 }
 
 void Spindle::switchLaser(bool on) {
-  const bool changes = base_.cutter.isArmed() != on;
-  base_.cutter.arm(on);
+  const bool changes = parts_.cutter.isArmed() != on;
+  parts_.cutter.arm(on);
   // Maslow clients hear it at each stop.
-  if (changes || !base_.out.speaksGrbl())
-    base_.out.line(on ? FLASH("Laser on") : FLASH("Laser off"));
+  if (changes || !parts_.out.speaksGrbl())
+    parts_.out.line(on ? FLASH("Laser on") : FLASH("Laser off"));
 }
 
 }  // namespace machine

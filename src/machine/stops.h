@@ -6,7 +6,7 @@
 
 namespace machine {
 
-/// What a person does after an alarm.
+/// Acts of a person after an alarm.
 enum class Remedy : uint8_t { kOpen, kLookForHold, kMendAndSet, kSwitchOff };
 
 /// Stops the machine, by a character, a refusal or a fault, and says why.

@@ -9,8 +9,7 @@ namespace machine {
 /// Watches the board and reports on it.
 class Telemetry {
  public:
-  Telemetry(Basis& basis, SledPlace& place, Start start)
-      : base_(basis), place_(place), start_(start) {}
+  Telemetry(Parts& parts, Start start) : parts_(parts), start_(start) {}
 
   /// At the start: stores why the firmware started, unless the start was usual.
   void noteStart();
@@ -27,8 +26,7 @@ class Telemetry {
   void tellSlips();
   FlashText lastEvent() const;
 
-  Basis& base_;
-  SledPlace& place_;
+  Parts& parts_;
   BoardWatch watch_;
   uint32_t looked_ms_ = 0;
   Start start_;

@@ -30,7 +30,9 @@ int32_t TickedAxis::tick() {
   }
   if (mode_ == AxisMode::kFollow) {
     if (is_simulated_) {
-      imagine(scale_.countsOf(motion::toMm<float>(set_point_)));
+      const int32_t counts = scale_.countsOf(motion::toMm<float>(set_point_));
+      if (counts_ != counts) is_imagined_ = true;
+      counts_ = counts;
       return off;
     }
     off = followSetPoint(turned);
@@ -72,11 +74,6 @@ int32_t TickedAxis::followSetPoint(float turned) {
 void TickedAxis::note(Fault seen) {
   if (seen != Fault::kLeftBehind) is_disproved_ = true;
   if (seen > fault_) fault_ = seen;
-}
-
-void TickedAxis::imagine(int32_t counts) {
-  if (counts_ != counts) is_imagined_ = true;
-  counts_ = counts;
 }
 
 bool TickedAxis::prepare(const settings::Values& values, float seconds_per_tick) {

@@ -9,7 +9,7 @@
 
 namespace machine {
 
-/// What an axis does.
+/// Mode of an axis.
 enum class AxisMode : uint8_t {
   kOff,     ///< no power
   kFollow,  ///< follows its set-points
@@ -97,7 +97,6 @@ class TickedAxis {
   int32_t followSetPoint(float turned);
   void letGoInTime();
   void note(motion::Fault seen);
-  void imagine(int32_t counts);
   int32_t measured() const { return scale_.fineOf(counts_); }
   void forgetMissed() { missed_before_ = drives_.illegalSteps(axis_); }
 

@@ -18,6 +18,11 @@ class Waiting {
 
   /// A round of everything that goes on by itself.
   virtual void service() = 0;
+  // For the operator's lines, which are done during a wait.
+  /// Does a B code or `$$`.
+  virtual bool runQuestion(const char* line) = 0;
+  /// Says `ok` if the line is done and nothing has answered it.
+  virtual void answer(bool done) = 0;
   uint32_t milliseconds() { return clock_.milliseconds(); }
   bool isStopping() const { return course_.isStopping(); }
   bool isMoving() const { return !planner_.isIdle() || !axes_.isEmpty(); }

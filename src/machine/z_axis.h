@@ -13,11 +13,11 @@ const float kMostZ = 10000;
 /// Limits are in machine coordinates; they shift when z is declared.
 class ZAxis {
  public:
-  ZAxis(Basis& basis, SledPlace& place) : base_(basis), place_(place) {}
+  explicit ZAxis(Parts& parts) : parts_(parts) {}
 
-  bool hasMotor() const { return base_.values.at(kZMotor) != 0; }
-  float mostFeed() const;                                                 ///< [mm/min]
-  float acceleration() const { return base_.values.at(kAccelerationZ); }  ///< [mm/s^2]
+  bool hasMotor() const;
+  float mostFeed() const;      ///< [mm/min]
+  float acceleration() const;  ///< [mm/s^2]
   /// [mm] z limited to the allowed range. A z that no axis reaches stays, to be refused.
   float within(float z) const;
   /// Whether an axis reaches that z [mm].
@@ -34,8 +34,7 @@ class ZAxis {
   void sayLimit(float limit);
   void shiftLimits(float shift);
 
-  Basis& base_;
-  SledPlace& place_;
+  Parts& parts_;
 };
 
 }  // namespace machine

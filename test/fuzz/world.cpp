@@ -39,7 +39,7 @@ class World : public Wire, public Drives, public Aux, public Clock {
   /// From power-on to a power cut or the end.
   void liveOnce() {
     const FlashTable table;
-    Machine machine({*this, *this, *this, *this, eeprom, table}, {2, ""});
+    Machine machine({*this, *this, *this, *this, eeprom, table}, {2, "", machine::Start::kUsual});
     machine_ = &machine;
     is_greeting_ = true;
     answers_ = ::Answers();
@@ -133,10 +133,10 @@ class World : public Wire, public Drives, public Aux, public Clock {
   /// a height beyond all travel, which an EEPROM may claim, no move begins, nor before a stop ends.
   void checkRest() const {
     const float kHair = 0.01f;  // [mm]
-    const Axes& axes = machine_->axes();
-    const float z = machine_->program().aim().z;
-    if (!answers_.isIdle() || !machine_->planner().isIdle() || !axes.isEmpty()) return;
-    if (machine_->course().isStopping()) return;
+    const Axes& axes = machine_->parts().axes;
+    const float z = machine_->parts().program.aim().z;
+    if (!answers_.isIdle() || !machine_->parts().planner.isIdle() || !axes.isEmpty()) return;
+    if (machine_->parts().course.isStopping()) return;
     must(std::fabs(axes.target(kZAxis) - z) < kHair || std::fabs(z) > kMostTravel,
          "the next move of z begins elsewhere");
   }

@@ -70,8 +70,7 @@ class SledWith {
   /// Fills the ring, but with at most `ring_` set-points, as if it were short.
   void fill() {
     mover_.fill(worked_out_, exactly);
-    motion::Leg leg;
-    for (; waiting_ < ring_ && worked_out_.take(leg); ++waiting_) points_.push(leg);
+    for (; waiting_ < ring_ && worked_out_.take(points_.vacant()); ++waiting_) points_.push();
   }
 
   void drive(const double (&ahead)[2]) {

@@ -61,7 +61,8 @@ struct Slips : testing::Test, Clock {
       while (axes.setPoints().hasRoom()) {
         for (int i = 0; i < kAxisCount; ++i)
           at_[i] += int32_t(mm_per_second[i] * kSlipTick * motion::kCountsPerMm);
-        axes.setPoints().push({{at_[kLeftAxis], at_[kRightAxis], at_[kZAxis]}, 9000, 200, 0});
+        axes.setPoints().vacant() = {{at_[kLeftAxis], at_[kRightAxis], at_[kZAxis]}, 9000, 200, 0};
+        axes.setPoints().push();
       }
       axes.tick();
       motors.pass();

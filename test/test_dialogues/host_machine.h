@@ -17,7 +17,8 @@ inline world::Parts withMotors(unsigned seed) {
 /// A machine with chains of `paid_out` [mm].
 struct HostMachine {
   explicit HostMachine(std::vector<Step> steps, double paid_out = 1651,
-                       const machine::BoardName& board = {2, ""}, unsigned motors = 0)
+                       const machine::BoardName& board = {2, "", machine::Start::kUsual},
+                       unsigned motors = 0)
       : world(withMotors(motors), paid_out),
         brain(world, board),
         player(std::move(steps), world, brain) {}

@@ -118,7 +118,7 @@ bool Player::askErrors(const Words& words) {
 
 Eigen::Vector2d Player::placeNear(const Eigen::Vector2d& place) const {
   const Eigen::Vector2d paid_out(world_.travel(world::kLeft), world_.travel(world::kRight));
-  const reference::Settled settled = reference::settle(world_.sled().machine(), paid_out, place);
+  const reference::Hang settled = reference::settle(world_.sled().machine(), paid_out, place);
   tellOr(settled.solved, "the judge finds no place for these chains");
   return settled.bit;
 }

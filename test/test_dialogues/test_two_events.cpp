@@ -12,8 +12,9 @@ namespace {
 
 /// What the law looks at.
 Seen seenOf(const Machine& machine) {
-  const Axes& axes = machine.axes();
-  Seen seen = {machine.course().state(), axes.isPowered(), machine.place().isTrusted(), {}, {}};
+  const Axes& axes = machine.parts().axes;
+  Seen seen = {
+      machine.parts().course.state(), axes.isPowered(), machine.parts().keeper.trustsAll(), {}, {}};
   for (const Axis axis : {kLeftAxis, kRightAxis, kZAxis}) {
     seen.targets[axis] = axes.target(axis);
     seen.lengths[axis] = axes.length(axis);

@@ -26,7 +26,7 @@ Heights cut(const std::vector<std::string>& lines, unsigned seed) {
   }
   steps.push_back({Step::kSend, "G4 P0", "dwell"});
   steps.push_back({Step::kSkipTo, "ok", "dwell"});
-  HostMachine host(steps, 1651, {2, ""}, seed);
+  HostMachine host(steps, 1651, {2, "", machine::Start::kUsual}, seed);
   Heights heights;
   double before = host.world.travel(world::kLeft);
   host.player.look = [&] {

@@ -9,6 +9,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -109,12 +110,26 @@ inline kinematics::Machine<double> lawsWith(const std::vector<Sized>& sizes,
   return prepare(frameUnder(motors), hiddenBy("", sizes, 0, 0).effects);
 }
 
+/// Takes the judge's numbers as setJudge() gives them: a factor may come before its number.
+struct Judged {
+  std::map<std::string, double> numbers, factors;
+
+  void set(const char* name, double value) { numbers[name] = value; }
+  void scale(const char* name, double factor) {
+    factors.insert({name, 1.0}).first->second *= factor;
+  }
+};
+
 /// The judge's machine with the same frame and effects.
 inline reference::Machine judge(const kinematics::EffectParams<double>& effects,
                                 const Motors& motors = {}) {
-  reference::Described described;
-  kinematics::setJudge(frameUnder(motors), effects, described);
-  return described.machine();
+  Judged judged;
+  kinematics::setJudge(frameUnder(motors), effects, judged);
+  reference::Machine machine;
+  const std::map<std::string, double*> at = reference::numbersOf(machine);
+  for (const auto& each : judged.numbers) *at.at(each.first) = each.second;
+  for (const auto& each : judged.factors) *at.at(each.first) *= each.second;
+  return machine;
 }
 
 /// Places [mm] all over the sheet.

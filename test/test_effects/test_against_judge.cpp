@@ -24,17 +24,3 @@ TEST_P(AgainstJudge, WouldMissWithoutTheEffect) {
 TEST_P(AgainstJudge, TheBitIsWithinMicrometresUnderMotorsLowAndHigh) {
   EXPECT_LT(worstAtTheBit(GetParam()), GetParam().allowed_at_bit);
 }
-
-TEST(Judge, RefusesNumbersThatItDoesNotHave) {
-  reference::Described machine;
-  EXPECT_THROW(machine.set("left.humour", 1), std::invalid_argument);
-  EXPECT_THROW(machine.scale("left.humour", 1), std::invalid_argument);
-}
-
-TEST(Judge, FactorsHoldBeforeAndAfterTheValue) {
-  reference::Described machine;
-  machine.scale("left.weight", 2);
-  machine.set("left.weight", 3);
-  machine.scale("left.weight", 5);
-  EXPECT_EQ(30, machine.machine().left.weight);
-}

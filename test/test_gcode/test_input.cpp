@@ -265,18 +265,3 @@ TEST(Quick, BytesOfATextAreNone) {
   input.clear();
   EXPECT_EQ(Quick::kHold, input.put('\x84'));
 }
-
-TEST(Input, ShowsALineThatStays) {
-  Input input;
-  char line[Input::kRoom + 1];
-  EXPECT_FALSE(input.peekLine(line));
-  EXPECT_EQ(kAllFree, input.room());
-  for (int round = 0; round < 40; ++round) {
-    put(input, "G1 X5 Y6\nM0\n");
-    EXPECT_TRUE(input.peekLine(line));
-    EXPECT_STREQ("G1 X5 Y6", line);
-    EXPECT_EQ(115, input.room());
-    EXPECT_EQ("G1 X5 Y6|M0|", lines(input));
-    EXPECT_EQ(127, input.room());
-  }
-}

@@ -12,19 +12,21 @@
 
 /// A main program whose rounds take a millisecond each; motors are simulated by B99.
 struct Rounds : machine::Waiting {
-  Rounds(BoardAtRest& board, machine::Basis& basis)
-      : Waiting(board, basis.axes, basis.planner, basis.course),
-        course(basis.course),
+  Rounds(BoardAtRest& board, machine::Parts& parts)
+      : Waiting(board, parts.axes, parts.planner, parts.course),
+        course(parts.course),
         board_(board),
-        basis_(basis) {}
+        parts_(parts) {}
 
   void service() override {
     ++rounds;
     in_each_round();
-    basis_.planner.fill(axes_, basis_.geometry);
-    basis_.memory.step();
+    parts_.planner.fill(axes_, parts_.geometry);
+    parts_.memory.step();
     if (++board_.now_ms % 10 == 0) axes_.tick();
   }
+  bool runQuestion(const char*) override { return true; }
+  void answer(bool) override {}
   void stop() { course.take(machine::Event::kStop); }
 
   machine::Course& course;
@@ -33,7 +35,7 @@ struct Rounds : machine::Waiting {
 
  private:
   BoardAtRest& board_;
-  machine::Basis& basis_;
+  machine::Parts& parts_;
 };
 
 /// What a machine needs of a board.
@@ -44,9 +46,10 @@ struct BoardOfParts {
 };
 
 /// A machine with a ring whose sled hangs in the middle of the sheet.
-struct PartsAtRest : testing::Test, BoardOfParts, machine::Parts, machine::Dispatch {
+struct PartsAtRest : testing::Test, BoardOfParts, machine::Parts {
   PartsAtRest()
-      : Parts({board, board, board, board, eeprom, table}, {2, ""}, waiting, *this),
+      : Parts({board, board, board, board, eeprom, BoardOfParts::table},
+              {2, "", machine::Start::kUsual}, waiting),
         waiting(board, *this) {
     memory.start();
     values.setRow(kKinematics, 2);
@@ -58,9 +61,6 @@ struct PartsAtRest : testing::Test, BoardOfParts, machine::Parts, machine::Dispa
     hangAt(0, 0);
     board.said.clear();
   }
-
-  bool runQuestion(const char*) override { return true; }
-  void answer(bool) override {}
 
   void hangAt(float x, float y) {
     const motion::Lengths<float> lengths = geometry.inverse({x, y});

@@ -73,7 +73,8 @@ TEST(AxesLengths, AreWithinWhatAnyMachineTravels) {
 
 TEST(AxesLengths, StandingStillForgetsWhatWaits) {
   Driven driven;
-  driven.axes.setPoints().push({{65536, 65536, 0}, 100, 10, 0});
+  driven.axes.setPoints().vacant() = {{65536, 65536, 0}, 100, 10, 0};
+  driven.axes.setPoints().push();
   EXPECT_FALSE(driven.axes.isEmpty());
   driven.axes.standStill();
   EXPECT_TRUE(driven.axes.isEmpty());

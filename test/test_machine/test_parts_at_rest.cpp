@@ -20,7 +20,7 @@ TEST_F(MotorPowerAlone, NeverComesAfterAStop) {
   keepRecord();
   waiting.in_each_round = [&] { waiting.stop(); };
   EXPECT_FALSE(motors.wake());
-  EXPECT_FALSE(motors.areOn());
+  EXPECT_FALSE(axes.isPowered());
 }
 
 struct MotorPowerHighUp : MotorPowerAlone {
@@ -30,7 +30,7 @@ struct MotorPowerHighUp : MotorPowerAlone {
     EXPECT_TRUE(motors.wake());
     board.now_ms += 2000;
     motors.restWhenIdle(false);
-    return motors.areOn();
+    return axes.isPowered();
   }
 };
 
@@ -41,7 +41,7 @@ TEST_F(MotorPowerHighUp, StaysWhereTheSledPullsHarderThanFriction) {
   EXPECT_TRUE(areOnAfterARestAt(514));
   values.setRow(kHoldingTorque, 1.45f);
   motors.restWhenIdle(false);
-  EXPECT_FALSE(motors.areOn());
+  EXPECT_FALSE(axes.isPowered());
 }
 
 TEST_F(MotorPowerHighUp, GoesWhereNobodyKnowsWhatHangsOnTheChains) {
@@ -51,7 +51,7 @@ TEST_F(MotorPowerHighUp, GoesWhereNobodyKnowsWhatHangsOnTheChains) {
   EXPECT_TRUE(motors.wake());
   board.now_ms += 2000;
   motors.restWhenIdle(false);
-  EXPECT_FALSE(motors.areOn());
+  EXPECT_FALSE(axes.isPowered());
 }
 
 TEST_F(MotorPowerHighUp, GoesWhereMotorsAreSimulated) { EXPECT_FALSE(areOnAfterARestAt(600)); }
@@ -121,11 +121,11 @@ struct TelemetryAlone : PartsAtRest {};
 
 TEST_F(TelemetryAlone, KeepsWhyTheFirmwareStarted) {
   for (const Start start : {Start::kUsual, Start::kWatchdog, Start::kBrownOut, Start::kWatchdog}) {
-    Telemetry telemetry(*this, place, start);
+    Telemetry telemetry(*this, start);
     telemetry.noteStart();
     settings_host::settle(memory);
   }
-  Telemetry telemetry(*this, place, Start::kUsual);
+  Telemetry telemetry(*this, Start::kUsual);
   telemetry.tell();
   expectSaid("|start:usual|events:1,2,0,0|last:watchdog,3|slips:0,0|slipped:none,0,0,0]\r\n");
 }

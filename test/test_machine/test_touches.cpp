@@ -180,7 +180,7 @@ Signature howItStarts(const Values& values, bool asks_drives) {
   memory.start();
   for (uint8_t row = 0; row < table.count(); ++row) memory.setRow(row, values.at(row));
   settings_host::settle(memory);
-  Machine machine({board, board, board, board, eeprom, table}, {2, ""});
+  Machine machine({board, board, board, board, eeprom, table}, {2, "", machine::Start::kUsual});
   machine.begin();
   if (asks_drives) return board.arranged;
   return {float(machine.ticksPerSecond())};
@@ -213,7 +213,7 @@ TEST(Touches, ANewWayOfTheDrivesIsAskedOfThemAtOnce) {
   BoardAtRest board;
   settings_host::Eeprom eeprom;
   const FlashTable table;
-  Machine machine({board, board, board, board, eeprom, table}, {2, ""});
+  Machine machine({board, board, board, board, eeprom, table}, {2, "", machine::Start::kUsual});
   machine.begin();
   EXPECT_EQ(board.arranged, (Signature{1, 3}));
   board.input = "$38=2\n$39=1\n";

@@ -49,11 +49,11 @@ TEST(Segment, EndsOnItsLastKnotToTheCount) {
     const uint8_t ticks = uint8_t(1 + i % kMostTicks);
     Segment segment = segmentThrough({left.from, right.from}, {left.middle, right.middle},
                                      {left.to, right.to}, ticks);
-    EXPECT_EQ(left.from, segment.at().left);
-    EXPECT_EQ(right.from, segment.at().right);
+    EXPECT_EQ(left.from, segment.left.length.whole);
+    EXPECT_EQ(right.from, segment.right.length.whole);
     while (segment.ticks_left > 0) segment.advance();
-    ASSERT_EQ(left.to, segment.at().left);
-    ASSERT_EQ(right.to, segment.at().right);
+    ASSERT_EQ(left.to, segment.left.length.whole);
+    ASSERT_EQ(right.to, segment.right.length.whole);
   }
 }
 

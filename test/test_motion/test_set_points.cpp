@@ -36,7 +36,10 @@ void walk(const Tried& tried, const Exactly<double>& judge, const Exactly<float>
   while (!mover.isIdle()) {
     // Set-points are taken one by one, because a full ring would hide which tick is which.
     SetPoints single;
-    for (int i = 1; i < SetPoints::kMost; ++i) single.push({last, 1, 1, 0});
+    for (int i = 1; i < SetPoints::kMost; ++i) {
+      single.vacant() = {last, 1, 1, 0};
+      single.push();
+    }
     ASSERT_EQ(Filled::kYes, mover.fill(single, counted));
     const SetPoint now = mover.last();
     const double share = mover.isIdle() ? 1 : double(mover.walk().done) / double(walked.length);
@@ -99,7 +102,8 @@ TEST(SetPoints, TellTheStepThatComesSoOrTheLastThatIsKnown) {
       while (pushed - taken < waiting + 1) {
         ASSERT_TRUE(ring.hasRoom());
         ++pushed;
-        ring.push({{pushed * pushed, -pushed, 0}, 1, 1, 0});
+        ring.vacant() = {{pushed * pushed, -pushed, 0}, 1, 1, 0};
+        ring.push();
       }
       ASSERT_TRUE(ring.take(leg));
       ++taken;

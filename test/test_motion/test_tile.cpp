@@ -59,7 +59,10 @@ Streamed stream(const Tried& tried, Point<float> centre, float step, const Smoot
       at = to;
     }
     SetPoints ring;
-    for (int i = 0; i < waiting; ++i) ring.push({mover.last(), 1, 1, 0});
+    for (int i = 0; i < waiting; ++i) {
+      ring.vacant() = {mover.last(), 1, 1, 0};
+      ring.push();
+    }
     at_once = 0;
     EXPECT_EQ(Filled::kYes, mover.fill(ring, counted));
     if (streamed.ticks != 0) streamed.asked_at_once = std::max(streamed.asked_at_once, at_once);

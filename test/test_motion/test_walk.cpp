@@ -16,7 +16,10 @@ struct Walker {
   explicit Walker(std::vector<Leg> way) : legs(std::move(way)) {}
 
   bool tick() {
-    while (next < legs.size() && ring.hasRoom()) ring.push(legs[next++]);
+    while (next < legs.size() && ring.hasRoom()) {
+      ring.vacant() = legs[next++];
+      ring.push();
+    }
     return playback.next(ring, now);
   }
   void ticks(int count) {

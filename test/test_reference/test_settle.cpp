@@ -18,7 +18,7 @@ TEST(Settle, FindsItOnAnyMachineFromAnywhere) {
     const Vector2d bit = lottery.drawPlace(), start = lottery.drawPlace();
     const reference::Hang hang = reference::hangAt(machine, bit);
     ASSERT_TRUE(hang.solved) << i;
-    const reference::Settled settled = reference::settle(machine, hang.paid_out, start);
+    const reference::Hang settled = reference::settle(machine, hang.paid_out, start);
     ASSERT_TRUE(settled.solved) << i;
     EXPECT_LT((settled.bit - bit).norm(), 1e-8) << i;
   }

@@ -134,23 +134,7 @@ TEST(TwoBrackets, WithBothBracketsInOnePlaceItHangsLikeAPendulum) {
   }
 }
 
-TEST(TwoBrackets, SettlesWhereItWasHung) {
-  Lottery lottery;
-  for (int i = 0; i < 200; ++i) {
-    Machine machine = withChains(drawStraight(lottery), 0.00137293, 5.17e-6);
-    machine.left.pitch = 0.002;
-    const TwoBrackets sled = drawSled(lottery);
-    const TiltedHang hang = reference::hangTilted(machine, sled, lottery.drawPlace());
-    ASSERT_TRUE(hang.solved);
-    const TiltedHang back = reference::settleTilted(machine, sled, hang.paid_out);
-    ASSERT_TRUE(back.solved);
-    EXPECT_LT((back.bit - hang.bit).norm(), 1e-7);
-    EXPECT_NEAR(hang.tilt, back.tilt, 1e-9);
-  }
-}
-
 TEST(TwoBrackets, SaysSoWhereNoSledCanHang) {
   EXPECT_FALSE(reference::hangTilted(Machine(), {}, {0, 1100}).solved);
   EXPECT_FALSE(reference::hangTilted(Machine(), {}, {1600, 0}).solved);
-  EXPECT_FALSE(reference::settleTilted(Machine(), {}, {1200, 1200}).solved);
 }

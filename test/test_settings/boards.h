@@ -7,13 +7,13 @@
 #include <vector>
 
 #include "../settings_host/eeprom.h"
-#include "plain_table.h"
+#include "settings_flash.h"
 
 using namespace settings;
 using settings_host::Eeprom;
 using settings_host::PowerCut;
 using settings_host::settle;
-using Board = settings_host::Board<settings_host::PlainTable>;
+using Board = settings_host::Board<FlashTable>;
 
 inline std::vector<float> valuesOf(const Board& board) {
   return std::vector<float>(board.values.from(0), board.values.from(0) + kSettingCount);

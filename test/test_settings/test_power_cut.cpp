@@ -194,12 +194,12 @@ TEST(Copies, AValueBeyondTodaysLimitsBecomesItsDefaultAndIsTold) {
 namespace {
 
 /// The table without a row: this firmware before it had that setting.
-class ShorterTable : public settings_host::PlainTable {
+class ShorterTable : public FlashTable {
  public:
   static const uint8_t kMissing = kChainSpeed;
   uint8_t count() const override { return kSettingCount - 1; }
   Entry at(uint8_t index) const override {
-    return PlainTable::at(index < kMissing ? index : uint8_t(index + 1));
+    return FlashTable::at(index < kMissing ? index : uint8_t(index + 1));
   }
 };
 
@@ -229,7 +229,7 @@ TEST(Copies, ANewSettingMovesNoOther) {
 namespace {
 
 /// The table before G-code kept places.
-class TableWithoutPlaces : public settings_host::PlainTable {
+class TableWithoutPlaces : public FlashTable {
  public:
   uint8_t count() const override { return kFirstPlaceSetting; }
 };
@@ -260,7 +260,7 @@ TEST(Copies, OfTheTimeBeforePlacesAreRead) {
 }
 
 TEST(Places, AreSetByGCodeOnlyAndLieWhereTheirNumbersSay) {
-  settings_host::PlainTable table;
+  FlashTable table;
   EXPECT_EQ(kFirstPlaceSetting, indexOf(table, 230));
   EXPECT_EQ(kSettingCount - 1, indexOf(table, 253));
   for (uint8_t i = kFirstPlaceSetting; i < kSettingCount; ++i) {

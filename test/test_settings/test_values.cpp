@@ -6,15 +6,14 @@
 #include <string>
 #include <vector>
 
-#include "plain_table.h"
+#include "settings_flash.h"
 
 using namespace settings;
-using settings_host::PlainTable;
 
 namespace {
 
 struct Held {
-  PlainTable table;
+  FlashTable table;
   std::vector<float> room = std::vector<float>(kSettingCount);
   Values values{table, room.data()};
 };
@@ -40,7 +39,7 @@ float valueOf(const Held& held, uint8_t number) {
 }  // namespace
 
 TEST(Table, NumbersRiseAndKeepOffThoseOfOthers) {
-  PlainTable table;
+  FlashTable table;
   int before = -1;
   for (uint8_t i = 0; i < table.count(); ++i) {
     const int number = table.at(i).number;
@@ -53,7 +52,7 @@ TEST(Table, NumbersRiseAndKeepOffThoseOfOthers) {
 }
 
 TEST(Table, ListsEveryPublishedNumberAndNoneThatWebControlWouldAnswer) {
-  PlainTable table;
+  FlashTable table;
   std::set<int> listed;
   for (uint8_t i = 0; i < table.count(); ++i)
     if (table.at(i).access == Access::kListed) listed.insert(table.at(i).number);
@@ -64,7 +63,7 @@ TEST(Table, ListsEveryPublishedNumberAndNoneThatWebControlWouldAnswer) {
 }
 
 TEST(Table, EveryDefaultMayBeSet) {
-  PlainTable table;
+  FlashTable table;
   for (uint8_t i = 0; i < table.count(); ++i) {
     const Entry entry = table.at(i);
     EXPECT_EQ(Refusal::kNone, judge(entry, entry.usual)) << int(entry.number);
@@ -77,7 +76,7 @@ TEST(Table, EveryDefaultMayBeSet) {
 }
 
 TEST(Table, HoldsEveryEffectParameterAndAllOfThemAreAbsent) {
-  PlainTable table;
+  FlashTable table;
   int found = 0;
   for (int number = 100; number < kFirstPlaceNumber; ++number) {
     const int place = kinematics::Effects::For<float>::indexOf(number);
@@ -94,7 +93,7 @@ TEST(Table, HoldsEveryEffectParameterAndAllOfThemAreAbsent) {
 }
 
 TEST(Table, EffectLimitsAreTheirPlausibleRangeWidened) {
-  PlainTable table;
+  FlashTable table;
   const Entry pitch = table.at(indexOf(table, 180));
   EXPECT_FLOAT_EQ(-0.008f, pitch.low);
   EXPECT_FLOAT_EQ(0.013f, pitch.high);

@@ -35,8 +35,8 @@ struct TypicalSizes {
 
 Machine<float> machineFor(const bench::Case& wanted) {
   const float sled = wanted.rig == bench::kLightSled ? 60.0f : 97.9f;
-  const Feed feed = wanted.rig == bench::kOffBottom ? Feed::kOffBottom : Feed::kOverTop;
-  const Frame<float> frame = {2978.4f, 1072.6f, 0, 139.1f, 10.1063f, sled, 0.00137293f, feed};
+  const Frame<float> frame = {2978.4f,  1072.6f, 0,           139.1f,
+                              10.1063f, sled,    0.00137293f, Feed::kOverTop};
   EffectParams<float> effects;
   TypicalSizes sizes = {wanted, effects.value};
   Effects::For<float>::visit(sizes);
@@ -66,26 +66,17 @@ void note(Found found, float first, float second, float tilt_sine) {
 }
 
 void timeTilted(uint8_t number, const Quadrilateral<float>& machine, Point<float> place) {
-  const TiltedPaidOut<float> paid = inverse(machine, place);
   const float before = inverse(machine, Point<float>{place.x - 0.09f, place.y + 0.12f}).tilt_sine;
-  const bench::What what = bench::kCases[number].what;
-  if (what == bench::kTiltedForward) {
-    mark(number + 1);
-    const TiltedPlace<float> there = forward(machine, paid.chains);
-    note(there.found, there.sled.x, there.sled.y, there.tilt_sine);
-  } else {
-    const bool is_near = what == bench::kTiltedInverseNear;
-    mark(number + 1);
-    const TiltedPaidOut<float> timed =
-        is_near ? inverse(machine, place, before) : inverse(machine, place);
-    note(timed.found, timed.chains.left, timed.chains.right, timed.tilt_sine);
-  }
+  const bool is_near = bench::kCases[number].what == bench::kTiltedInverseNear;
+  mark(number + 1);
+  const TiltedPaidOut<float> timed =
+      is_near ? inverse(machine, place, before) : inverse(machine, place);
+  note(timed.found, timed.chains.left, timed.chains.right, timed.tilt_sine);
   mark(0);
 }
 
 void timeOne(uint8_t number, const Machine<float>& machine, Point<float> place) {
   const Chains<float> chains = inverse(machine, place).chains;
-  const Point<float> far = {place.x > 0 ? -1219.2f : 1219.2f, place.y > 0 ? -609.6f : 609.6f};
   const Point<float> near = {place.x + 0.1f, place.y - 0.1f};
   const bench::What what = bench::kCases[number].what;
   if (what == bench::kInverse) {
@@ -96,10 +87,9 @@ void timeOne(uint8_t number, const Machine<float>& machine, Point<float> place) 
   } else if (what == bench::kForward) {
     mark(number + 1);
     sink = forward(machine, chains).sled.x;
-  } else if (what == bench::kForwardFar || what == bench::kForwardNear) {
-    const Point<float> guess = what == bench::kForwardFar ? far : near;
+  } else if (what == bench::kForwardNear) {
     mark(number + 1);
-    sink = forward(machine, chains, guess).sled.x;
+    sink = forward(machine, chains, near).sled.x;
   } else {
     mark(number + 1);
     sink = place.x;

@@ -9,19 +9,17 @@ enum What : uint8_t {
   kNothing,
   kInverse,
   kForward,
-  kForwardFar,
   kForwardNear,
   // Of a sled with two brackets, without a guess, and from the tilt 0.15 mm before.
   kTiltedInverse,
-  kTiltedInverseNear,
-  kTiltedForward
+  kTiltedInverseNear
 };
 
 // Which effects are present, by the number of their first setting.
-enum Present : uint8_t { kNone, kSag, kSagStretch, kSagStretchPitch, kAll };
+enum Present : uint8_t { kNone, kSagStretchPitch, kAll };
 
-// The machine: as published, chain off the bottom, or a sled of 60 N that needs deep sag.
-enum Rig : uint8_t { kUsual, kOffBottom, kLightSled };
+// The machine: as published, or with a sled of 60 N that needs deep sag.
+enum Rig : uint8_t { kUsual, kLightSled };
 
 struct Case {
   const char* name;
@@ -34,20 +32,15 @@ struct Case {
 const Case kCases[] = {
     {"(marks alone)", kNothing, kNone, kUsual, 0},
     {"inverse, rigid", kInverse, kNone, kUsual, 0},
-    {"inverse, sag", kInverse, kSag, kUsual, 0},
-    {"inverse, sag and stretch", kInverse, kSagStretch, kUsual, 0},
     {"inverse, sag, stretch and pitch", kInverse, kSagStretchPitch, kUsual, 0},
-    {"inverse, sag, stretch and pitch, off the bottom", kInverse, kSagStretchPitch, kOffBottom, 0},
     {"inverse, sag, stretch and pitch, light sled", kInverse, kSagStretchPitch, kLightSled, 0},
-// registry.py adds "inverse, the same and EFFECT" for every other effect of the registry.
+// board.py adds "inverse, the same and EFFECT" for every other effect of the registry.
 #include "effect_cases.h"
     {"inverse, all effects", kInverse, kAll, kUsual, 0},
     {"forward, no guess", kForward, kSagStretchPitch, kUsual, 0},
-    {"forward, guess in the far corner", kForwardFar, kSagStretchPitch, kUsual, 0},
     {"forward, guess 0.1 mm off (tracking)", kForwardNear, kSagStretchPitch, kUsual, 0},
     {"inverse, two brackets, no guess", kTiltedInverse, kNone, kUsual, 0},
     {"inverse, two brackets, tilt of 0.15 mm before", kTiltedInverseNear, kNone, kUsual, 0},
-    {"forward, two brackets, no guess", kTiltedForward, kNone, kUsual, 0},
 };
 
 // Every second place of the published measurements' grid, borders included. All places would take
@@ -61,18 +54,8 @@ enum : uint8_t {
 
 inline bool isPresent(const Case& wanted, int first_setting) {
   if (wanted.extra != 0 && first_setting == wanted.extra) return true;
-  switch (wanted.present) {
-    case kSag:
-      return first_setting == 160;
-    case kSagStretch:
-      return first_setting == 160 || first_setting == 170;
-    case kSagStretchPitch:
-      return first_setting >= 160 && first_setting <= 180;
-    case kAll:
-      return true;
-    default:
-      return false;
-  }
+  const bool is_usual = first_setting >= 160 && first_setting <= 180;
+  return wanted.present == kAll || (wanted.present == kSagStretchPitch && is_usual);
 }
 
 }  // namespace bench

@@ -6,7 +6,6 @@ from board import FIRMWARE, Figures, sizes
 from commands import ROOT, ToolError
 from played import played, player
 
-CLOCK = 16e6  # [Hz]
 FLASH, RAM, STACK = "the firmware, flash", "the firmware, static RAM", "the firmware, deepest stack"
 
 
@@ -33,17 +32,10 @@ def measure() -> Figures:
         "the same, three axes with sag, stretch and pitch, lines": hard["lines_per_second"],
         "short G1 lines a second for a sender of Grbl": asked["lines_per_second"],
         "the same with a `?` ten times a second": asked["lines_per_second_asked"],
-        "a `?` while short lines run, cycles": cycles_of_a_question(asked),
         "longest wait for the answer to a `?`, ms": asked["longest_answer_ms"],
         "first line after power-on, ms": slow["first_line_ms"],
     }
     return {name: (value,) for name, value in figures.items()}
-
-
-def cycles_of_a_question(figures: dict[str, float]) -> float:
-    """Return what a `?` takes from the lines: the time that they lose, by the clock of the Mega."""
-    lost = 1 - figures["lines_per_second_asked"] / figures["lines_per_second"]
-    return lost * CLOCK / figures["questions_per_second"]
 
 
 def most(figures: dict[str, float], name: str) -> float:

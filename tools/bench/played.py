@@ -3,15 +3,13 @@
 from collections.abc import Sequence
 from pathlib import Path
 
-from board import FIRMWARE, built_firmware
+from board import FIRMWARE, SIMAVR, built_firmware
 from commands import ROOT, compiled
 from kept import Done, kept, run
 
 BUILD = ROOT / ".build/vm"
-STRICT = ("-O2", "-Wall", "-Wextra", "-Werror", "-Itools/vm")
-# Linked into the program, the simulator is a part of what a kept answer is known by.
-LIBRARIES = ("-l:libsimavr.a", "-lelf")
 BOARD = "tools/vm/mega/virtual_board.cpp"
+STRICT = ("-O2", "-Wall", "-Wextra", "-Werror", "-Itools/vm")
 
 
 def player() -> Path:
@@ -64,7 +62,7 @@ def ran(program: Path, elf: Path, *arguments: str) -> Done:
 
 
 def _built(name: str, sources: list[str], options: Sequence[str] = ()) -> Path:
-    return compiled(BUILD / name, sources, options=[*STRICT, *options], libraries=LIBRARIES)
+    return compiled(BUILD / name, sources, options=[*STRICT, *options], libraries=SIMAVR)
 
 
 def _from_root(path: Path) -> str:

@@ -1,11 +1,10 @@
 // lib/Kinematics for Python: arrays in, arrays out, without any physics here.
 #include "arrays.h"
+#include "bindings.h"
 #include "dual.h"
-#include "effects_binding.h"
 // The definitions too: this file instantiates them for dual numbers.
 #include "Kinematics.cpp"
 #include "reach.cpp"
-#include "settings_binding.h"
 
 namespace nb = nanobind;
 using namespace kinematics;
@@ -144,12 +143,10 @@ nb::dict reachOf(const Values& values, bool over_top, const Pairs& points, doubl
 /// The default limits of reach().
 nb::dict reachLimits() {
   const ReachLimits<double> usual;
-  nb::dict result;
-  result["most_tension"] = usual.most_tension;
-  result["least_tension"] = usual.least_tension;
-  result["least_free"] = usual.least_free;
-  result["most_give"] = usual.most_give;
-  return result;
+  return dictOf({{"most_tension", usual.most_tension},
+                 {"least_tension", usual.least_tension},
+                 {"least_free", usual.least_free},
+                 {"most_give", usual.most_give}});
 }
 
 }  // namespace

@@ -9,7 +9,8 @@
 
 namespace dual {
 
-/// A value and its derivatives by Count inputs.
+/// A value and its derivatives by Count inputs. Its operators are friends, so that a plain number
+/// converts on either side.
 template <int Count>
 struct Dual {
   double value = 0;
@@ -24,94 +25,56 @@ struct Dual {
     result.slope[static_cast<size_t>(index)] = 1;
     return result;
   }
-};
 
-/// f(a) with value f and derivative df.
-template <int Count>
-Dual<Count> chain(const Dual<Count>& a, double f, double df) {
-  Dual<Count> result(f);
-  for (int i = 0; i < Count; ++i) result.slope[i] = df * a.slope[i];
-  return result;
-}
-
-/// f(a, b) with value f and partial derivatives da and db.
-template <int Count>
-Dual<Count> chain(const Dual<Count>& a, const Dual<Count>& b, double f, double da, double db) {
-  Dual<Count> result(f);
-  for (int i = 0; i < Count; ++i) result.slope[i] = da * a.slope[i] + db * b.slope[i];
-  return result;
-}
-
-// Friends of arithmetic; a plain number converts on either side.
-#define PLUMB_DUAL_OPERATOR(sign, f, da, db)                              \
-  template <int Count>                                                    \
-  Dual<Count> operator sign(const Dual<Count>& a, const Dual<Count>& b) { \
-    return chain(a, b, f, da, db);                                        \
+  /// f(a) with value f and derivative df.
+  static Dual chain(const Dual& a, double f, double df) {
+    Dual result(f);
+    for (int i = 0; i < Count; ++i) result.slope[i] = df * a.slope[i];
+    return result;
   }
-PLUMB_DUAL_OPERATOR(+, a.value + b.value, 1.0, 1.0)
-PLUMB_DUAL_OPERATOR(-, a.value - b.value, 1.0, -1.0)
-PLUMB_DUAL_OPERATOR(*, a.value* b.value, b.value, a.value)
-PLUMB_DUAL_OPERATOR(/, a.value / b.value, 1 / b.value, -a.value / (b.value * b.value))
-#undef PLUMB_DUAL_OPERATOR
+  /// f(a, b) with value f and partial derivatives da and db.
+  static Dual chain(const Dual& a, const Dual& b, double f, double da, double db) {
+    Dual result(f);
+    for (int i = 0; i < Count; ++i) result.slope[i] = da * a.slope[i] + db * b.slope[i];
+    return result;
+  }
 
-template <int Count>
-Dual<Count> operator-(const Dual<Count>& a) {
-  return chain(a, -a.value, -1.0);
-}
-template <int Count>
-Dual<Count>& operator+=(Dual<Count>& a, const Dual<Count>& b) {
-  return a = a + b;
-}
-template <int Count>
-Dual<Count>& operator-=(Dual<Count>& a, const Dual<Count>& b) {
-  return a = a - b;
-}
+  friend Dual operator+(const Dual& a, const Dual& b) {
+    return chain(a, b, a.value + b.value, 1, 1);
+  }
+  friend Dual operator-(const Dual& a, const Dual& b) {
+    return chain(a, b, a.value - b.value, 1, -1);
+  }
+  friend Dual operator*(const Dual& a, const Dual& b) {
+    return chain(a, b, a.value * b.value, b.value, a.value);
+  }
+  friend Dual operator/(const Dual& a, const Dual& b) {
+    return chain(a, b, a.value / b.value, 1 / b.value, -a.value / (b.value * b.value));
+  }
+  friend Dual operator-(const Dual& a) { return chain(a, -a.value, -1); }
+  friend Dual& operator+=(Dual& a, const Dual& b) { return a = a + b; }
+  friend Dual& operator-=(Dual& a, const Dual& b) { return a = a - b; }
+  friend bool operator<(const Dual& a, const Dual& b) { return a.value < b.value; }
+  friend bool operator>(const Dual& a, const Dual& b) { return a.value > b.value; }
 
-template <int Count>
-bool operator<(const Dual<Count>& a, const Dual<Count>& b) {
-  return a.value < b.value;
-}
-template <int Count>
-bool operator>(const Dual<Count>& a, const Dual<Count>& b) {
-  return a.value > b.value;
-}
+  friend Dual sqrt(const Dual& a) {
+    const double root = ::sqrt(a.value);
+    return chain(a, root, 0.5 / root);
+  }
+  friend Dual sin(const Dual& a) { return chain(a, ::sin(a.value), ::cos(a.value)); }
+  friend Dual cos(const Dual& a) { return chain(a, ::cos(a.value), -::sin(a.value)); }
+  friend bool isfinite(const Dual& a) { return std::isfinite(a.value); }
+  friend bool signbit(const Dual& a) { return std::signbit(a.value); }
+  /// The nearest whole number, which has no slopes.
+  friend int16_t nearest(const Dual& a) { return static_cast<int16_t>(std::lround(a.value)); }
 
-template <int Count>
-Dual<Count> sqrt(const Dual<Count>& a) {
-  const double root = ::sqrt(a.value);
-  return chain(a, root, 0.5 / root);
-}
-template <int Count>
-Dual<Count> sin(const Dual<Count>& a) {
-  return chain(a, ::sin(a.value), ::cos(a.value));
-}
-template <int Count>
-Dual<Count> cos(const Dual<Count>& a) {
-  return chain(a, ::cos(a.value), -::sin(a.value));
-}
-
-template <int Count>
-bool isfinite(const Dual<Count>& a) {
-  return std::isfinite(a.value);
-}
-template <int Count>
-bool signbit(const Dual<Count>& a) {
-  return std::signbit(a.value);
-}
-
-/// The nearest whole number, which has no slopes.
-template <int Count>
-int16_t nearest(const Dual<Count>& a) {
-  return static_cast<int16_t>(std::lround(a.value));
-}
-
-/// True if value and slopes are all zero. A zero with a slope must still be computed.
-template <int Count>
-bool isZero(const Dual<Count>& a) {
-  if (a.value != 0) return false;
-  for (double slope : a.slope)
-    if (slope != 0) return false;
-  return true;
-}
+  /// True if value and slopes are all zero. A zero with a slope must still be computed.
+  friend bool isZero(const Dual& a) {
+    if (a.value != 0) return false;
+    for (double slope : a.slope)
+      if (slope != 0) return false;
+    return true;
+  }
+};
 
 }  // namespace dual

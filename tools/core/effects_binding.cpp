@@ -1,6 +1,4 @@
 // The library of effects for Python: texts, traits, and each effect in the judge's numbers.
-#include "effects_binding.h"
-
 #include <nanobind/stl/map.h>
 #include <nanobind/stl/string.h>
 
@@ -9,6 +7,7 @@
 #include <vector>
 
 #include "arrays.h"
+#include "bindings.h"
 #include "judged.h"
 
 namespace nb = nanobind;
@@ -62,12 +61,10 @@ const char* const kOwners[] = {"machine", "chain", "zeroing"};  // by BelongsTo
 
 nb::object checkOf(const CheckInfo& info) {
   if (!info.title || !*info.title) return nb::none();
-  nb::dict check;
-  check["title"] = info.title;
-  check["steps"] = info.steps;
-  check["value"] = info.value;
-  check["minutes"] = info.minutes;
-  return check;
+  return dictOf({{"title", info.title},
+                 {"steps", info.steps},
+                 {"value", info.value},
+                 {"minutes", info.minutes}});
 }
 
 template <class ThisEffect>
@@ -76,13 +73,10 @@ nb::list examplesOf() {
   for (uint8_t i = 0; i < ThisEffect::kExampleCount; ++i) {
     const Example shown = ThisEffect::example(i);
     if (!shown.label) continue;
-    nb::dict sizes, entry;
+    nb::dict sizes;
     for (uint8_t k = 0; k < ThisEffect::kParamCount; ++k)
       sizes[ThisEffect::param(k).name] = shown.size[k];
-    entry["label"] = shown.label;
-    entry["sizes"] = sizes;
-    entry["most"] = shown.most;
-    examples.append(entry);
+    examples.append(dictOf({{"label", shown.label}, {"sizes", sizes}, {"most", shown.most}}));
   }
   return examples;
 }
@@ -91,48 +85,43 @@ const char* const kCurves[] = {"straight", "square", "tangent squared"};  // by 
 
 nb::object readingOf(const ReadingInfo& info) {
   if (!*info.title) return nb::none();
-  nb::dict reading;
-  reading["title"] = info.title;
-  reading["unit"] = info.unit;
-  reading["usual"] = info.usual;
-  reading["factor"] = info.factor;
-  reading["digits"] = info.digits;
-  reading["zero"] = info.zero;
-  reading["curve"] = kCurves[info.curve];
-  return reading;
+  return dictOf({{"title", info.title},
+                 {"unit", info.unit},
+                 {"usual", info.usual},
+                 {"factor", info.factor},
+                 {"digits", info.digits},
+                 {"zero", info.zero},
+                 {"curve", kCurves[info.curve]}});
 }
 
 const char* const kShown[] = {"as is", "root", "angle"};  // by Shown
 
 nb::object plainOf(const PlainInfo& info) {
   if (!*info.more) return nb::none();
-  nb::dict words;
-  words["more"] = info.more;
-  words["less"] = info.less;
-  words["unit"] = info.unit;
-  words["times"] = info.times;
-  words["shown"] = kShown[info.shown];
-  return words;
+  return dictOf({{"more", info.more},
+                 {"less", info.less},
+                 {"unit", info.unit},
+                 {"times", info.times},
+                 {"shown", kShown[info.shown]}});
 }
 
 template <class ThisEffect>
 nb::dict parameterOf(int first_setting, uint8_t i) {
   const ParamInfo param = ThisEffect::param(i);
   const PublishedInfo published = ThisEffect::published(i);
-  nb::dict entry;
-  entry["name"] = param.name;
-  entry["setting"] = first_setting + i;
-  entry["unit"] = param.unit;
-  entry["low"] = param.low;
-  entry["high"] = param.high;
-  entry["typical"] = param.typical;
-  entry["summary"] = param.summary;
-  entry["sigma"] = param.sigma;
-  entry["plain"] = plainOf(ThisEffect::plain(i));
-  entry["reading"] = readingOf(ThisEffect::reading(i));
-  entry["published"] = nb::none();
-  if (published.number) entry["published"] = nb::make_tuple(published.number, published.factor);
-  return entry;
+  nb::object carried = nb::none();
+  if (published.number) carried = nb::make_tuple(published.number, published.factor);
+  return dictOf({{"name", param.name},
+                 {"setting", first_setting + i},
+                 {"unit", param.unit},
+                 {"low", param.low},
+                 {"high", param.high},
+                 {"typical", param.typical},
+                 {"summary", param.summary},
+                 {"sigma", param.sigma},
+                 {"plain", plainOf(ThisEffect::plain(i))},
+                 {"reading", readingOf(ThisEffect::reading(i))},
+                 {"published", carried}});
 }
 
 struct Lister {
@@ -144,22 +133,20 @@ struct Lister {
     nb::list parameters;
     for (uint8_t i = 0; i < ThisEffect::kParamCount; ++i)
       parameters.append(parameterOf<ThisEffect>(first_setting, i));
-    nb::dict entry;
-    entry["name"] = info.name;
-    entry["noun"] = *ThisEffect::noun() ? ThisEffect::noun() : info.name;
-    entry["where"] = "firmware";
-    entry["summary"] = info.summary;
-    entry["pattern"] = info.pattern;
-    entry["look_alikes"] = info.look_alikes;
-    entry["remedy"] = info.remedy;
-    entry["empirical"] = bool(ThisEffect::kEmpirical);
-    entry["belongs_to"] = kOwners[ThisEffect::kBelongsTo];
-    entry["in_frame"] = bool(ThisEffect::kInFrame);
-    entry["weight_power"] = int(ThisEffect::kWeightPower);
-    entry["check"] = checkOf(ThisEffect::check());
-    entry["examples"] = examplesOf<ThisEffect>();
-    entry["parameters"] = parameters;
-    effects.append(entry);
+    effects.append(dictOf({{"name", info.name},
+                           {"noun", *ThisEffect::noun() ? ThisEffect::noun() : info.name},
+                           {"where", "firmware"},
+                           {"summary", info.summary},
+                           {"pattern", info.pattern},
+                           {"look_alikes", info.look_alikes},
+                           {"remedy", info.remedy},
+                           {"empirical", bool(ThisEffect::kEmpirical)},
+                           {"belongs_to", kOwners[ThisEffect::kBelongsTo]},
+                           {"in_frame", bool(ThisEffect::kInFrame)},
+                           {"weight_power", int(ThisEffect::kWeightPower)},
+                           {"check", checkOf(ThisEffect::check())},
+                           {"examples", examplesOf<ThisEffect>()},
+                           {"parameters", parameters}}));
   }
 };
 
@@ -174,15 +161,13 @@ nb::list frame() {
   nb::list result;
   for (int i = 0; i < kFrameFieldCount; ++i) {
     const FrameField<double>& field = frameFields<double>()[i];
-    nb::dict entry;
-    entry["name"] = field.name;
-    entry["unit"] = field.unit;
-    entry["usual"] = field.usual;
-    entry["low"] = field.low;
-    entry["high"] = field.high;
-    entry["summary"] = field.summary;
-    entry["noun"] = field.noun;
-    result.append(entry);
+    result.append(dictOf({{"name", field.name},
+                          {"unit", field.unit},
+                          {"usual", field.usual},
+                          {"low", field.low},
+                          {"high", field.high},
+                          {"summary", field.summary},
+                          {"noun", field.noun}}));
   }
   return result;
 }

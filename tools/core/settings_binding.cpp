@@ -1,6 +1,4 @@
 // The firmware's table of settings for Python: rows, texts, and what the numbers mean together.
-#include "settings_binding.h"
-
 #include <nanobind/stl/map.h>
 #include <nanobind/stl/pair.h>
 #include <nanobind/stl/string.h>
@@ -14,11 +12,12 @@
 
 #include "../../src/carried_twice.h"
 #include "../../src/effective.h"
-#include "plain_table.h"
+#include "../../src/settings_flash.h"
+#include "bindings.h"
+#include "frame_info.h"
 
 namespace nb = nanobind;
 using namespace settings;
-using settings_host::PlainTable;
 
 namespace {
 
@@ -26,6 +25,26 @@ using Room = std::array<float, kSettingCount>;
 
 const char* const kKinds[] = {"bool", "u8", "u16", "float"};
 const char* const kAccesses[] = {"listed", "hidden", "kept"};
+
+/// Texts about a row for people.
+struct RowText {
+  const char* label;  ///< "name, unit"
+  const char* key;    ///< section and key of the published programs, or ""
+  const char* sentence;
+  const char* change;  ///< difference from the published firmware, or ""
+};
+
+#define PLUMB_TEXT(name, number, label, kind, step, usual, low, high, touches, key, sentence, \
+                   change)                                                                    \
+  {label, key, sentence, change},
+const RowText kTexts[] = {PLUMB_SETTINGS(PLUMB_TEXT, PLUMB_TEXT, PLUMB_TEXT)};
+#undef PLUMB_TEXT
+
+nb::dict textsOf(const std::string& name, const std::string& unit, const char* key,
+                 const std::string& sentence, const char* change) {
+  return dictOf(
+      {{"name", name}, {"unit", unit}, {"key", key}, {"sentence", sentence}, {"change", change}});
+}
 
 /// Texts of effects' parameters by their $-number.
 struct EffectTexts {
@@ -35,28 +54,18 @@ struct EffectTexts {
   void effect(int first_setting) {
     for (uint8_t i = 0; i < ThisEffect::kParamCount; ++i) {
       const kinematics::ParamInfo param = ThisEffect::param(i);
-      nb::dict row;
-      row["name"] = std::string(ThisEffect::info().name) + "." + param.name;
-      row["unit"] = param.unit;
-      row["key"] = "";
-      row["sentence"] = param.summary;
-      row["change"] = "new";
-      rows[first_setting + i] = row;
+      rows[first_setting + i] = textsOf(std::string(ThisEffect::info().name) + "." + param.name,
+                                        param.unit, "", param.summary, "new");
     }
   }
 };
 
 nb::dict ownTexts(uint8_t index) {
-  const settings_host::RowText& text = settings_host::kTexts[index];
+  const RowText& text = kTexts[index];
   const std::string label = text.label;
   const size_t comma = label.find(", ");
-  nb::dict row;
-  row["name"] = label.substr(0, comma);
-  row["unit"] = comma == std::string::npos ? "" : label.substr(comma + 2);
-  row["key"] = text.key;
-  row["sentence"] = text.sentence;
-  row["change"] = text.change;
-  return row;
+  const std::string unit = comma == std::string::npos ? "" : label.substr(comma + 2);
+  return textsOf(label.substr(0, comma), unit, text.key, text.sentence, text.change);
 }
 
 /// `g54_x` to `g59_z`, `g28_x` to `g30_z`.
@@ -65,18 +74,14 @@ nb::dict placeTexts(uint8_t index) {
   const std::string axis(1, "xyz"[index % kPlaceAxes]);
   const bool is_goal = place >= kKeptSystems;
   const std::string code = std::to_string(is_goal ? 28 + 2 * (place - kKeptSystems) : 54 + place);
-  nb::dict row;
-  row["name"] = "g" + code + "_" + axis;
-  row["unit"] = "mm";
-  row["key"] = "";
-  row["sentence"] = is_goal ? "where G" + code + " goes along " + axis + ", set by G" + code +
-                                  ".1; 20000: nowhere yet"
-                            : "where " + axis + " of G" + code + " begins, set by G10 L2 and L20";
-  row["change"] = "new";
-  return row;
+  const std::string sentence =
+      is_goal ? "where G" + code + " goes along " + axis + ", set by G" + code +
+                    ".1; 20000: nowhere yet"
+              : "where " + axis + " of G" + code + " begins, set by G10 L2 and L20";
+  return textsOf("g" + code + "_" + axis, "mm", "", sentence, "new");
 }
 
-/// What a new value touches, in words.
+/// Parts that a new value touches, in words.
 nb::list touchesOf(const Entry& entry) {
   const char* const kWords[] = {"scale",  "geometry", "loops",  "limits",
                                 "drives", "cutter",   "restart"};
@@ -87,7 +92,7 @@ nb::list touchesOf(const Entry& entry) {
 }
 
 nb::list table() {
-  const PlainTable rows;
+  const FlashTable rows;
   EffectTexts effects;
   kinematics::Effects::For<float>::visit(effects);
   nb::list result;
@@ -126,32 +131,27 @@ void setAll(Values& values, const std::map<int, double>& given) {
 /// Frame and effects that the firmware computes with for these settings; the others are at their
 /// defaults.
 nb::dict effective(const std::map<int, double>& given) {
-  const PlainTable rows;
+  const FlashTable rows;
   Room room;
   Values values(rows, room.data());
   setAll(values, given);
   const Geometry geometry = geometryOf(values);
-  nb::dict frame, effects, result;
-  frame["motor_gap"] = geometry.frame.motor_gap;
-  frame["motor_height"] = geometry.frame.motor_height;
-  frame["motor_center_x"] = geometry.frame.motor_center_x;
-  frame["rotation_radius"] = geometry.frame.rotation_radius;
-  frame["sprocket_radius"] = geometry.frame.sprocket_radius;
-  frame["sled_weight"] = geometry.frame.sled_weight;
-  frame["chain_weight"] = geometry.frame.chain_weight;
+  nb::dict frame, effects;
+  for (int i = 0; i < kinematics::kFrameFieldCount; ++i) {
+    const kinematics::FrameField<float>& field = kinematics::frameFields<float>()[i];
+    frame[field.name] = geometry.frame.*field.member;
+  }
   EffectTexts texts;
   kinematics::Effects::For<float>::visit(texts);
   int index = 0;
   for (auto& [number, row] : texts.rows) effects[row["name"]] = geometry.effects.value[index++];
-  result["frame"] = frame;
-  result["effects"] = effects;
-  result["over_top"] = geometry.frame.feed == kinematics::Feed::kOverTop;
-  return result;
+  const bool over_top = geometry.frame.feed == kinematics::Feed::kOverTop;
+  return dictOf({{"frame", frame}, {"effects", effects}, {"over_top", over_top}});
 }
 
 /// The $-numbers of corrections that are set twice: by a published number and by an effect.
 std::vector<std::pair<int, int>> carriedTwice(const std::map<int, double>& given) {
-  const PlainTable rows;
+  const FlashTable rows;
   Room room;
   Values values(rows, room.data());
   setAll(values, given);

@@ -66,7 +66,7 @@ class DryRun {
 
   /// The modes that the next line is read with.
   std::map<std::string, double> modes() const {
-    const gcode::Modal& modal = stage_.machine().modal();
+    const gcode::Modal& modal = stage_.parts().modal;
     return {{"inches", modal.inches},
             {"relative", modal.relative},
             {"absolute_centres", modal.absolute_centres},
@@ -82,11 +82,11 @@ class DryRun {
 
   /// Where the program believes the bit to be, and where its coordinates begin [mm].
   std::vector<double> place() const {
-    const machine::Place place = stage_.machine().program().counted();
+    const machine::Place place = stage_.parts().program.counted();
     return {place.x, place.y, place.z};
   }
   std::vector<double> origin() const {
-    const machine::Coordinates& coordinates = stage_.machine().coordinates();
+    const machine::Coordinates& coordinates = stage_.parts().coordinates;
     return {coordinates.begin(0), coordinates.begin(1), coordinates.begin(2)};
   }
 

@@ -8,9 +8,9 @@
 namespace dry_run {
 namespace {
 
-const double kBytesPerMs = 5.88;             // 58,824 baud, ten bits each
-const size_t kAhead = 126;                   // [characters] that a client sends without an answer
-const machine::BoardName kShield = {2, ""};  // an L298
+const double kBytesPerMs = 5.88;  // 58,824 baud, ten bits each
+const size_t kAhead = 126;        // [characters] that a client sends without an answer
+const machine::BoardName kShield = {2, "", machine::Start::kUsual};  // an L298
 
 bool beginsWith(const std::string& line, const char* words) { return line.rfind(words, 0) == 0; }
 
@@ -36,13 +36,13 @@ void Stage::send(const std::vector<std::string>& lines) {
 }
 
 void Stage::drain() {
-  while (!is_halted_ && !(machine_.planner().isIdle() && machine_.axes().isEmpty()))
+  while (!is_halted_ && !(machine_.parts().planner.isIdle() && machine_.parts().axes.isEmpty()))
     machine_.loop();
 }
 
 bool Stage::probeTouches() {
   // The face of the sheet is where z was declared to be 0.
-  return machine_.axes().length(machine::kZAxis) <= 0;
+  return machine_.parts().axes.length(machine::kZAxis) <= 0;
 }
 
 int16_t Stage::read() {
@@ -89,13 +89,13 @@ void Stage::take(const std::string& line) {
 /// The feed [mm/min] that the program asks for a move of this length that goes at `feed` at most;
 /// infinite for a rapid move, also that of a drilling cycle or of G28.
 float Stage::asked(float feed, float way) const {
-  const gcode::Modal& modal = machine_.modal();
+  const gcode::Modal& modal = machine_.parts().modal;
   if (modal.inverse_time) return modal.motion == 0 ? INFINITY : way * modal.inverse_feed;
   return modal.motion == 0 || feed > 1.001f * modal.feed ? INFINITY : modal.feed;
 }
 
 void Stage::noteQueued() {
-  const motion::MoveQueue& queue = machine_.planner().queue();
+  const motion::MoveQueue& queue = machine_.parts().planner.queue();
   const float per_minute = 60 * float(1000 / tick_every_ms_);
   for (uint8_t i = waiting_; i < queue.count(); ++i) {
     const motion::Move& move = queue.at(i);
@@ -107,12 +107,13 @@ void Stage::noteQueued() {
     z_ = move.z_to;
   }
   waiting_ = queue.count();
-  if (waiting_ == 0) z_ = machine_.axes().length(machine::kZAxis);
+  if (waiting_ == 0) z_ = machine_.parts().axes.length(machine::kZAxis);
 }
 
 void Stage::noteEnded() {
-  const uint8_t count = machine_.planner().queue().count();
-  const double at = seconds() + 1e-3 * double(tick_every_ms_ * int(machine_.axes().waiting()));
+  const uint8_t count = machine_.parts().planner.queue().count();
+  const double at =
+      seconds() + 1e-3 * double(tick_every_ms_ * int(machine_.parts().axes.waiting()));
   for (; waiting_ > count; --waiting_) moves_[ended_++].ends = at;
 }
 

@@ -22,7 +22,7 @@ struct Queued {
   double ends;               ///< [s] when the sled reaches its end
 };
 
-/// What the machine said to a line.
+/// Answer of the machine to a line.
 struct Said {
   int line;
   std::string text;
@@ -42,7 +42,7 @@ class Stage : private machine::Wire,
   /// Lets the queued moves end.
   void drain();
 
-  const machine::Machine& machine() const { return machine_; }
+  const machine::Parts& parts() const { return machine_.parts(); }
   const std::vector<Queued>& moves() const { return moves_; }
   /// Forgets the moves whose set-points are all out; how many they were.
   size_t forgetEnded();

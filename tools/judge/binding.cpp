@@ -46,7 +46,7 @@ nb::ndarray<nb::numpy, double> places(const std::map<std::string, double>& numbe
   for (size_t i = 0; i < count; ++i) {
     machine.sled_weight = weights(i);
     machine.push = always + Eigen::Vector2d(pushes(i, 0), pushes(i, 1));
-    const reference::Settled rest =
+    const reference::Hang rest =
         reference::settle(machine, Eigen::Vector2d(chains(i, 0), chains(i, 1)));
     for (int k = 0; k < 2; ++k)
       data[2 * i + k] = rest.solved ? rest.bit[k] : std::numeric_limits<double>::quiet_NaN();

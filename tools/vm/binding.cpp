@@ -89,7 +89,7 @@ class VirtualMachine {
   Pair sled() const { return {world_.sled().place().x(), world_.sled().place().y()}; }
   Pair chains() const { return {world_.travel(world::kLeft), world_.travel(world::kRight)}; }
   Pair tensions() const { return {world_.sled().leftTension(), world_.sled().rightTension()}; }
-  Pair across() const { return {world_.across().pull(), world_.across().drop()}; }
+  Pair across() const { return {world_.across().pull.norm(), world_.across().drop}; }
   double height() const { return world_.travel(world::kZ); }
   int count(const std::string& axis) { return world_.count(axisNamed(axis)); }
   int duty(const std::string& axis) const { return world_.duty(axisNamed(axis)); }
@@ -128,7 +128,7 @@ class VirtualMachine {
   std::unique_ptr<brain::Brain> brain_;
 };
 
-/// What hands and faults do to a machine.
+/// Hands and faults that act on a machine.
 void bindFaults(nb::class_<VirtualMachine>& machine) {
   using nb::arg;
   machine

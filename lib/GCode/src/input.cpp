@@ -113,27 +113,17 @@ Quick Input::keep(char character) {
   return Quick::kNone;
 }
 
-bool Input::peekLine(char (&line)[kRoom + 1]) const {
+bool Input::takeLine(char (&line)[kRoom + 1]) {
   if (lines_ == 0) return false;
-  char* to = line;
-  for (uint8_t at = first_; ring_[at] != '\n'; at = after(at)) *to++ = ring_[at];
-  *to = '\0';
-  return true;
-}
-
-void Input::dropLine() {
   was_too_long_ = ring_[first_] == kTooLong;
+  char* to = line;
   uint8_t at = first_;
-  for (; ring_[at] != '\n'; at = after(at)) --used_;
+  for (; ring_[at] != '\n'; at = after(at)) *to++ = ring_[at];
+  *to = '\0';
   first_ = after(at);
-  --used_;
+  used_ = uint8_t(used_ - 1 - (to - line));
   --lines_;
   if (resumable_ != 0) --resumable_;
-}
-
-bool Input::takeLine(char (&line)[kRoom + 1]) {
-  if (!peekLine(line)) return false;
-  dropLine();
   return true;
 }
 

@@ -5,7 +5,7 @@
 
 namespace gcode {
 
-/// What a character meant.
+/// Meaning of a character.
 enum class Quick : uint8_t {
   kNone,
   kStop,            ///< `!`
@@ -54,10 +54,6 @@ class Input {
 
   /// Takes the oldest line, without its end; false if none is complete.
   bool takeLine(char (&line)[kRoom + 1]);
-
-  /// Reads the oldest line without taking it: it stays until dropLine().
-  bool peekLine(char (&line)[kRoom + 1]) const;
-  void dropLine();
 
   /// Whether the line taken last had been too long to keep.
   bool wasTooLong() const { return was_too_long_; }

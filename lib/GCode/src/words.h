@@ -5,7 +5,7 @@
 
 namespace gcode {
 
-/// What is wrong with a word.
+/// Fault of a word.
 enum class Fault : uint8_t {
   kNone,
   kNoNumber,   ///< the letter has none

@@ -134,7 +134,7 @@ void pull(Real scale, Point<Real> push, Strand<Real>& left, Strand<Real>& right)
   right.slack = Real(1) / right.pull;
 }
 
-/// What both strands carry, and how easily their weight bends them.
+/// Loads of both strands, and how easily their weight bends them.
 template <class Push, class Real>
 void shareLoad(const Machine<Real>& machine, Push push, Hanging<Real>& hanging) {
   Strand<Real>& left = hanging.strand[kLeft];
@@ -189,7 +189,7 @@ Point<Real> meetStraight(const Machine<Real>& machine, Chains<Real> chains) {
   return {from.x + span.x, from.y - span.y};
 }
 
-/// What two strands do to sprockets and sled under a load, without a push.
+/// Forces of two strands on sprockets and sled under a load, without a push.
 template <class Real>
 PLUMB_INLINE Forces<Real> forcesOf(Real load, NoPush, const Strand<Real>& left,
                                    const Strand<Real>& right) {
@@ -199,7 +199,7 @@ PLUMB_INLINE Forces<Real> forcesOf(Real load, NoPush, const Strand<Real>& left,
   return {scale * (left.cosine * right.cosine), {scale * to_left, scale * to_right}};
 }
 
-/// What two strands do to sprockets and sled under a load and a push.
+/// Forces of two strands on sprockets and sled under a load and a push.
 template <class Real>
 PushedForces<Real> forcesOf(Real load, Point<Real> push, Strand<Real> left, Strand<Real> right) {
   pull(load / (left.sine * right.cosine + left.cosine * right.sine), push, left, right);

@@ -13,14 +13,14 @@ enum class Found : uint8_t {
   kTooManyTries,  ///< the search did not settle; do not use its place
 };
 
-/// What inverse() answers: lengths are zero unless `found` is kYes.
+/// Answer of inverse(): lengths are zero unless `found` is kYes.
 template <class Real>
 struct PaidOut {
   Chains<Real> chains;  ///< [mm] from 12 o'clock
   Found found;
 };
 
-/// What forward() answers. Use the place only if `found` is kYes.
+/// Answer of forward(). Use the place only if `found` is kYes.
 template <class Real>
 struct Place {
   Point<Real> sled;  ///< [mm] where the bit is

@@ -71,7 +71,7 @@ Real easeOf(const Frame<Real>& frame) {
   return ratio * ratio * (Real(kEase) + Real(kEaseByArm) * armShare(frame));
 }
 
-/// What the shape of a strand adds to its sag, as shares of the sag.
+/// Additions to the sag by the shape of a strand, as shares of the sag.
 template <class Real>
 struct DeepSag {
   Real lean;           ///< [1/mm] times lean * free

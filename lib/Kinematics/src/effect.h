@@ -1,4 +1,4 @@
-// What a physical effect is: parameters, words for people, and the hooks it may act through.
+// A physical effect: parameters, words for people, and the hooks it may act through.
 #pragma once
 
 #include <math.h>
@@ -20,7 +20,7 @@ namespace kinematics {
 inline int16_t nearest(float value) { return int16_t(lround(value)); }
 inline int16_t nearest(double value) { return int16_t(lround(value)); }
 
-/// What people read about an effect. Only host tools ask; no such text reaches the board.
+/// Words for people about an effect. Only host tools ask; no such text reaches the board.
 struct EffectInfo {
   const char* name;         ///< snake_case, the word used in files and on screen
   const char* summary;      ///< the cause, in one sentence
@@ -29,7 +29,7 @@ struct EffectInfo {
   const char* remedy;       ///< how to tell it apart or cure it
 };
 
-/// What people read about a parameter.
+/// Words for people about a parameter.
 struct ParamInfo {
   const char* name;
   const char* unit;
@@ -74,7 +74,7 @@ enum Curve {
   kSquareOfTangent,  ///< of degrees
 };
 
-/// What the owner reads off a rule or a scale for a parameter, which is
+/// Reading on a rule or a scale for a parameter, which is
 /// factor * curve(read - zero) * (the sled's weight [N] to the power of kWeightPower).
 struct ReadingInfo {
   const char* title;  ///< what is read; empty: nobody reads it

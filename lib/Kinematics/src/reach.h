@@ -5,7 +5,7 @@
 
 namespace kinematics {
 
-/// What a place is good for. Where several hold, the answer is the first of kCannotHang, kTooTight,
+/// Verdict on a place. Where several hold, the answer is the first of kCannotHang, kTooTight,
 /// kTooSlack, kTooVertical.
 enum class Reach : uint8_t {
   kUsable,
@@ -45,7 +45,7 @@ struct Give {
   Real yy;  ///< [mm/N] in y by a force in y
 };
 
-/// What reach() answers: if the verdict is kCannotHang, all numbers are zero.
+/// Answer of reach(): if the verdict is kCannotHang, all numbers are zero.
 template <class Real>
 struct Reached {
   Reach verdict;

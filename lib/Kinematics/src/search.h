@@ -1,4 +1,4 @@
-// What the searches for a place share, whether the sled hangs on a ring or on two brackets.
+// Steps that all searches for a place share, whether the sled hangs on a ring or on two brackets.
 #pragma once
 
 #include <math.h>

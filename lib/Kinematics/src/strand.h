@@ -23,7 +23,7 @@ enum class Feed : uint8_t { kOverTop, kOffBottom };
 /// Left and right, used as an index.
 enum Side : uint8_t { kLeft, kRight, kSideCount };
 
-/// What every hanging machine has, with or without effects.
+/// Numbers of every hanging machine, with or without effects.
 template <class Real>
 struct Frame {
   Real motor_gap;        ///< [mm] between the sprocket centres
@@ -55,7 +55,7 @@ struct Strand {
   Real ease;          ///< [1] share by which deep chains pull less; only on deep machines
 };
 
-/// What both strands do to the sprockets and the sled, in sled weights.
+/// Forces of both strands on the sprockets and the sled, in sled weights.
 template <class Real>
 struct Forces {
   Real level;                ///< [1] horizontal pull, the same in both strands
@@ -67,7 +67,7 @@ struct Forces {
   Real differencePerLevel(Real left, Real right) const { return (right - left) / level; }
 };
 
-/// What both strands do where something pushes the sled: their level pulls then differ.
+/// Forces of both strands where something pushes the sled: their level pulls then differ.
 template <class Real>
 struct PushedForces {
   Real level[kSideCount];    ///< [1] horizontal pull of each strand

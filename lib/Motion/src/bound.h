@@ -16,7 +16,7 @@ struct Slopes {
   Real third;   ///< [1/mm^2]
 };
 
-/// What the bound needs to know of a path.
+/// Features of a path that the bound depends on.
 template <class Real>
 struct Surroundings {
   Real nearest;          ///< [mm] least distance of the path from either sprocket's centre

@@ -9,7 +9,7 @@ struct Point {
   Real x, y;  ///< [mm]
 };
 
-/// What the exact inverse, passed in as a callable, answers for a place.
+/// Answer of the exact inverse, which is passed in as a callable, for a place.
 template <class Real>
 struct Lengths {
   Real left, right;  ///< [mm] paid out

@@ -99,9 +99,6 @@ struct Segment {
     right.advance();
     --ticks_left;
   }
-
-  /// The set-points now.
-  Knot at() const { return {left.length.whole, right.length.whole}; }
 };
 
 /// A segment that stands still.

@@ -54,10 +54,6 @@ class SetPoints {
     fence();
     head_ = next(head_);
   }
-  void push(const Leg& leg) {
-    vacant() = leg;
-    push();
-  }
 
   /// For the reader: takes the next leg, or false if there is none.
   bool take(Leg& leg) {

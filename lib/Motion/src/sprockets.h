@@ -12,7 +12,7 @@ struct Sprockets {
   Slopes<Real> effects;  ///< bounds for either chain's length less its distance
 };
 
-/// What the bound for segments needs to know of a path.
+/// Features of a path that the bound for segments depends on.
 template <class Real>
 Surroundings<Real> surroundingsOf(const Path<Real>& path, const Sprockets<Real>& sprockets) {
   const Real left = clearance(path, sprockets.left), right = clearance(path, sprockets.right);

@@ -9,7 +9,7 @@
 
 namespace motion {
 
-/// What is wrong with an axis.
+/// Fault of an axis.
 enum class Fault : uint8_t {
   kNone,
   kLeftBehind,  ///< it turns as it is driven, but is too far from its set-point

@@ -1,4 +1,4 @@
-// What went wrong with the board in all its life: how often each event came, and which came last.
+// Faults of the board in all its life: how often each event came, and which came last.
 #pragma once
 
 #include "bytes.h"

@@ -1,4 +1,4 @@
-// What the start reads, and who writes next.
+// Reading at the start, and the next copy to write.
 #include "memory.h"
 
 #include "checksum.h"

@@ -18,7 +18,7 @@ enum class Source : uint8_t {
   kBadValue,      ///< defaults (or a copy of ours): a published setting cannot be right
 };
 
-/// What the machine learns at power-on.
+/// Findings of the machine at power-on.
 struct Started {
   Source source;
   uint8_t version;  ///< of the other firmware's data, with kOtherVersion; 0: before 1.00
@@ -27,7 +27,7 @@ struct Started {
   Position position;  ///< meaningful unless known is kNothing
 };
 
-/// What $RST erases.
+/// Parts that $RST erases.
 enum class Reset : uint8_t {
   kSettings,             ///< $RST=$
   kSettingsAndPosition,  ///< $RST=#

@@ -13,7 +13,7 @@ struct Position {
   bool has_place;          ///< false: x and y are not known (counts of the published firmware)
 };
 
-/// What is known of the position when power comes back.
+/// State of the position when power comes back.
 enum class Known : uint8_t {
   kNothing,  ///< never stored, or forgotten on request: chains must be set
   kAtRest,   ///< the machine stood there when power went

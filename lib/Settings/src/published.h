@@ -16,7 +16,7 @@ enum class Foreign : uint8_t {
   kBeforeOne,     ///< positions of firmware before 1.00
 };
 
-/// What recognise() answers.
+/// Answer of recognise().
 struct Recognised {
   Foreign foreign;
   uint8_t version;    ///< as the data says; 0 if it does not

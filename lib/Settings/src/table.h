@@ -19,7 +19,7 @@ enum class Access : uint8_t {
 /// In place of a step: any value within the limits, or any value but zero.
 enum : uint8_t { kAnyValue = 0, kAnyButZero = 255 };
 
-/// What a new value touches, as bits: what the machine must work out again before the value counts
+/// Parts that a new value touches, as bits: the machine works them out again before the value counts
 /// everywhere. This library uses kScale alone; the machine uses the rest.
 enum Touch : uint8_t {
   kNothing = 0,   ///< it is read where it is used, from the next line on

@@ -44,21 +44,7 @@ void putRefusal(const Table& table, uint8_t number, Refusal why, uint16_t first,
   put('$');
   putNumber(float(first + number), put);
   put(' ');
-  switch (why) {
-    case Refusal::kNone:
-      return;
-    case Refusal::kUnknown:
-      return putWord(table, Word::kUnknown, put);
-    case Refusal::kHidden:
-      return putWord(table, Word::kHidden, put);
-    case Refusal::kNoNumber:
-      return putWord(table, Word::kNoNumber, put);
-    case Refusal::kZero:
-      return putWord(table, Word::kZero, put);
-    case Refusal::kOutOfRange:
-    case Refusal::kBetween:
-      break;
-  }
+  if (why < Refusal::kOutOfRange) return putWord(table, Word(uint8_t(why) - 1), put);
   const Entry entry = table.at(indexOf(table, number));
   putWord(table, Word::kFrom, put);
   putNumber(entry.low, put);

@@ -5,15 +5,15 @@
 
 namespace settings {
 
-/// Why a value is not taken.
+/// Why a value is not taken. The first four reasons are words of their own, in the order of Word.
 enum class Refusal : uint8_t {
   kNone,        ///< it was taken
   kUnknown,     ///< no setting has that number
   kHidden,      ///< only the machine's commands set it
   kNoNumber,    ///< NaN or infinite
+  kZero,        ///< zero, which this setting cannot be
   kOutOfRange,  ///< beyond the limits
   kBetween,     ///< not one of the steps
-  kZero,        ///< zero, which this setting cannot be
 };
 
 /// Whether a row may hold the value.

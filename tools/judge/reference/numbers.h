@@ -2,7 +2,6 @@
 #pragma once
 
 #include <map>
-#include <stdexcept>
 #include <string>
 
 #include "reference/machine.h"
@@ -46,32 +45,5 @@ inline std::string lacks(const std::string& name) {
          ": add its mechanics and its name to tools/judge/reference (links.h for what changes the "
          "count of links)";
 }
-
-/// Builds a machine number by number. A factor applies to the last value set, before or after it.
-class Described {
- public:
-  void set(const std::string& name, double value) { *at(name) = value; }
-  void scale(const std::string& name, double factor) {
-    at(name);
-    factors_.insert({name, 1}).first->second *= factor;
-  }
-
-  /// The machine that was described.
-  Machine machine() const {
-    Machine scaled = machine_;
-    for (const auto& each : factors_) *numbersOf(scaled).at(each.first) *= each.second;
-    return scaled;
-  }
-
- private:
-  double* at(const std::string& name) {
-    const std::map<std::string, double*> numbers = numbersOf(machine_);
-    if (numbers.count(name)) return numbers.at(name);
-    throw std::invalid_argument(lacks(name));
-  }
-
-  Machine machine_;
-  std::map<std::string, double> factors_;
-};
 
 }  // namespace reference

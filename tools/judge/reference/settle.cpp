@@ -8,6 +8,9 @@
 
 namespace reference {
 
+namespace {
+
+/// The chain when its motor has counted `paid_out` [mm] and it pulls like this at its end.
 ChainForm drawCounted(const Machine& machine, Hand hand, const Eigen::Vector3d& pull,
                       double paid_out) {
   const ChainSide& side = sideOf(machine, hand);
@@ -24,6 +27,8 @@ ChainForm drawCounted(const Machine& machine, Hand hand, const Eigen::Vector3d& 
   }
   return drawChain(machine, hand, {pull, free_length});
 }
+
+}  // namespace
 
 Hang settleFrom(const Machine& machine, const Hang& start, const Eigen::Vector2d& paid_out) {
   using detail::Unknowns;
@@ -42,12 +47,9 @@ Hang settleFrom(const Machine& machine, const Hang& start, const Eigen::Vector2d
                         draw(root.at, Hand::kLeft), draw(root.at, Hand::kRight));
 }
 
-Settled settle(const Machine& machine, const Eigen::Vector2d& paid_out,
-               const Eigen::Vector2d& start) {
+Hang settle(const Machine& machine, const Eigen::Vector2d& paid_out, const Eigen::Vector2d& start) {
   const Hang first = hangAt(machine, start);
-  if (!first.solved) return Settled();
-  const Hang hang = settleFrom(machine, first, paid_out);
-  return {hang.solved, hang.bit, hang};
+  return first.solved ? settleFrom(machine, first, paid_out) : first;
 }
 
 }  // namespace reference

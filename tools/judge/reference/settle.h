@@ -7,24 +7,12 @@
 
 namespace reference {
 
-/// Where the sled came to rest. The other fields are valid only if `solved`.
-struct Settled {
-  bool solved = false;
-  Eigen::Vector2d bit = Eigen::Vector2d::Zero();  ///< [mm] where the bit is
-  Hang hang;                                      ///< the chains there
-};
-
-/// The chain's length [mm] without load when the motor has counted `paid_out` [mm] and the chain
-/// pulls like this at its end.
-ChainForm drawCounted(const Machine& machine, Hand hand, const Eigen::Vector3d& pull,
-                      double paid_out);
-
 /// Newton's method from a sled at rest to nearby lengths `paid_out` [mm left, right].
 Hang settleFrom(const Machine& machine, const Hang& start, const Eigen::Vector2d& paid_out);
 
 /// The place where the sled rests on chains of `paid_out` [mm left, right]. The search starts at
 /// `start` [mm], where a sled must be able to hang.
-Settled settle(const Machine& machine, const Eigen::Vector2d& paid_out,
-               const Eigen::Vector2d& start = Eigen::Vector2d::Zero());
+Hang settle(const Machine& machine, const Eigen::Vector2d& paid_out,
+            const Eigen::Vector2d& start = Eigen::Vector2d::Zero());
 
 }  // namespace reference

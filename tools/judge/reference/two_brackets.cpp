@@ -61,10 +61,10 @@ TiltedHang tiltedHangOf(bool found, double tilt, const Eigen::Vector2d& bit, con
                         const ChainForm& right) {
   // A sled could rest upside down too, but no machine brings it there.
   const double least = std::remainder(tilt, 2 * M_PI);
-  const bool solved = found && isSound(left, Hand::kLeft) && isSound(right, Hand::kRight) &&
-                      std::abs(least) < M_PI / 2;
-  if (!solved) return TiltedHang();
-  return {true, least, bit, {left.paid_out, right.paid_out}, left, right};
+  TiltedHang hang;
+  static_cast<Hang&>(hang) = detail::hangOf(found && std::abs(least) < M_PI / 2, bit, left, right);
+  hang.tilt = least;
+  return hang;
 }
 
 /// Rough start at some tilt: straight chains from the axes carry the weight; moments are ignored.
@@ -107,25 +107,6 @@ TiltedHang hangTilted(const Machine& machine, const TwoBrackets& sled, const Eig
     if (hang.solved) return hang;
   }
   return TiltedHang();
-}
-
-TiltedHang settleTilted(const Machine& machine, const TwoBrackets& sled,
-                        const Eigen::Vector2d& paid_out, const Eigen::Vector2d& start) {
-  const TiltedHang first = hangTilted(machine, sled, start);
-  if (!first.solved) return TiltedHang();
-  const auto draw = [&](const TiltedUnknowns& packed, Hand hand) {
-    const int side = hand == Hand::kLeft ? 0 : 1;
-    return drawCounted(machine, hand, packed.segment<3>(3 * side) * machine.sled_weight,
-                       paid_out[side]);
-  };
-  const auto defect = [&](const TiltedUnknowns& packed) {
-    return defects(machine, sled, packed[6], draw(packed, Hand::kLeft), draw(packed, Hand::kRight),
-                   packed.tail<2>() * machine.motor_gap);
-  };
-  const Root<9> root =
-      findRoot<9>(defect, pack(machine, first.left.pull, first.right.pull, first.tilt, start));
-  return tiltedHangOf(root.found, root.at[6], root.at.tail<2>() * machine.motor_gap,
-                      draw(root.at, Hand::kLeft), draw(root.at, Hand::kRight));
 }
 
 }  // namespace reference

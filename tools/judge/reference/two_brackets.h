@@ -3,7 +3,7 @@
 
 #include <Eigen/Core>
 
-#include "reference/settle.h"
+#include "reference/hang.h"
 
 namespace reference {
 
@@ -14,13 +14,9 @@ struct TwoBrackets {
   double center_depth = 79;   ///< [mm] centre of gravity below the bit
 };
 
-/// A tilted sled at rest. The other fields are valid only if `solved`.
-struct TiltedHang {
-  bool solved = false;
-  double tilt = 0;                                     ///< [rad] counterclockwise
-  Eigen::Vector2d bit = Eigen::Vector2d::Zero();       ///< [mm] where the bit is
-  Eigen::Vector2d paid_out = Eigen::Vector2d::Zero();  ///< [mm] counted left, right
-  ChainForm left, right;
+/// A tilted sled at rest. The tilt too is valid only if `solved`.
+struct TiltedHang : Hang {
+  double tilt = 0;  ///< [rad] counterclockwise
 };
 
 /// [mm] from the bit to a bracket.
@@ -36,11 +32,5 @@ double momentOf(const Machine& machine, const TwoBrackets& sled, double tilt, co
 
 /// The chains and the tilt that hold the sled still with its bit at `bit` [mm].
 TiltedHang hangTilted(const Machine& machine, const TwoBrackets& sled, const Eigen::Vector2d& bit);
-
-/// The place and the tilt at which the sled rests on chains of `paid_out` [mm left, right]. The
-/// search starts at `start` [mm], where a sled must be able to hang.
-TiltedHang settleTilted(const Machine& machine, const TwoBrackets& sled,
-                        const Eigen::Vector2d& paid_out,
-                        const Eigen::Vector2d& start = Eigen::Vector2d::Zero());
 
 }  // namespace reference

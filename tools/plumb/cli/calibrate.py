@@ -92,7 +92,7 @@ class Round:
 
     @property
     def best(self) -> Proposal | None:
-        """First measurement to make; more marks where they are too few or lie too close together."""
+        """First measurement; more marks where they are too few or lie too close together."""
         proposals = self.next
         if self.decision.diagnosis.left_open.is_too_much:
             proposals = tuple(each for each in proposals if each.option.is_cut) or proposals

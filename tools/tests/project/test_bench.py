@@ -8,7 +8,6 @@ import pytest
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "bench"))
 import firmware
 import main as bench
-import registry
 from main import Budgets, over_budget, table
 
 FIGURES = {
@@ -47,14 +46,3 @@ def test_the_bench_reads_the_budgets_of_the_build():
 
 def test_static_ram_and_the_deepest_stack_with_a_quarter_fit_into_the_mega():
     assert bench.budgets().most["static RAM, deepest stack and a quarter of it"] == 8_192
-
-
-def test_what_a_question_costs_is_the_time_that_lines_lose():
-    figures = {"lines_per_second": 200, "lines_per_second_asked": 190, "questions_per_second": 10}
-    assert firmware.cycles_of_a_question(figures) == pytest.approx(80_000)
-
-
-def test_the_list_of_effects_is_shortened():
-    short, left_out = registry.only(["chain_sag", "chain_pitch"])
-    assert registry.ENTRY.findall(short) == [("160", "ChainSag"), ("180", "ChainPitch")]
-    assert left_out == len(registry.numbers()) - 2

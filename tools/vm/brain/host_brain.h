@@ -28,7 +28,8 @@ class HostBrain : public Brain,
                   private machine::Clock {
  public:
   /// `world` must live as long as this object; an L298 drives its motors.
-  explicit HostBrain(world::World& world, const machine::BoardName& board = {2, ""})
+  explicit HostBrain(world::World& world,
+                     const machine::BoardName& board = {2, "", machine::Start::kUsual})
       : world_(world), board_(board) {}
   ~HostBrain() override { stop(); }
   HostBrain(const HostBrain&) = delete;
@@ -63,7 +64,7 @@ class HostBrain : public Brain,
  private:
   struct PowerGone {};
 
-  /// What the board counts of an encoder's edges.
+  /// Count of an encoder's edges by the board.
   struct Encoder {
     int32_t at = 0;        ///< the world's count at the last look
     uint16_t counted = 0;  ///< since the start

@@ -17,16 +17,16 @@ struct DriverPins {
 
   /// The duty that the pins show, -255 to 255; positive winds in.
   int duty(const VirtualBoard& board) const {
-    const int level1 = board.pin(input1).level, level2 = board.pin(input2).level;
+    const int level1 = board.pin(input1), level2 = board.pin(input2);
     if (has_flag) return level1 - level2;
     if ((level1 != 0) == (level2 != 0)) return 0;
-    const int level = board.pin(third).level;
+    const int level = board.pin(third);
     return level1 != 0 ? level : -level;
   }
   /// Whether the pins short the motor's winding.
   bool shorts(const VirtualBoard& board) const {
-    const int level1 = board.pin(input1).level, level2 = board.pin(input2).level;
-    return level1 == level2 && (has_flag || board.pin(third).level == 255);
+    const int level1 = board.pin(input1), level2 = board.pin(input2);
+    return level1 == level2 && (has_flag || board.pin(third) == 255);
   }
   /// Shows whether the driver complains, where it can.
   void complain(VirtualBoard& board, bool complains) const {
@@ -34,7 +34,7 @@ struct DriverPins {
   }
 };
 
-/// What a shield connects.
+/// Connections of a shield.
 struct ShieldPins {
   int straps;  ///< as VirtualBoard::strap() takes them
   DriverPins drivers[kMotors];

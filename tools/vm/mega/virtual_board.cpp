@@ -349,13 +349,13 @@ void VirtualBoard::restoreOutside() {
     }
 }
 
-PinState VirtualBoard::pin(int pin) const {
+uint8_t VirtualBoard::pin(int pin) const {
   const PinPlace& place = placeOf(pin);
   if (place.compare != 0 && (avr_->data[place.control] >> place.control_bit & 1))
-    return {true, avr_->data[place.compare]};
+    return avr_->data[place.compare];
   avr_ioport_state_t state;
   avr_ioctl(avr_, AVR_IOCTL_IOPORT_GETSTATE(place.port), &state);
-  return {false, uint8_t(state.port >> place.bit & 1 ? 255 : 0)};
+  return state.port >> place.bit & 1 ? 255 : 0;
 }
 
 void VirtualBoard::onEdge(avr_irq_t*, uint32_t value, void* note) {

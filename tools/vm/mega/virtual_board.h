@@ -24,12 +24,6 @@ namespace vm {
 const uint32_t kClock = 16000000;  // [Hz]
 const uint16_t kRamBegin = 0x200, kRamEnd = 0x2200;
 
-/// State of a pin: its level, or the duty of its PWM.
-struct PinState {
-  bool pulsed;
-  uint8_t level;  ///< 0, 255, or the duty
-};
-
 /// A Mega 2560 with a program in its flash.
 class VirtualBoard {
  public:
@@ -47,14 +41,14 @@ class VirtualBoard {
   void send(const std::string& characters);
   /// Whether a status report has just begun, so that the main program is busy with it.
   bool reports() const { return partial_ == "<"; }
-  bool hasSent() const { return to_send_.empty(); }
 
   /// Lines that the board sent since the last call, without their ends.
   std::deque<std::string> lines;
 
   /// Pulls an input of the Mega (Arduino's number) high or low.
   void setPin(int pin, bool high);
-  PinState pin(int pin) const;
+  /// The level of a pin: 0, 255, or the duty of its PWM.
+  uint8_t pin(int pin) const;
   /// Calls `note` with the level of an output at each of its edges.
   void watchPin(int pin, std::function<void(bool)> note);
 

@@ -32,7 +32,7 @@ struct MotorConstants {
   double count_noise = 0.4;  ///< [counts] standard deviation of edges that come early or late
 };
 
-/// What can be wrong with the motor's wires.
+/// Fault of the motor's wires.
 struct Wires {
   bool motor_reversed = false, encoder_reversed = false;
   bool motor_unplugged = false, encoder_unplugged = false;

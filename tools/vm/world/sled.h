@@ -58,7 +58,7 @@ class Sled {
       const reference::Hang near = reference::settleFrom(machine, at_, paid_out);
       if (near.solved) return near;
     }
-    return reference::settle(machine, paid_out).hang;
+    return reference::settle(machine, paid_out);
   }
 
   /// Friction builds up against each movement and gives way at its limit, so the sled's place

@@ -81,15 +81,18 @@ void World::hookAcross(Axis axis, double slack, double beyond) {
     throw std::invalid_argument("a chain over the top of its sprocket can be hooked across");
   laid_[axis] += sled_.machine().motor_gap + beyond + slack - travel(axis);
   held_at_ = travel(otherOf(axis));
-  across_.hook(handOf(axis), beyond);
+  across_ = reference::Across();
+  hooked_ = axis;
+  beyond_ = beyond;
   tighten();
-  if (across_.isSolved()) return;
+  if (across_.solved) return;
   unhook();
   throw std::invalid_argument("no chain of this length hangs between the sprockets");
 }
 
 void World::unhook() {
-  across_.unhook();
+  across_ = reference::Across();
+  hooked_ = kZ;
   hang();
 }
 
@@ -102,7 +105,7 @@ void World::advance(double seconds) {
     motor.run(-senses_[axis] * duties_[axis], seconds);
   }
   seconds_ += seconds;
-  if (across_.isHooked()) return tighten();
+  if (isHookedAcross()) return tighten();
   if (!isDue(seconds)) return;
   hang();
   sheet_.touch(seconds_, sled_.place(), travel(kZ));
@@ -118,12 +121,15 @@ bool World::isDue(double step) {
 }
 
 void World::tighten() {
-  const Axis axis = across_.hand() == reference::Hand::kLeft ? kLeft : kRight;
-  const Axis other = otherOf(axis);
+  const Axis other = otherOf(hooked_);
   // The other motor turns too if its friction does not hold it.
-  across_.hang(sled_.machine(), travel(axis) + travel(other) - held_at_);
-  motors_[axis].pull = across_.pull() * radius();
-  motors_[other].pull = across_.otherPull() * radius();
+  const double links = travel(hooked_) + travel(other) - held_at_;
+  const reference::Across next =
+      reference::stretchAcross(sled_.machine(), handOf(hooked_), links, beyond_, across_);
+  // It keeps its last pull where the judge finds none.
+  if (next.solved) across_ = next;
+  motors_[hooked_].pull = across_.pull.norm() * radius();
+  motors_[other].pull = across_.other_pull.norm() * radius();
 }
 
 void World::hang() {

@@ -8,7 +8,7 @@
 #include <map>
 #include <string>
 
-#include "world/chain_across.h"
+#include "reference/across.h"
 #include "world/motor.h"
 #include "world/sheet.h"
 #include "world/sled.h"
@@ -72,7 +72,8 @@ class World {
   void hookAcross(Axis axis, double slack, double beyond);
   /// Hangs the sled on its chains again.
   void unhook();
-  const ChainAcross& across() const { return across_; }
+  /// The chain that is hooked across; without pull and drop where none is.
+  const reference::Across& across() const { return across_; }
   /// Gives a number of the judge's machine a new value.
   void set(const std::string& number, double value) { sled_.set(number, value); }
   Wires& wires(Axis axis) { return motors_[axis].wires; }
@@ -87,12 +88,13 @@ class World {
  private:
   void hang();
   void tighten();
+  bool isHookedAcross() const { return hooked_ != kZ; }
   double radius() const;  // [m] of a sprocket
   /// Whether the sled has moved enough, or waited long enough, to be hung again.
   bool isDue(double step);
 
   Sled sled_;
-  ChainAcross across_;
+  reference::Across across_;
   Sheet sheet_;
   std::array<Motor, kAxisCount> motors_;
   std::array<int, kAxisCount> duties_ = {{0, 0, 0}};
@@ -103,6 +105,8 @@ class World {
   double seconds_ = 0, hung_ = 0, looked_ = 0, probe_height_ = -1e9;
   double lacking_ = 0;  // [V] of the motors' supply
   double hang_every_;   // [s]
+  Axis hooked_ = kZ;    // the motor whose chain is hooked across; kZ: none is
+  double beyond_ = 0;   // [mm] of that chain's links past 12 o'clock
   double held_at_ = 0;  // [mm] travel of the motor that held the chain's end, when hooked
   bool is_over_top_ = true;
   bool hangs_ = false;
