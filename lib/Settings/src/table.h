@@ -19,8 +19,8 @@ enum class Access : uint8_t {
 /// In place of a step: any value within the limits, or any value but zero.
 enum : uint8_t { kAnyValue = 0, kAnyButZero = 255 };
 
-/// Parts that a new value touches, as bits: the machine works them out again before the value counts
-/// everywhere. This library uses kScale alone; the machine uses the rest.
+/// Parts that a new value touches, as bits: the machine works them out again before the value
+/// counts everywhere. This library uses kScale alone; the machine uses the rest.
 enum Touch : uint8_t {
   kNothing = 0,   ///< it is read where it is used, from the next line on
   kScale = 1,     ///< how many counts a length has
