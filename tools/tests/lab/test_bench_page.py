@@ -148,6 +148,14 @@ def test_each_distance_is_a_line_by_its_error(lab, page):
     assert page.get_by_role("button", name=re.compile("Lay")).count() == 0
 
 
+def test_a_correction_draws_the_distances_too(lab, page):
+    taped(lab.folder, marks=True)
+    page.goto(f"{lab.url}#/correct")
+    at_rest(page)
+    expect(page.locator(LINES)).to_have_count(12)
+    expect(page.get_by_role("img", name=re.compile("9 marks and 12 distances"))).to_have_count(1)
+
+
 def test_a_distance_in_doubt_is_ringed_and_makes_no_other_line_thinner(lab, page):
     taped(lab.folder, slip=100.0, marks=True)
     page.goto(f"{lab.url}#/bench")

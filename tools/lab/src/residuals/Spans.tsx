@@ -27,8 +27,12 @@ function kindOf(error: number | null | undefined, isDoubted: boolean, sigma: num
   return error > 0 ? "longer" : "shorter";
 }
 
-/** The lines; `scale` is the state whose largest error is the thickest. */
-export function SpanLines({ spans, state, doubted, sigma, scale }: SpanParts & { scale: State }) {
+interface LineParts extends Omit<SpanParts, "units"> {
+  /** The state whose largest error is the thickest. */
+  scale: State;
+}
+
+export function SpanLines({ spans, state, doubted, sigma, scale }: LineParts) {
   const { at } = useScale();
   const sure = [scale, state].flatMap((each) =>
     each.spans.filter((_, i) => !doubted.includes(i)).map((error) => Math.abs(error ?? 0)),

@@ -27,7 +27,7 @@ from plumb.fit.problem import Checked
 from plumb.lab.background import Progress, key_of
 from plumb.lab.machine_line import TheLine, refuse_unanswered
 from plumb.lab.project import FILE, Choices, Project, choices_text
-from plumb.lab.residuals import State, as_set, fitted_state
+from plumb.lab.residuals import Span, State, as_set, fitted_state, spans_of
 from plumb.lab.rounds import board_words, command, inputs_of, known_words, unit_words, usual_words
 from plumb.lab.routes.project import TheProject
 from plumb.lab.routes.verdict import TheBackground
@@ -73,6 +73,7 @@ class CorrectionParts(BaseModel):
     settings: str = ""  # name of the file that these numbers would change
     is_written: bool = False  # that file was fitted to just these marks
     marks: tuple[ComparedMark, ...] = ()
+    spans: list[Span] = []
     sigma: float | None = None  # [mm] of a reading
     as_set: State | None = None  # the marks as that file stands
     accepted: State | None = None  # with what is accepted; None: nothing is
@@ -247,6 +248,7 @@ def _parts(
         settings=choices.settings,
         is_written=is_written,
         marks=whole.raw.marks,
+        spans=spans_of(decision.inputs.measurements),
         sigma=noise.sigma,
         as_set=as_set(whole.raw, noise.sigma, title=f"as {choices.settings} says"),
         accepted=left("with what you accepted", some.after_fit) if some else None,
