@@ -135,14 +135,14 @@ def as_bought(hidden: Hidden, source: Source) -> Hidden:
 
 
 @dataclass(frozen=True)
-class Slip:
+class PenSlip:
     """A reading that is written down some millimetres away, in any direction."""
 
     millimetres: float = 5.0
     where: str = ""  # "once": at a mark that is read once; "repeated": at one read again
 
 
-def slip(board: BoardCut, kind: Slip, source: Source) -> tuple[BoardCut, str]:
+def slip(board: BoardCut, kind: PenSlip, source: Source) -> tuple[BoardCut, str]:
     """Return the board with one reading written down wrongly, and the mark's name."""
     marks = list(board.measurements.marks)
     names = [mark.name for mark in marks]

@@ -16,7 +16,7 @@ from plumb.bench.boards import BoardCut, cut, plan
 from plumb.bench.causes import MAKER, PUBLISHED, Hidden, Plan
 from plumb.bench.hiding import (
     Draw,
-    Slip,
+    PenSlip,
     as_bought,
     besides,
     beyond,
@@ -44,7 +44,7 @@ class Kind:
     draw: Draw
     noise: float = 0.5  # [mm] of a coordinate, and stated so
     repeats: bool = False  # three marks are read three times
-    slips: tuple[Slip, ...] = ()  # of a reading, in turns
+    slips: tuple[PenSlip, ...] = ()  # of a reading, in turns
 
     @property
     def settings(self) -> MachineSettings:
@@ -118,7 +118,7 @@ def _kinds_of(world: str) -> Iterator[Kind]:
             what = f"{count} {usual}, and a bump of {bump:g} mm of no effect"
             draw = besides(bump, several(count))
             yield Kind(f"{world}/bump-{count}-{bump:g}", what, draw, 0.2)
-    slips = tuple(Slip(mm, where) for where in ("once", "repeated") for mm in (5.0, 10.0, 30.0))
+    slips = tuple(PenSlip(mm, where) for where in ("once", "repeated") for mm in (5.0, 10.0, 30.0))
     what = f"one effect {usual}, and a slip of 5, 10 or 30 mm"
     yield Kind(f"{world}/slip", what, several(1), 0.4, repeats=True, slips=slips)
 

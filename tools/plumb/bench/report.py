@@ -20,7 +20,7 @@ AT_ONCE = 4  # boards of a kind that a process takes
 
 
 @dataclass(frozen=True)
-class Wanted:
+class WantedBoards:
     """Which boards are played."""
 
     kinds: tuple[str, ...]
@@ -63,7 +63,7 @@ RATES = tuple(Row.__annotations__)[3:]
 
 
 def play(
-    wanted: Wanted,
+    wanted: WantedBoards,
     *,
     progress: Progress = lambda kind: None,
     jobs: int = 1,
@@ -97,7 +97,7 @@ def play(
     return Report(rows, wanted.marks, wanted.seed, interrupted)
 
 
-def _some(kind: str, indices: Sequence[int], wanted: Wanted) -> list[JudgedBoard]:
+def _some(kind: str, indices: Sequence[int], wanted: WantedBoards) -> list[JudgedBoard]:
     return [judge_board(kind, each, marks=wanted.marks, seed=wanted.seed) for each in indices]
 
 

@@ -41,7 +41,7 @@ from plumb.cli.screen import (
     sentences,
     usual_client,
 )
-from plumb.cli.settings import Written, add_client, add_firmware, client_files_of, client_text
+from plumb.cli.settings import WrittenFiles, add_client, add_firmware, client_files_of, client_text
 from plumb.cure.add import Addition, add
 from plumb.cure.decision import Decision, decide
 from plumb.cure.live_board import refuse_other_origin
@@ -59,7 +59,7 @@ NONE = "none"  # as an effect: the frame alone
 
 
 @dataclass(frozen=True, kw_only=True)
-class WrittenMachine(Written):
+class WrittenMachine(WrittenFiles):
     """Files of the new machine."""
 
     @computed_field
@@ -111,7 +111,7 @@ def run(arguments: argparse.Namespace) -> int:
     files: list[str] = []
     client: ClientFiles | None = None
     if arguments.force or not result.stops:
-        files, client = written(Wanted.by(arguments), inputs, result)
+        files, client = written(WantedFiles.by(arguments), inputs, result)
     if arguments.json:
         print_json(NamedAnswer(**vars(result), written=tuple(files), client=client))
     else:
@@ -134,7 +134,7 @@ def _run_auto(arguments: argparse.Namespace, inputs: Inputs) -> int:
     files: list[str] = []
     client: ClientFiles | None = None
     if result.addition and (arguments.force or result.state != "impossible"):
-        files, client = written(Wanted.by(arguments), inputs, result.addition)
+        files, client = written(WantedFiles.by(arguments), inputs, result.addition)
     if arguments.json:
         why = NothingAdded(auto=result, written=tuple(files), client=client)
         added = result.addition
@@ -158,7 +158,7 @@ def _run_auto(arguments: argparse.Namespace, inputs: Inputs) -> int:
 
 
 @dataclass(frozen=True)
-class Wanted:
+class WantedFiles:
     """The files that are wanted of a new machine."""
 
     output: str | None  # the machine.toml
@@ -171,7 +171,7 @@ class Wanted:
     without: tuple[str, ...]  # names of marks that took no part
 
     @classmethod
-    def by(cls, arguments: argparse.Namespace, **other: str | None) -> Wanted:
+    def by(cls, arguments: argparse.Namespace, **other: str | None) -> WantedFiles:
         """Return what was typed, but for what is given otherwise."""
         named = ("output", "picture", "client", "original")
         typed = {name: getattr(arguments, name, None) for name in named}
@@ -186,7 +186,7 @@ class Wanted:
 
 
 def written(
-    wanted: Wanted, inputs: Inputs, result: Addition
+    wanted: WantedFiles, inputs: Inputs, result: Addition
 ) -> tuple[list[str], ClientFiles | None]:
     """Write the files; their names, and what belongs to the client."""
     client = client_files_of(
@@ -245,7 +245,7 @@ def _for_the_machine(arguments: argparse.Namespace) -> str:
     return next_step("For the machine:", [*words, "-o", sent])
 
 
-def _files(wanted: Wanted, inputs: Inputs, result: Addition) -> dict[str, bytes]:
+def _files(wanted: WantedFiles, inputs: Inputs, result: Addition) -> dict[str, bytes]:
     """Return the machine and its picture, complete before the first is written."""
     files: dict[str, bytes] = {}
     if wanted.output:

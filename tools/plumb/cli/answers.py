@@ -15,15 +15,15 @@ from plumb.bench.report import Report
 from plumb.cli.add import AddAnswer
 from plumb.cli.as_fitted import RecheckAnswer
 from plumb.cli.calibrate import CalibrateAnswer
-from plumb.cli.check import CheckAnswer
+from plumb.cli.check import JobAnswer
 from plumb.cli.diagnose import DiagnosisAnswer
 from plumb.cli.effects import Library
-from plumb.cli.forward import Places
+from plumb.cli.forward import PlacesAnswer
 from plumb.cli.grid import PlannedGrid
 from plumb.cli.home import HomeAnswer
 from plumb.cli.inverse import ChainLengths
-from plumb.cli.next import NextAnswer
-from plumb.cli.reach import ReachAnswer
+from plumb.cli.next import ProposalsAnswer
+from plumb.cli.reach import SheetReach
 from plumb.cli.read import MachineNumbers
 from plumb.cli.report import ReportAnswer
 from plumb.cli.resume import ResumeAnswer
@@ -39,7 +39,7 @@ FILE = Path(__file__).with_name("answers.schema.json")
 
 
 @dataclass(frozen=True)
-class Refusal:
+class RefusalAnswer:
     """Exit code 2; the same line is on standard error."""
 
     error: str
@@ -47,20 +47,20 @@ class Refusal:
 
 # The answer of each command.
 ANSWERS: dict[str, Any] = {
-    "refusal": Refusal,
+    "refusal": RefusalAnswer,
     "add": AddAnswer,
     "bench": Report,
     "calibrate": CalibrateAnswer | RecheckAnswer,
-    "check": CheckAnswer,
+    "check": JobAnswer,
     "compare": Comparison,
     "diagnose": DiagnosisAnswer,
     "effects": Library,
-    "forward": Places,
+    "forward": PlacesAnswer,
     "grid": PlannedGrid,
     "inverse": ChainLengths,
-    "next": NextAnswer,
+    "next": ProposalsAnswer,
     "practice": Score,
-    "reach": ReachAnswer,
+    "reach": SheetReach,
     "read": MachineNumbers,
     "recover": HomeAnswer | SlipAnswer,
     "report": ReportAnswer,

@@ -11,9 +11,18 @@ from plumb.cli.output import say_failure
 from plumb.cli.screen import BAD, GOOD, headline, print_json, table
 from plumb.diagnosis.explanation import FEWEST_NUMBERS
 from plumb.diary.file import RECHECK, folder_of, keep, read_diary
-from plumb.diary.recheck import LEFT, RIGHT, SHEET_X, SHEET_Y, Change, Recheck, fit_of, recheck
+from plumb.diary.recheck import (
+    LEFT,
+    RIGHT,
+    SHEET_X,
+    SHEET_Y,
+    LikelyChange,
+    Recheck,
+    fit_of,
+    recheck,
+)
 from plumb.fit.inputs import Inputs
-from plumb.job.home import Point, Touch, are_apart
+from plumb.job.home import HomeTouch, Point, are_apart
 from plumb.model.plain import in_feet, plain_change, plain_name, words_of
 from plumb.text.answers import Moment, json_of
 from plumb.text.values import bare, signed, unit, worded
@@ -42,7 +51,7 @@ class RecheckAnswer:
     marks: list[RecheckedMark]
     fit: Moment  # of the diary
     sheet_turned_rad: float
-    changes: tuple[Change, ...]  # single changes that may explain the errors, the best first
+    changes: tuple[LikelyChange, ...]  # single changes that may explain the errors, the best first
 
 
 def checked_by_fit(inputs: Inputs, path: str) -> Recheck | None:
@@ -63,7 +72,7 @@ def checked_by_fit(inputs: Inputs, path: str) -> Recheck | None:
             return None
     if any(mark.chains or mark.chains_swapped or mark.sled_weight for mark in measured.marks):
         return None
-    touches = [Touch(mark.name, where, mark.target) for mark, where in measured.readings]
+    touches = [HomeTouch(mark.name, where, mark.target) for mark, where in measured.readings]
     diary = read_diary(folder)
     if not are_apart(touches) or fit_of(diary, settings) is None:
         return None
@@ -136,7 +145,7 @@ def _text(answer: RecheckAnswer) -> str:
     return "\n\n".join(parts)
 
 
-def _change(change: Change) -> str:
+def _change(change: LikelyChange) -> str:
     """Return a change with its size."""
     if change.name in (LEFT, RIGHT):
         return f"the {change.name} is {_size(change)} longer than the machine believes"
@@ -152,5 +161,5 @@ def _change(change: Change) -> str:
     return in_feet(words["more"]).replace("by #", "#").replace("#", by)
 
 
-def _size(change: Change) -> str:
+def _size(change: LikelyChange) -> str:
     return f"{signed(change.size)} +- {worded(change.sigma)}"

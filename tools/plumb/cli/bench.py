@@ -6,7 +6,7 @@ import argparse
 from collections.abc import Callable, Sequence
 
 from plumb.bench.kinds import GRIDS, KINDS
-from plumb.bench.report import Report, Row, Wanted, play
+from plumb.bench.report import Report, Row, WantedBoards, play
 from plumb.cli.arguments import add_json, count
 from plumb.cli.output import INTERRUPTED
 from plumb.cli.screen import Bar, print_json, sentences, table
@@ -16,7 +16,7 @@ from plumb.text.errors import InputError
 def run(arguments: argparse.Namespace) -> int:
     """Run the bench, print its table, and return the exit code."""
     kinds = chosen_of(arguments.kinds)
-    wanted = Wanted(kinds, arguments.boards, arguments.marks, arguments.seed)
+    wanted = WantedBoards(kinds, arguments.boards, arguments.marks, arguments.seed)
     report = play(
         wanted,
         progress=counted(len(kinds) * wanted.boards),

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 from pydantic import computed_field
 
-from plumb.cli.add import Wanted, written
+from plumb.cli.add import WantedFiles, written
 from plumb.cli.addition import KINDS, details_text, short_text
 from plumb.cli.arguments import (
     add_details,
@@ -36,7 +36,7 @@ from plumb.cli.screen import (
     sentences,
     usual_client,
 )
-from plumb.cli.settings import Written, add_client, add_firmware, client_text
+from plumb.cli.settings import WrittenFiles, add_client, add_firmware, client_text
 from plumb.cure.add import Addition
 from plumb.cure.decision import Decision, decide
 from plumb.cure.live_board import refuse_other_origin
@@ -51,7 +51,7 @@ from plumb.text.values import in_inches, worded
 
 
 @dataclass(frozen=True)
-class Round:
+class CalibrationRound:
     """A round of measuring: what was compared, decided, and proposed."""
 
     comparison: Comparison
@@ -103,7 +103,7 @@ TO_MEASURE = ("measure_first", "unknown_cause")  # decisions that ask for more
 
 
 @dataclass(frozen=True, kw_only=True)
-class CalibrateAnswer(Written, Round):
+class CalibrateAnswer(WrittenFiles, CalibrationRound):
     """A round of measuring, and what was written of it."""
 
 
@@ -125,9 +125,9 @@ def run(arguments: argparse.Namespace) -> int:
     return int(not this.done)
 
 
-def round_of(inputs: Inputs) -> Round:
+def round_of(inputs: Inputs) -> CalibrationRound:
     """Return what the marks say, what was added by it, and what to measure first if it is open."""
-    this = Round(compare(inputs), decide(inputs))
+    this = CalibrationRound(compare(inputs), decide(inputs))
     if this.decision.state not in TO_MEASURE:
         return this
     advice = propose(this.decision.diagnosis, inputs, progress=bar("simulating"))
@@ -135,14 +135,14 @@ def round_of(inputs: Inputs) -> Round:
 
 
 def _written(
-    arguments: argparse.Namespace, inputs: Inputs, this: Round
+    arguments: argparse.Namespace, inputs: Inputs, this: CalibrationRound
 ) -> tuple[list[str], ClientFiles | None]:
     """Write the machine and what belongs to its client, if the question is settled."""
     addition = this.decision.addition
     if not this.done or addition is None:
         return [], None
     _, client, *original = usual_client(arguments)
-    wanted = Wanted.by(
+    wanted = WantedFiles.by(
         arguments,
         output=arguments.output or free_name("machine", ".toml"),
         # Without a client's file there is no telling what sends to the machine.
@@ -187,7 +187,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 # What `plumb calibrate` says to people: the size of the error, a verdict, and what to do.
 
 
-def size_now(this: Round) -> list[str]:
+def size_now(this: CalibrationRound) -> list[str]:
     """Return what is to be known of the new numbers; where something is to be measured first, the
     error as it is.
     """
@@ -208,7 +208,7 @@ def size_now(this: Round) -> list[str]:
     return [sentences([f"{said} {outside}".strip()], mark="")]
 
 
-def details(this: Round, inputs: Inputs) -> list[str]:
+def details(this: CalibrationRound, inputs: Inputs) -> list[str]:
     """Return all that is known after this round."""
     sheet_width, typed = inputs.settings.sheet_width, inputs.measurements.typed
     moved = pose_sentence(this.comparison, sheet_width, typed)
@@ -220,7 +220,7 @@ def details(this: Round, inputs: Inputs) -> list[str]:
 
 
 def _ending(
-    this: Round,
+    this: CalibrationRound,
     arguments: argparse.Namespace,
     files: list[str],
     client: ClientFiles | None,
@@ -258,7 +258,7 @@ def _written_text(files: list[str], client: ClientFiles | None) -> str:
     return f"{written}\n{client_text(client)}" if client else written
 
 
-def _read_again(this: Round, arguments: argparse.Namespace) -> str:
+def _read_again(this: CalibrationRound, arguments: argparse.Namespace) -> str:
     """Return what follows from readings that are wrong."""
     same = same_inputs(arguments)
     names = dict.fromkeys(slip.name for slip in this.decision.diagnosis.outliers)

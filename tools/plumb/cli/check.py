@@ -36,11 +36,11 @@ from plumb.cli.screen import (
 from plumb.cure.live_board import refuse_other_origin
 from plumb.fit.inputs import settings_in
 from plumb.job.bits import INCH, Tools
-from plumb.job.check import Checked, Error, Part, check_job
+from plumb.job.check import CheckedJob, Error, Part, check_job
 from plumb.job.dry_run import comment_of, outline_of, program_in
 from plumb.job.findings import HALTS, IGNORED, SINKS, WAITS, Finding, Hanging, Slower, Times
-from plumb.job.fixes import Change, fixed, has_habit
-from plumb.job.resume import Machine
+from plumb.job.fixes import FixedLine, fixed, has_habit
+from plumb.job.resume import JobMachine
 from plumb.job.wood import Piece
 from plumb.model.predict import CANNOT_HANG, REACH_WORDS
 from plumb.pictures.drawing import BAD as WRONG
@@ -54,12 +54,12 @@ NAMED = 30  # parts that get their number in the picture
 
 
 @dataclass(frozen=True)
-class CheckAnswer:
+class JobAnswer:
     """Expectations of a program."""
 
-    checked: Internal[Checked]
+    checked: Internal[CheckedJob]
     written: list[str]
-    changed: tuple[Change, ...]  # by --fix
+    changed: tuple[FixedLine, ...]  # by --fix
 
     good = part("checked.is_good", bool)
     halted_at = part("checked.done.halted_at", int | None, "A line.")
@@ -91,9 +91,9 @@ def run(arguments: argparse.Namespace) -> int:
     arguments.controller = None
     lines = program_in(arguments.job, say=say_failure)
     checked = _checked(arguments, settings, lines)
-    files, changes = {}, tuple[Change, ...]()
+    files, changes = {}, tuple[FixedLine, ...]()
     if arguments.fix:
-        machine = Machine(settings, (*arguments.start, 0.0), dict(arguments.set))
+        machine = JobMachine(settings, (*arguments.start, 0.0), dict(arguments.set))
         mended = fixed(machine, lines, checked.findings, source=arguments.job)
         changes = mended.changes
         # In front of the first line, so that each line keeps its number.
@@ -107,7 +107,7 @@ def run(arguments: argparse.Namespace) -> int:
         files[arguments.outline] = outline.encode()
     write_outputs(files, inputs=[arguments.job, arguments.settings, *arguments.marks])
     if arguments.json:
-        print_json(CheckAnswer(checked, list(files), changes))
+        print_json(JobAnswer(checked, list(files), changes))
     else:
         if arguments.fix:
             print(f"{_changed(changes, arguments)}\n")
@@ -117,7 +117,7 @@ def run(arguments: argparse.Namespace) -> int:
 
 def _checked(
     arguments: argparse.Namespace, settings: MachineSettings, lines: Sequence[str]
-) -> Checked:
+) -> CheckedJob:
     inputs = inputs_of(arguments) if arguments.marks else None
     if inputs:
         refuse_other_origin(inputs)
@@ -137,7 +137,7 @@ def _checked(
     )
 
 
-def _picture(checked: Checked, settings: MachineSettings, name: str, *, form: str) -> bytes:
+def _picture(checked: CheckedJob, settings: MachineSettings, name: str, *, form: str) -> bytes:
     """Return the whole sheet with the job on it, and below it the job from near."""
     sheet = sheet_of(checked, settings, name)
     meaning = "Blue: the bit in the wood; grey: above the sheet; orange: wrong, or not usable"
@@ -149,7 +149,7 @@ def _picture(checked: Checked, settings: MachineSettings, name: str, *, form: st
     return draw(panels, sheet=settings.sheet, words=words, columns=1, form=form)
 
 
-def sheet_of(checked: Checked, settings: MachineSettings, name: str) -> Panel:
+def sheet_of(checked: CheckedJob, settings: MachineSettings, name: str) -> Panel:
     """Return the sheet with the job: its ways by their kind, its parts by number, its depth."""
     over_sheet, samples, piece = checked.over_sheet, checked.samples, checked.piece
     ways = np.split(samples.places, np.flatnonzero(np.diff(samples.move)) + 1)
@@ -189,7 +189,7 @@ def sheet_of(checked: Checked, settings: MachineSettings, name: str) -> Panel:
 POINT, LEAST, FREE = 0.1, 20.0, 0.08  # [mm] of a way, of wood from near; of the job's size
 
 
-def near_view(checked: Checked) -> Corners:
+def near_view(checked: CheckedJob) -> Corners:
     """Return what of the sheet is shown from near: the job with a little around it."""
     piece = checked.piece
     cut = checked.samples.places[checked.over_sheet.cut[checked.samples.move]]
@@ -256,7 +256,7 @@ SHOWN = 12  # lines of a kind
 PARTS = 12  # parts in the table
 
 
-def as_text(checked: Checked, arguments: argparse.Namespace) -> str:
+def as_text(checked: CheckedJob, arguments: argparse.Namespace) -> str:
     """Return the check for people: what is wrong, the job, its parts, what to do next."""
     name = Path(arguments.fix or arguments.job).name
     paragraphs = [headline(_verdict(checked, name), GOOD if checked.is_good else BAD)]
@@ -280,12 +280,12 @@ def as_text(checked: Checked, arguments: argparse.Namespace) -> str:
     return "\n\n".join(filter(None, paragraphs))
 
 
-def _changed(changes: Sequence[Change], arguments: argparse.Namespace) -> str:
+def _changed(changes: Sequence[FixedLine], arguments: argparse.Namespace) -> str:
     """Return what was changed: each pair of lines once, with its first line."""
     name = Path(arguments.fix).name
     if not changes:
         return f"Nothing in {Path(arguments.job).name} had to change; {name} holds the same."
-    alike: dict[tuple[str, str], list[Change]] = {}
+    alike: dict[tuple[str, str], list[FixedLine]] = {}
     for each in changes:
         alike.setdefault((each.before, each.after), []).append(each)
     said = []
@@ -298,7 +298,7 @@ def _changed(changes: Sequence[Change], arguments: argparse.Namespace) -> str:
     return f"{head}\n{sentences(said)}"
 
 
-def _verdict(checked: Checked, name: str) -> str:
+def _verdict(checked: CheckedJob, name: str) -> str:
     if checked.is_good:
         return f"Nothing is wrong with {name}."
     lines = {line for finding in checked.findings if finding.is_wrong for line in finding.lines}
@@ -307,7 +307,7 @@ def _verdict(checked: Checked, name: str) -> str:
     return f"{_count(len(lines), 'line')} of {name} {'is' if len(lines) == 1 else 'are'} wrong."
 
 
-def _wrong(checked: Checked) -> list[str]:
+def _wrong(checked: CheckedJob) -> list[str]:
     """Return each wrong line, and where no sled should cut."""
     wrong = [finding for finding in checked.findings if finding.is_wrong]
     halts = {HALTS: "the machine halts: "}
@@ -331,7 +331,7 @@ def _where(finding: Finding) -> str:
     return f"{finding.count} lines from line {finding.line} on"
 
 
-def _job(checked: Checked) -> str:
+def _job(checked: CheckedJob) -> str:
     times = checked.times
     rows = [
         ["time", time_text(times.whole), "without the operator's pauses"],
@@ -371,7 +371,7 @@ def _give(hanging: Hanging) -> str:
     return f"by a push of 1 kg on the bit, most at line {hanging.give_line}"
 
 
-def _parts(checked: Checked) -> str:
+def _parts(checked: CheckedJob) -> str:
     header = ["part", "lines", "size", "deep"]
     header += ["width", "height", "askew"] if checked.has_errors else []
     rows = []
@@ -398,7 +398,7 @@ def _error(error: Error | None) -> str:
     return "-" if error is None else f"{signed(error.mm)} +-{bare(error.within)}"
 
 
-def _notes(checked: Checked) -> list[str]:
+def _notes(checked: CheckedJob) -> list[str]:
     notes = [
         f"{_count(each.moves, 'move')} slower than the program asks, by {each.because}: line "
         f"{each.line} asks for {_feed(each.asked)} {unit()}/min and gets {_feed(each.feed)}"

@@ -16,7 +16,7 @@ from plumb.text.values import unit
 
 
 @dataclass(frozen=True)
-class Places:
+class PlacesAnswer:
     """Where the sled hangs on each pair of lengths [mm]."""
 
     places: tuple[Pair, ...]
@@ -30,7 +30,7 @@ def run(arguments: argparse.Namespace) -> int:
     sled, outcome = places(settings, chains)
     answers, words = answered(sled, outcome)
     if arguments.json:
-        print_json(Places(answers, words))
+        print_json(PlacesAnswer(answers, words))
     else:
         said = count_sentence(words, "pair")
         print(f"{said} Places from the middle of the sheet, y up; {unit()}.\n")

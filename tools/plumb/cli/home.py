@@ -20,8 +20,8 @@ from plumb.job.home import (
     SAME,
     HomeFit,
     HomeMark,
+    HomeTouch,
     Point,
-    Touch,
     hole_program,
     home_file,
     home_fit,
@@ -216,7 +216,7 @@ def _chains(mark: HomeMark | ShownMark) -> str:
     return f"L{mark.chains[0]:.3f} R{mark.chains[1]:.3f}"
 
 
-def touches_of(arguments: argparse.Namespace) -> tuple[Touch, ...]:
+def touches_of(arguments: argparse.Namespace) -> tuple[HomeTouch, ...]:
     """Return the touches, numbered, those of home marks by name. Raises InputError for a hole
     twice.
     """
@@ -224,9 +224,9 @@ def touches_of(arguments: argparse.Namespace) -> tuple[Touch, ...]:
     for number, (hole, shown) in enumerate(arguments.touch, 1):
         if isinstance(hole, str):
             mark = home_mark(arguments.settings, hole)
-            touches.append(Touch(hole, mark.place, shown))
+            touches.append(HomeTouch(hole, mark.place, shown))
         else:
-            touches.append(Touch(str(number), hole, shown))
+            touches.append(HomeTouch(str(number), hole, shown))
     refuse_repeated(touches)
     return tuple(touches)
 
@@ -241,7 +241,7 @@ def home_mark(settings: str, name: str) -> HomeMark:
     return marks[name]
 
 
-def asked_signs(touches: Sequence[Touch]) -> list[str]:
+def asked_signs(touches: Sequence[HomeTouch]) -> list[str]:
     """Return a question about each touch that seems to have lost a minus sign."""
     return [
         f"Touch {touch.name}: has {name} lost its sign? The other sign lies near the hole."

@@ -59,7 +59,7 @@ WORDED = {question: [3] if question == FIND else [] for question in HEADS}  # co
 
 
 @dataclass(frozen=True)
-class NextAnswer(Next):
+class ProposalsAnswer(Next):
     """The proposals, with what they are for."""
 
     diagnosis: Internal[Diagnosis]
@@ -81,7 +81,7 @@ def run(arguments: argparse.Namespace) -> int:
     read = [arguments.settings, *arguments.marks, *named]
     write_outputs(files, inputs=read)
     if arguments.json:
-        print_json(NextAnswer(**vars(advice), diagnosis=diagnosis, written=tuple(files)))
+        print_json(ProposalsAnswer(**vars(advice), diagnosis=diagnosis, written=tuple(files)))
     else:
         facts = details(diagnosis, advice) if arguments.details else other_ways(advice, place)
         chosen = advice.proposals[place - 1] if advice.proposals else None

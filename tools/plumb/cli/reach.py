@@ -39,7 +39,7 @@ MAP_ROWS = 8  # characters are twice as high as wide
 
 
 @dataclass(frozen=True)
-class ReachAnswer:
+class SheetReach:
     """Which part of the sheet is usable, and what limits the rest."""
 
     survey: Internal[Survey]
@@ -85,7 +85,7 @@ def run(arguments: argparse.Namespace) -> int:
     priors_with(arguments.prior)  # refuses a number that is none
     survey = survey_sheet(settings, **limits)
     expected = expected_anywhere(settings, expected_priors(dict(arguments.prior)))
-    answer = ReachAnswer(survey, expected, [arguments.output] if arguments.output else [])
+    answer = SheetReach(survey, expected, [arguments.output] if arguments.output else [])
     if arguments.output:
         write_outputs({arguments.output: drawn_map(survey, form=form)}, inputs=[arguments.settings])
     if arguments.json:
@@ -123,7 +123,7 @@ def drawn_map(survey: Survey, *, form: str = "png") -> bytes:
     return draw([panel], sheet=survey.sheet, words=words, form=form)
 
 
-def as_text(answer: ReachAnswer) -> str:
+def as_text(answer: SheetReach) -> str:
     """Return the survey for people: conclusion, what is normal, map, worst places."""
     survey, expected, lines = answer.survey, answer.expected, answer.map
     edge = "+" + "-" * len(lines[0]) + "+"

@@ -12,7 +12,7 @@ from plumb.cli.output import STDOUT, say_failure, write_outputs
 from plumb.cli.screen import next_step, print_json, sentences
 from plumb.fit.inputs import settings_in
 from plumb.job.dry_run import comment_of, program_in
-from plumb.job.resume import Machine, Resumed, resume_at_line, resume_at_place
+from plumb.job.resume import JobMachine, Resumed, resume_at_line, resume_at_place
 from plumb.text.answers import key
 from plumb.text.errors import InputError
 from plumb.text.values import bare, unit, worded
@@ -34,7 +34,9 @@ def run(arguments: argparse.Namespace) -> int:
     """Write the program, say how it begins, and return the exit code."""
     if arguments.line is None and arguments.at is None:
         raise InputError("say where to go on: --line N, --at X,Y, or both")
-    machine = Machine(settings_in(arguments.settings), (*arguments.start, 0.0), dict(arguments.set))
+    machine = JobMachine(
+        settings_in(arguments.settings), (*arguments.start, 0.0), dict(arguments.set)
+    )
     lines = program_in(arguments.job, say=say_failure)
     if arguments.at is None:
         resumed = resume_at_line(machine, lines, arguments.line)

@@ -285,7 +285,7 @@ def free_name(stem: str, ending: str) -> str:
 STDIN = 0  # not sys.stdin: its lock would be held at the end of the program
 
 
-class Question:
+class Prompt:
     """A question whose answer is a line."""
 
     def __init__(self, text: str) -> None:

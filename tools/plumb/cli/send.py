@@ -15,16 +15,16 @@ from typing import Annotated
 from plumb.cli.arguments import add_json, add_port
 from plumb.cli.followed import NOWHERE, Followed, time_left
 from plumb.cli.output import say_failure
-from plumb.cli.screen import Question, free_name, next_step, print_json, sentences
+from plumb.cli.screen import Prompt, free_name, next_step, print_json, sentences
 from plumb.diary.file import PROGRAM, keep, program_entry, write_and_keep
 from plumb.firmware.settings import refuse_other_numbers, refuse_other_origin
 from plumb.firmware.telemetry import telemetry_in, warnings
 from plumb.grid.cut_with import form_of
 from plumb.job.dry_run import program_in, refuse_other_files
-from plumb.line.memory import Written, kept_before, lines_for, read_numbers
+from plumb.line.memory import WrittenNumbers, kept_before, lines_for, read_numbers
 from plumb.line.port import LostError, SerialPort, port_for
 from plumb.line.progress import SAID_PAUSED, waits_in
-from plumb.line.reached import Reached
+from plumb.line.reached import SureLines
 from plumb.line.sender import PAUSED, RefusedError, Sender, StoppedError, cleaned
 from plumb.marks.form import read_form
 from plumb.model.predict import known_effects
@@ -151,14 +151,16 @@ def _cut_with(what: str, text: Sequence[str]) -> MachineSettings | None:
     return file_round.cut_with
 
 
-def _write(sender: Sender, path: str, lines: list[str], *, back: bool) -> tuple[Written, str]:
+def _write(
+    sender: Sender, path: str, lines: list[str], *, back: bool
+) -> tuple[WrittenNumbers, str]:
     """Write numbers; the file that keeps the numbers before."""
     written, kept, failure = write_and_keep(sender, path, lines, back=back)
     say_failure(failure)
     return written, kept
 
 
-def _print_written(arguments: argparse.Namespace, done: tuple[Written, str]) -> None:
+def _print_written(arguments: argparse.Namespace, done: tuple[WrittenNumbers, str]) -> None:
     written, kept = done
     rows = [f"${number}: {old:g} -> {new:g}" for number, (old, new) in written.changed.items()]
     more = len(rows) - SHOWN
@@ -187,7 +189,7 @@ def _watched(sender: Sender, numbers: dict[int, float]) -> list[str]:
     return said
 
 
-def _print_resume(arguments: argparse.Namespace, reached: Reached) -> None:
+def _print_resume(arguments: argparse.Namespace, reached: SureLines) -> None:
     """Say how far a program came, and how to go on."""
     job = Path(arguments.what)
     if not job.is_file():
@@ -211,7 +213,7 @@ class _Attendant:
         self,
         followed: Followed,
         text: Sequence[str],
-        reached: Reached,
+        reached: SureLines,
         said: Callable[[str], None],
     ) -> None:
         """`text`: the program with its comments, which say what its pauses are for; `said`: called
@@ -225,7 +227,7 @@ class _Attendant:
         self._done = 0
         self._waits_now = False
         self._has_slipped_in = False
-        self._question: Question | None = None
+        self._question: Prompt | None = None
         self._asked_at = 0  # reports that had come then
 
     def answered(self, done: int) -> None:
@@ -262,7 +264,7 @@ class _Attendant:
     def _ask(self, sender: Sender, why: str) -> None:
         self._asked_at = sender.reports
         self._followed.clear()
-        self._question = Question(f"{why} Enter goes on; s and Enter stops: ")
+        self._question = Prompt(f"{why} Enter goes on; s and Enter stops: ")
 
     def _slip_in(self, sender: Sender, typed: str) -> None:
         """Send what was typed to a machine that waits; once that is answered, ask again."""
@@ -272,7 +274,7 @@ class _Attendant:
             print(error)
         self._has_slipped_in = True
 
-    def _settle(self, sender: Sender, question: Question) -> None:
+    def _settle(self, sender: Sender, question: Prompt) -> None:
         """Do what was answered. Ctrl-C, and an input that has ended, stop the machine."""
         is_early = sender.reports - self._asked_at < EARLY
         if not self.pressed.is_set() and (question.answer is None or is_early):
@@ -321,7 +323,7 @@ def _stream(
     # They also tell the sender how long the motors hold, and how far ahead answers come.
     numbers = read_numbers(sender)
     lines = list(cleaned(text))
-    reached = Reached(sender, text)
+    reached = SureLines(sender, text)
     followed = Followed(text, time_left(sender, numbers, text))
     attendant = _Attendant(followed, text, reached, answer.hear)
     sender.attend, sender.said = attendant.attend, attendant.hear

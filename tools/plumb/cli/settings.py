@@ -14,7 +14,7 @@ from plumb.cli.arguments import add_details, add_force, add_json, add_settings, 
 from plumb.cli.output import write_outputs
 from plumb.cli.screen import headline, next_step, print_json, sentences, table
 from plumb.firmware.client_files import CLIENT_FILES, ClientFiles, client_files, gcode
-from plumb.firmware.settings import Number, firmware_numbers
+from plumb.firmware.settings import SentSetting, firmware_numbers
 from plumb.fit.inputs import settings_in
 from plumb.settings.machine import CLIENTS, FIRMWARES, MachineSettings
 from plumb.text.answers import Internal, meant
@@ -25,7 +25,7 @@ from plumb.text.errors import InputError
 class SettingLines:
     """A machine as its firmware holds it."""
 
-    settings: tuple[Number, ...]
+    settings: tuple[SentSetting, ...]
     written: tuple[str, ...]
     typed: Annotated[
         dict[str, str], meant("What the owner types into the client, by `section: key`.")
@@ -73,12 +73,12 @@ def run(arguments: argparse.Namespace) -> int:
 MOST = 16  # rows of a short answer
 
 
-def _at_work(numbers: tuple[Number, ...]) -> tuple[Number, ...]:
+def _at_work(numbers: tuple[SentSetting, ...]) -> tuple[SentSetting, ...]:
     """Return the numbers that are not 0."""
     return tuple(row for row in numbers if float(row.text) != 0)
 
 
-def _verdict(numbers: tuple[Number, ...], shown: tuple[Number, ...]) -> str:
+def _verdict(numbers: tuple[SentSetting, ...], shown: tuple[SentSetting, ...]) -> str:
     count = len(_at_work(numbers))
     said = f"{count} numbers make this machine, {len(numbers) - count} are 0."
     return said if len(shown) == len(numbers) else f"{said} --details shows all."
@@ -103,7 +103,7 @@ def _refuse_lines_alone(arguments: argparse.Namespace) -> None:
         raise InputError("--client goes with --to gcode: a table sets no machine")
 
 
-def _table(numbers: tuple[Number, ...]) -> str:
+def _table(numbers: tuple[SentSetting, ...]) -> str:
     rows = [[f"${row.number}", row.name, row.text, row.unit] for row in numbers]
     return table(["number", "name", "value", "unit"], rows, left=2, words=[-1]) + "\n"
 
@@ -181,7 +181,7 @@ def typed_json(files: ClientFiles | None) -> dict[str, str]:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Written:
+class WrittenFiles:
     """The files that were written, and what the owner does with them."""
 
     written: tuple[str, ...]

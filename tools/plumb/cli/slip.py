@@ -14,7 +14,7 @@ from plumb.cli.screen import BAD, GOOD, OPEN, headline, next_step, print_json, s
 from plumb.diary.file import SLIP as SLIP_ENTRY
 from plumb.diary.file import keep
 from plumb.fit.inputs import settings_in
-from plumb.job.home import Point, Touch
+from plumb.job.home import HomeTouch, Point
 from plumb.job.slip import (
     CANNOT_TELL,
     LINK,
@@ -22,7 +22,7 @@ from plumb.job.slip import (
     OTHER,
     SHEET,
     SLIP,
-    Account,
+    SlipAccount,
     SlipFinding,
     find_slip,
     next_hole,
@@ -37,7 +37,7 @@ SURE = 0.999  # odds beyond which no more digits are said
 
 
 @dataclass(frozen=True)
-class SlipTouch(Touch):
+class SlipTouch(HomeTouch):
     """A touched mark, its errors and the chains that the machine believes there [mm]."""
 
     error: list[float]  # of the hole, by the machine's chains
@@ -51,7 +51,7 @@ class SlipAnswer:
 
     verdict: str
     sentence: str
-    accounts: tuple[Account, ...]  # the likeliest first
+    accounts: tuple[SlipAccount, ...]  # the likeliest first
     touches: list[SlipTouch]
     sigma_mm: float
     lines: list[str]  # the repair, if there is something to repair
@@ -156,7 +156,7 @@ def sentence(finding: SlipFinding) -> str:
     return says[finding.verdict]
 
 
-def _longer(account: Account) -> str:
+def _longer(account: SlipAccount) -> str:
     """Return which chain is how much longer or shorter."""
     said = [
         f"the {side} chain is {abs(count)} link{'s' if abs(count) > 1 else ''} "
@@ -168,7 +168,7 @@ def _longer(account: Account) -> str:
     return f"{joined[0].upper()}{joined[1:]} than the machine believes"
 
 
-def _account(account: Account) -> str:
+def _account(account: SlipAccount) -> str:
     """Return an account in a few words."""
     if account.kind == SLIP:
         said = [

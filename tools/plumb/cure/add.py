@@ -50,7 +50,7 @@ class Quality:
 
 
 @dataclass(frozen=True)
-class Step(Quality):
+class FitStep(Quality):
     """The fit after another effect."""
 
     effect: str
@@ -126,7 +126,7 @@ class Addition:
     parameters: tuple[Parameter, ...]
     effects_added: tuple[str, ...]  # those of the lab too
     warnings: tuple[str, ...]
-    by_effect: tuple[Step, ...]  # in the order given; the last is `after`
+    by_effect: tuple[FitStep, ...]  # in the order given; the last is `after`
     sigma_from: str  # where the sigma of the fits comes from: noise_sources.py, or "residuals"
 
     effects = part("settings.effects", Sizes)
@@ -386,11 +386,11 @@ def _impossible(parameter: Parameter) -> str:
 
 def _steps(
     names: Sequence[str], before: Quality, fits: Sequence[Fit], rows: Observations
-) -> tuple[Step, ...]:
+) -> tuple[FitStep, ...]:
     qualities = [quality_of(fitted, rows) for fitted in fits]
     earlier = [before, *qualities]
     return tuple(
-        Step(
+        FitStep(
             **vars(now),
             effect=name,
             fit=fitted,
@@ -400,13 +400,13 @@ def _steps(
     )
 
 
-def _is_known(step: Step, known: Collection[str]) -> bool:
+def _is_known(step: FitStep, known: Collection[str]) -> bool:
     """Return whether all numbers of its effect are known, so that it stays whatever it predicts."""
     names = parameter_names(step.effect) if step.effect in effect_names() else ()
     return bool(names) and all(name in known for name in names)
 
 
-def _bad_bargains(before: Quality, after: Quality, steps: Sequence[Step]) -> list[str]:
+def _bad_bargains(before: Quality, after: Quality, steps: Sequence[FitStep]) -> list[str]:
     """Sentences about effects that serve the fit alone."""
     if not steps:
         return []

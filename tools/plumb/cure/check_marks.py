@@ -39,7 +39,7 @@ class CheckedMark:
 
 
 @dataclass(frozen=True)
-class Check:
+class CheckRound:
     """All check marks of a round."""
 
     marks: tuple[CheckedMark, ...]
@@ -57,7 +57,7 @@ class Check:
         return self.chi_square <= self.limit
 
 
-def check_marks(inputs: Inputs, marks: Measurements) -> Check:
+def check_marks(inputs: Inputs, marks: Measurements) -> CheckRound:
     """Hold check marks against the fit of these inputs, with the effects that its settings have.
 
     Raises InputError for too few marks, and for marks that cannot be reached.
@@ -73,7 +73,7 @@ def check_marks(inputs: Inputs, marks: Measurements) -> Check:
     where, covariances = _predicted(fitted, rows)
     missed = rows.measured - where
     distances = np.einsum("ni,nij,nj->n", missed, np.linalg.inv(covariances), missed)
-    return Check(
+    return CheckRound(
         marks=tuple(
             CheckedMark(
                 name=rows.names[i],
@@ -151,7 +151,7 @@ def _point(pair: Array) -> tuple[float, float]:
 # Whether check marks are where the settings promise them, in a sentence for people.
 
 
-def check_sentence(checked: Check) -> str:
+def check_sentence(checked: CheckRound) -> str:
     """Return what was promised, what was measured, and what follows."""
     off = ", ".join(bare(mark.off) for mark in checked.marks)
     promised = worded(max(mark.promised for mark in checked.marks))

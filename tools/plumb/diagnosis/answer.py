@@ -31,7 +31,7 @@ Verdict = Annotated[str, among(VERDICTS)]
 
 
 @dataclass(frozen=True)
-class Ranked:
+class RankedEffect:
     """An effect of the library by itself."""
 
     effect: str
@@ -113,7 +113,7 @@ class Diagnosis:
     explanations: tuple[Together, ...]  # likeliest first
     # [mm] RMS between two explanations' marks
     differences: Internal[Mapping[tuple[int, int], float]]
-    ranking: tuple[Ranked, ...]
+    ranking: tuple[RankedEffect, ...]
     nothing_chance: Annotated[float, meant("That no effect acts, by the same weights.")]
     field_chance: Annotated[float, meant("That it also does what no effect of the library does.")]
     # the likeliest account, with what every machine has and the settings leave out

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from plumb.diagnosis.answer import Diagnosis, Fall, Judgement, Ranked, Together, judge
+from plumb.diagnosis.answer import Diagnosis, Fall, Judgement, RankedEffect, Together, judge
 from plumb.diagnosis.as_set import is_good
 from plumb.diagnosis.expected_error import left_open
 from plumb.diagnosis.explanation import Explanation, explain, measured_board
@@ -118,7 +118,7 @@ def _differences(explanations: Sequence[Explanation]) -> dict[tuple[int, int], f
     }
 
 
-def _ranking(readings: CleanReadings, chances: Mapping[str, float]) -> tuple[Ranked, ...]:
+def _ranking(readings: CleanReadings, chances: Mapping[str, float]) -> tuple[RankedEffect, ...]:
     """Return every effect of the library by itself, the likeliest first; sizes by the slopes at the
     frame's fit.
     """
@@ -127,7 +127,7 @@ def _ranking(readings: CleanReadings, chances: Mapping[str, float]) -> tuple[Ran
     for name in effect_names():
         single = frame.with_effects((name,))
         effects.append(
-            Ranked(
+            RankedEffect(
                 effect=name,
                 gain=max(frame.cost - single.cost, 0.0),
                 chance=chances.get(name, 0.0),
@@ -144,7 +144,7 @@ def _ranking(readings: CleanReadings, chances: Mapping[str, float]) -> tuple[Ran
 
 
 @dataclass(frozen=True)
-class Doubts:
+class Contradictions:
     """Sentences on what does not go together."""
 
     warnings: tuple[str, ...]
@@ -153,9 +153,9 @@ class Doubts:
 
 def doubts_of(
     readings: CleanReadings, verdict: str, best: Explanation, rounds: Sequence[Round]
-) -> Doubts:
+) -> Contradictions:
     """Return all doubts about a verdict; `rounds` are the files of marks."""
-    return Doubts(
+    return Contradictions(
         warnings=(
             *readings.noise.notes,
             *(_place_warnings(best) if verdict == "not_in_library" else []),

@@ -14,7 +14,15 @@ from itertools import compress
 import numpy as np
 import scipy
 
-from plumb.diagnosis.evidence import Accounts, Effects, Fitted, Noises, Part, add_by_set, fitted
+from plumb.diagnosis.evidence import (
+    AccountGroup,
+    Accounts,
+    Effects,
+    Fitted,
+    Noises,
+    add_by_set,
+    fitted,
+)
 from plumb.diagnosis.linear import LinearBoard, Metric
 from plumb.diagnosis.priors import PITCH, PITCH_CHANCE
 
@@ -65,7 +73,7 @@ def clean_of(board: LinearBoard, accounts: Accounts, noises: Noises) -> Clean:
     return Clean(whole, by_pitch[0], at_settings, by_noise)
 
 
-def _by_noise(values: Array, part: Part) -> Array:
+def _by_noise(values: Array, part: AccountGroup) -> Array:
     """Return values (boards, a * m) as (boards, a, m)."""
     return values.reshape(len(values), len(part.sets), -1)
 
@@ -77,7 +85,7 @@ def pitches(board: LinearBoard) -> list[tuple[bool, float]]:
     return [(False, float(np.log(1 - PITCH_CHANCE))), (True, float(np.log(PITCH_CHANCE)))]
 
 
-def _density_at_settings(board: LinearBoard, part: Part, fit: Fitted, column: int) -> Array:
+def _density_at_settings(board: LinearBoard, part: AccountGroup, fit: Fitted, column: int) -> Array:
     """Return the log density (boards, a * m) of a size where the settings have it."""
     noises = fit.inverse.shape[2] // len(part.sets)
     place = np.repeat(np.argmax(part.index == column, axis=1), noises)

@@ -17,7 +17,7 @@ from itertools import combinations, product
 import numpy as np
 import scipy
 
-from plumb.diagnosis.linear import LinearBoard, Metric, Other, rows_in_metric
+from plumb.diagnosis.linear import Disturbance, LinearBoard, Metric, rows_in_metric
 from plumb.diagnosis.priors import (
     ALL,
     NOISE_DEGREES,
@@ -34,7 +34,7 @@ FEWER = 150  # measured numbers beyond which sets of three are left out, for tim
 
 
 @dataclass(frozen=True)
-class Part:
+class AccountGroup:
     """Variants of accounts with as many unknowns: a set of effects, each of a spread."""
 
     sets: Array  # (a,) which set each variant belongs to; they rise
@@ -55,10 +55,10 @@ class Part:
         """The first variant of each set."""
         return np.flatnonzero(np.diff(self.sets, prepend=-1))
 
-    def among(self, kept: Array) -> Part:
+    def among(self, kept: Array) -> AccountGroup:
         """Return some of the variants (a,)."""
         each = (self.sets, self.index, self.variance, self.edge, self.log_prior)
-        return Part(*(values[kept] for values in each))
+        return AccountGroup(*(values[kept] for values in each))
 
 
 @dataclass(frozen=True)
@@ -66,7 +66,7 @@ class Accounts:
     """Sets of effects that may act, with all spreads of their sizes."""
 
     effects: tuple[Effects, ...]
-    parts: tuple[Part, ...]
+    parts: tuple[AccountGroup, ...]
 
     def up_to(self, most: int) -> Accounts:
         """Return the accounts of at most `most` effects."""
@@ -107,7 +107,7 @@ def accounts_of(board: LinearBoard, most: int = TOGETHER) -> Accounts:
         index = np.nonzero(variance[kept])[1].reshape(-1, count)
         mine = np.take_along_axis(variance[kept], index, axis=1)
         edge = (sizes.mean - sizes.least)[index]
-        parts.append(Part(numbers[kept], index, mine, edge, log_prior[kept]))
+        parts.append(AccountGroup(numbers[kept], index, mine, edge, log_prior[kept]))
     return Accounts(tuple(sets), tuple(parts))
 
 
@@ -138,7 +138,7 @@ class Fitted:
         return evidence
 
 
-def fitted(part: Part, metric: Metric) -> Fitted:
+def fitted(part: AccountGroup, metric: Metric) -> Fitted:
     """Fit all variants of a part."""
     index, noises = part.index.T, len(metric.sigmas)
     k, count = index.shape
@@ -249,7 +249,10 @@ class Noises:
 
 
 def noises_of(
-    board: LinearBoard, accounts: Accounts, stated: Stated | None, fields: Sequence[Other] = ()
+    board: LinearBoard,
+    accounts: Accounts,
+    stated: Stated | None,
+    fields: Sequence[Disturbance] = (),
 ) -> Noises:
     """Return the noises that some account finds likely, by single effects and all at once; with
     one of these fields too, for what a field draws is no noise.
@@ -277,7 +280,9 @@ def noises_of(
     return Noises(every.sigmas[likely], every.log_prior[likely])
 
 
-def variants(accounts: Accounts, metric: Metric, noises: Noises) -> Iterable[tuple[Part, Array]]:
+def variants(
+    accounts: Accounts, metric: Metric, noises: Noises
+) -> Iterable[tuple[AccountGroup, Array]]:
     """Yield each part with the log evidence (a, m) of its variants, first board."""
     for part in accounts.parts:
         evidence = fitted(part, metric).evidence[0]
@@ -292,7 +297,7 @@ def weights_of(accounts: Accounts, metric: Metric, noises: Noises) -> Array:
     return total
 
 
-def add_by_set(total: Array, part: Part, weight: Array) -> None:
+def add_by_set(total: Array, part: AccountGroup, weight: Array) -> None:
     """Add the log weights (a, ...) of a part's variants to those (sets, ...) of their sets."""
     sets = part.sets[part.starts]
     total[sets] = np.logaddexp(total[sets], np.logaddexp.reduceat(weight, part.starts, axis=0))
@@ -332,7 +337,7 @@ def _with_usual_pitch(board: LinearBoard) -> LinearBoard:
     return replace(board, frame=np.hstack([board.frame, columns]))
 
 
-def _off(part: Part, fit: Fitted, rows: Array, kept: Array) -> Array:
+def _off(part: AccountGroup, fit: Fitted, rows: Array, kept: Array) -> Array:
     """Return the log evidence (readings,) of a part's accounts with each reading off.
 
     rows (readings, 2, p + 1) are those of C^-1 [effects, readings], kept (readings, 2, 2) those of

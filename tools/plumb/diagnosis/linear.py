@@ -80,31 +80,31 @@ def _unwhitened(rows: Array, measured: int, sigma: float) -> Array:
 
 
 @dataclass(frozen=True)
-class Other:
+class Disturbance:
     """Something that moves the measured numbers as independent normals do."""
 
     axes: Array  # (n, r) orthonormal
     variances: Array  # (r,) [mm^2]
 
     @staticmethod
-    def of(columns: Array) -> Other:
+    def of(columns: Array) -> Disturbance:
         """Return what columns (n, c) [mm] of independent normals move."""
         left, sizes, _ = np.linalg.svd(columns, full_matrices=False)
         seen = sizes > 1e-6 * max(sizes.max(initial=0.0), 1e-9)
-        return Other(left[:, seen], sizes[seen] ** 2)
+        return Disturbance(left[:, seen], sizes[seen] ** 2)
 
-    def times(self, length: float) -> Other:
+    def times(self, length: float) -> Disturbance:
         """Return the same, larger by a factor."""
         return replace(self, variances=self.variances * length**2)
 
 
-def fields(frame: Explanation, sigma: float) -> list[Other]:
+def fields(frame: Explanation, sigma: float) -> list[Disturbance]:
     """Return smooth fields that no effect draws, of all usual widths and spreads; sigma [mm]."""
     least = LEFT_OUT * sigma**2 / max(FIELD_SPREADS) ** 2
     return [
         unit.times(spread)
         for columns in gaussian_process_columns(frame, FIELD_WIDTHS, least)
-        for unit in [Other.of(columns)]
+        for unit in [Disturbance.of(columns)]
         for spread in FIELD_SPREADS
     ]
 
@@ -115,7 +115,7 @@ class MovedRound:
 
     number: int
     cause: str  # "new_sheet", "chains_rezeroed", or "" for another machine
-    other: Other
+    other: Disturbance
 
 
 def moved_rounds(frame: Explanation) -> list[MovedRound]:
@@ -125,7 +125,7 @@ def moved_rounds(frame: Explanation) -> list[MovedRound]:
     slopes = frame.slopes[: rows.count] * board.sigma
     by_cause = _causes_of_moves(board, slopes)
     return [
-        MovedRound(int(later), cause, Other.of(columns[:, moved] * mine[:, np.newaxis]))
+        MovedRound(int(later), cause, Disturbance.of(columns[:, moved] * mine[:, np.newaxis]))
         for later in np.unique(number)[1:]
         for mine in [number == later]
         for cause, columns in by_cause.items()
@@ -162,7 +162,7 @@ class Metric:
 
     @staticmethod
     def of(
-        board: LinearBoard, sigmas: Array, other: Other | None = None, *, pitch: bool = False
+        board: LinearBoard, sigmas: Array, other: Disturbance | None = None, *, pitch: bool = False
     ) -> Metric:
         """Return the metrics for noises (m,) [mm]; `pitch`: with chains as makers sell them."""
         columns = np.hstack([board.frame, board.effects, board.read])

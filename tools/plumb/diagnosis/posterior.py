@@ -28,10 +28,10 @@ from plumb.diagnosis.evidence import (
 )
 from plumb.diagnosis.explanation import Board, Explanation, explain
 from plumb.diagnosis.linear import (
+    Disturbance,
     LinearBoard,
     Metric,
     MovedRound,
-    Other,
     fields,
     moved_rounds,
 )
@@ -91,7 +91,7 @@ class Posterior:
     turned: float | None  # with all y errors the other way round; None without marks
     noise: Noise
     noises: Noises  # worth a look
-    fields: Sequence[Other] = ()  # smooth, of each spread and width
+    fields: Sequence[Disturbance] = ()  # smooth, of each spread and width
 
     @cached_property
     def clean(self) -> float:
@@ -291,7 +291,11 @@ def felt_effects(frame: Explanation) -> Effects:
 
 
 def _with_others(
-    board: LinearBoard, accounts: Accounts, noises: Noises, others: Sequence[Other], chance: float
+    board: LinearBoard,
+    accounts: Accounts,
+    noises: Noises,
+    others: Sequence[Disturbance],
+    chance: float,
 ) -> tuple[Array, Array]:
     """Return the log weights (sets,) with one of some other things too, and the same
     by noises (m,).

@@ -33,7 +33,7 @@ class Size:
 
 
 @dataclass(frozen=True)
-class Limit:
+class SizeLimit:
     """How large a parameter may still be."""
 
     name: str  # without the effect's
@@ -46,7 +46,7 @@ class Room:
     """How large an effect that is not proved may still be."""
 
     effect: str
-    limits: Annotated[tuple[Limit, ...], key("parameters")]
+    limits: Annotated[tuple[SizeLimit, ...], key("parameters")]
     mm: float | None  # RMS of what it would do to the marks before the frame is refitted
 
 
@@ -114,7 +114,9 @@ def _room(effect: str, explanation: Explanation, noise: Noise) -> Room:
     names = [board.problem.names[i] for i in columns]
     raw = explanation.slopes[:, columns]
     if not np.any(raw):
-        nothing = tuple(Limit(name.partition(".")[2], None, words[name]["unit"]) for name in names)
+        nothing = tuple(
+            SizeLimit(name.partition(".")[2], None, words[name]["unit"]) for name in names
+        )
         return Room(effect, nothing, None)
     without = [i for i in explanation.free if i not in columns]
     fits = effect in explanation.effects
@@ -134,7 +136,7 @@ def _room(effect: str, explanation: Explanation, noise: Noise) -> Room:
             ends.append(-(total[i] - reach[i]))
         met = max(abs(plausible.low), abs(plausible.high))
         largest = min(max(0.0, *ends) * board.problem.scale[columns[i]], met)
-        limits.append(Limit(name.partition(".")[2], float(largest), words[name]["unit"]))
+        limits.append(SizeLimit(name.partition(".")[2], float(largest), words[name]["unit"]))
     if len(columns) == 1:
         whole = np.abs(raw) * limits[0].largest / board.problem.scale[columns[0]]
         return Room(effect, tuple(limits), board.rows.rms_of(board.sigma * whole[:, 0]))

@@ -20,7 +20,7 @@ from typing import Any
 
 from plumb.cure.add import Addition, Parameter
 from plumb.fit.inputs import Inputs
-from plumb.line.memory import Written, as_lines, version_of, write_numbers
+from plumb.line.memory import WrittenNumbers, as_lines, version_of, write_numbers
 from plumb.line.sender import Sender
 from plumb.text.answers import Internal, Moment, plain
 from plumb.text.errors import InputError
@@ -321,7 +321,7 @@ def keep(path: str, kind: str, content: Mapping[str, Any], *, begin: bool = True
 
 def write_and_keep(
     sender: Sender, path: str, lines: list[str], *, back: bool = False
-) -> tuple[Written, str, str]:
+) -> tuple[WrittenNumbers, str, str]:
     """Write numbers and read them back; `back`: they are those from before `path` was sent.
 
     Comes with the file of the numbers that were replaced, named after `path`, and a sentence if

@@ -16,7 +16,7 @@ import scipy
 from plumb.cure.check_marks import LEVEL
 from plumb.diary.file import FIT, Diary, Entry
 from plumb.fit.sighting import SHEET_ROTATION
-from plumb.job.home import TOUCH_SIGMA, Touch, believed_chains, turned_back
+from plumb.job.home import TOUCH_SIGMA, HomeTouch, believed_chains, turned_back
 from plumb.model.plain import ranked
 from plumb.model.predict import FOUND, NAMES, Array, places_with_slopes, values_of
 from plumb.settings.machine import MachineSettings
@@ -32,7 +32,7 @@ FRAME = ("motor_gap", "motor_height", "motor_center_x")
 
 
 @dataclass(frozen=True)
-class Change:
+class LikelyChange:
     """A single change that may explain the errors."""
 
     name: str  # a chain, the sheet along an axis, or a number of the frame or of an effect
@@ -48,7 +48,7 @@ class Recheck:
     """Marks against what the fit promised."""
 
     fit: Entry
-    touches: tuple[Touch, ...]
+    touches: tuple[HomeTouch, ...]
     errors: Array  # (n, 2) [mm] hole - place by the settings
     expected: Array  # (n,) [mm] length that an error of an unchanged machine rarely exceeds
     chi_square: float
@@ -56,7 +56,7 @@ class Recheck:
     turn: (
         float  # [rad] of the sheet, counter-clockwise: as it was fitted, or 0 if it hangs straight
     )
-    changes: tuple[Change, ...]  # the best first
+    changes: tuple[LikelyChange, ...]  # the best first
 
     @property
     def holds(self) -> bool:
@@ -65,7 +65,11 @@ class Recheck:
 
 
 def recheck(
-    diary: Diary, settings: MachineSettings, touches: Sequence[Touch], *, sigma: float | None = None
+    diary: Diary,
+    settings: MachineSettings,
+    touches: Sequence[HomeTouch],
+    *,
+    sigma: float | None = None,
 ) -> Recheck:
     """Hold marks against the newest fit that gave these settings. sigma [mm] of a coordinate.
 
@@ -85,7 +89,7 @@ def recheck(
 def _recheck(
     fit: Entry,
     settings: MachineSettings,
-    touches: Sequence[Touch],
+    touches: Sequence[HomeTouch],
     turn: float,
     sigma: float | None,
 ) -> Recheck:
@@ -153,7 +157,7 @@ def _slope_of(name: str, where: Array, slopes: Array) -> Array:
 
 def _changes(
     settings: MachineSettings, fit: Entry, chains: Array, errors: Array, covariance: Array
-) -> tuple[Change, ...]:
+) -> tuple[LikelyChange, ...]:
     """Return each single change, sized to explain the errors best, the best first.
 
     Of changes that explain them alike, first what moves most easily: a chain, the sheet, the frame.
@@ -177,5 +181,5 @@ def _changes(
         left = errors - size * column
         rest = float(left @ np.linalg.solve(covariance, left))
         sizes = float(size), float(sigma), float(before.get(name, 0.0))
-        changes.append(Change(name, *sizes, rest, explains=bool(rest <= limit)))
+        changes.append(LikelyChange(name, *sizes, rest, explains=bool(rest <= limit)))
     return tuple(ranked(changes, lambda change: change.chi_square))

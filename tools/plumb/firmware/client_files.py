@@ -14,7 +14,13 @@ from pathlib import Path
 import numpy as np
 
 from plumb import _core
-from plumb.firmware.settings import WORST, Number, chains_apart, every_setting, firmware_numbers
+from plumb.firmware.settings import (
+    WORST,
+    SentSetting,
+    chains_apart,
+    every_setting,
+    firmware_numbers,
+)
 from plumb.settings.files import changed_client_file, parse_client_file
 from plumb.settings.ini import SOURCES, Key, groundcontrol_changes, number_for_firmware
 from plumb.settings.machine import MachineSettings
@@ -93,7 +99,7 @@ def _for_published(
     return ClientFiles({name: content}, (_put_in_place(client, name),), {}, unsaid)
 
 
-def gcode(numbers: tuple[Number, ...]) -> bytes:
+def gcode(numbers: tuple[SentSetting, ...]) -> bytes:
     """Return the numbers as lines for the machine."""
     return "".join(f"{row.line}\n" for row in numbers).encode()
 
@@ -115,7 +121,7 @@ def client_numbers(ini: IniText) -> dict[int, float]:
 
 
 def refuse_what_disturbs(
-    settings: MachineSettings, numbers: tuple[Number, ...], content: bytes, *, source: str
+    settings: MachineSettings, numbers: tuple[SentSetting, ...], content: bytes, *, source: str
 ) -> None:
     """Refuse a client's file that would change the machine once its lines are there."""
     lines = {row.number: float(row.text) for row in numbers}

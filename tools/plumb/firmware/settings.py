@@ -79,7 +79,7 @@ WORST = 0.01  # [mm] of chain by which rounding to the firmware's floats may mov
 
 
 @dataclass(frozen=True)
-class Number:
+class SentSetting:
     """A setting as it is sent."""
 
     number: int
@@ -93,7 +93,7 @@ class Number:
         return f"${self.number}={self.text}"
 
 
-def firmware_numbers(settings: MachineSettings) -> tuple[Number, ...]:
+def firmware_numbers(settings: MachineSettings) -> tuple[SentSetting, ...]:
     """Return every number that says where the sled of this machine hangs, in the order of the dump.
 
     The published corrections are zero, as the effects hold all there is. Raises InputError if the
@@ -102,7 +102,7 @@ def firmware_numbers(settings: MachineSettings) -> tuple[Number, ...]:
     values = values_of(settings)
     rows = {setting.number: setting for setting in every_setting()}
     numbers = tuple(
-        Number(number, rows[number].name, format_value(value).strip(), rows[number].unit)
+        SentSetting(number, rows[number].name, format_value(value).strip(), rows[number].unit)
         for number, value in sorted(values.items())
     )
     _refuse_what_differs(settings, {row.number: float(row.text) for row in numbers})

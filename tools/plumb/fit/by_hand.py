@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from dataclasses import replace
 
-from plumb.model.effect_words import Reading
+from plumb.model.effect_words import RuleReading
 from plumb.model.lab_effects import LAB_EFFECTS
 from plumb.model.predict import library
 from plumb.settings.machine import GRAVITY, MachineSettings
@@ -19,13 +19,13 @@ WEIGHT = "sled_weight"
 WEIGHED = 0.2  # [kg] to which a sled is weighed
 
 
-def readings(settings: MachineSettings, sled_weight: float) -> Mapping[str, Reading]:
+def readings(settings: MachineSettings, sled_weight: float) -> Mapping[str, RuleReading]:
     """Return the readings by the names of effects' numbers, for this sheet and this weight [N]."""
-    read: dict[str, Reading] = {}
+    read: dict[str, RuleReading] = {}
     for words in library():
         for parameter in words["parameters"]:
             if parameter["reading"]:
-                reading = Reading(**parameter["reading"])
+                reading = RuleReading(**parameter["reading"])
                 factor = reading.factor * sled_weight ** words["weight_power"]
                 read[f"{words['name']}.{parameter['name']}"] = replace(reading, factor=factor)
     for effect in LAB_EFFECTS:
@@ -86,17 +86,17 @@ def number_read(
     return number, max(abs(more - number), abs(number - less))
 
 
-def _reading_of(name: str, settings: MachineSettings) -> Reading | None:
+def _reading_of(name: str, settings: MachineSettings) -> RuleReading | None:
     return {**_of_frame(settings), **readings(settings, settings.sled_weight)}.get(name)
 
 
-def _of_frame(settings: MachineSettings) -> dict[str, Reading]:
+def _of_frame(settings: MachineSettings) -> dict[str, RuleReading]:
     edge = settings.sheet_height / 2
     return {
-        "motor_gap": Reading("the gap between the motors", 1.0),
-        "motor_height": Reading(
+        "motor_gap": RuleReading("the gap between the motors", 1.0),
+        "motor_height": RuleReading(
             "how far the motors are above the sheet's top edge, the mean of both", 1.0, zero=-edge
         ),
-        "rotation_radius": Reading("from the bit to the first link pin of a chain", 0.5),
-        WEIGHT: Reading("the weight of the sled", WEIGHED, GRAVITY, "kg"),
+        "rotation_radius": RuleReading("from the bit to the first link pin of a chain", 0.5),
+        WEIGHT: RuleReading("the weight of the sled", WEIGHED, GRAVITY, "kg"),
     }

@@ -24,7 +24,7 @@ MIN_FREE_CHAIN = 100.0  # [mm] between ring and sprocket, so that the carriage s
 UNITS = {"mm": (1.0, 2), "inch": (25.4, 4)}
 
 
-class Number(NamedTuple):
+class NumberOption(NamedTuple):
     """An option that takes a number from low to high."""
 
     low: float
@@ -33,11 +33,11 @@ class Number(NamedTuple):
 
 
 NUMBERS = {
-    "margin": Number(0, 10000, "mm from the outer marks to the sheet's edge"),
+    "margin": NumberOption(0, 10000, "mm from the outer marks to the sheet's edge"),
     # A 3/4 inch sheet ends at 19 mm.
-    "depth": Number(0.1, 19, f"mm below the surface; more than {DEEPEST_TOUCH:g} drills"),
-    "safe_height": Number(1, 50, "mm above the surface for all sideways moves"),
-    "feed": Number(0.1, 10000, "mm/min sideways"),
+    "depth": NumberOption(0.1, 19, f"mm below the surface; more than {DEEPEST_TOUCH:g} drills"),
+    "safe_height": NumberOption(1, 50, "mm above the surface for all sideways moves"),
+    "feed": NumberOption(0.1, 10000, "mm/min sideways"),
 }
 
 

@@ -19,8 +19,8 @@ from plumb.guide.talk import (
     HEIGHT,
     LENGTHS,
     LIGHTEST,
+    GuideProgress,
     Jog,
-    Progress,
     Talk,
     chain_jog,
     height_jog,
@@ -47,12 +47,12 @@ FARTHEST = 200.0  # [mm] of a first mark from the middle: more is a misreading
 
 
 @dataclass
-class Visit:
+class GuideVisit:
     """A machine at the end of a line, its owner, and how far they came."""
 
     sender: Sender
     talk: Talk
-    progress: Progress
+    progress: GuideProgress
     hang: Callable[[], None] = lambda: None  # hears that the sled hangs now: for virtual machines
 
     @property
@@ -85,7 +85,7 @@ class Visit:
         return ""
 
 
-def read_machine(visit: Visit) -> bool:
+def read_machine(visit: GuideVisit) -> bool:
     """Read the machine's numbers into machine.toml. Nothing moves."""
     numbers = read_numbers(visit.sender)
     if visit.path.exists():
@@ -97,7 +97,7 @@ def read_machine(visit: Visit) -> bool:
     return True
 
 
-def check_wires(visit: Visit) -> bool:
+def check_wires(visit: GuideVisit) -> bool:
     """Jog each axis a little and ask what the owner saw."""
     jogs = [chain_jog("left"), chain_jog("right")]
     if _has_z(visit):
@@ -105,7 +105,7 @@ def check_wires(visit: Visit) -> bool:
     return all(_is_wired_right(visit, jog) for jog in jogs)
 
 
-def _has_z(visit: Visit) -> bool:
+def _has_z(visit: GuideVisit) -> bool:
     """Return whether z has a motor; it gets the gain that a client sends, without which it
     drifts.
     """
@@ -119,7 +119,7 @@ def _has_z(visit: Visit) -> bool:
     return True
 
 
-def _is_wired_right(visit: Visit, jog: Jog) -> bool:
+def _is_wired_right(visit: GuideVisit, jog: Jog) -> bool:
     if not visit.talk.agrees(jog.moves, jog.act):
         return False
     before = visit.height
@@ -137,7 +137,7 @@ def _is_wired_right(visit: Visit, jog: Jog) -> bool:
     return False
 
 
-def tell_numbers(visit: Visit) -> bool:
+def tell_numbers(visit: GuideVisit) -> bool:
     """Ask what the owner knows, write it into machine.toml and into the machine."""
     settings, talk = visit.settings(), visit.talk
     if talk.choice("How does the sled hang?", SLEDS) == "b":
@@ -172,7 +172,7 @@ def tell_numbers(visit: Visit) -> bool:
     return True
 
 
-def show_reach(visit: Visit) -> bool:
+def show_reach(visit: GuideVisit) -> bool:
     """Say how much of the sheet the machine can use, and how far off is normal now."""
     settings = visit.settings()
     survey = survey_sheet(settings)
@@ -184,7 +184,7 @@ def show_reach(visit: Visit) -> bool:
     return True
 
 
-def set_chains(visit: Visit) -> bool:
+def set_chains(visit: GuideVisit) -> bool:
     """Return both sprockets to 12 o'clock, chains on their top teeth, chains paid out."""
     talk = visit.talk
     talk.say("Take both chains off their sprockets.")
@@ -211,7 +211,7 @@ def set_chains(visit: Visit) -> bool:
     return True
 
 
-def _turn_to_twelve(visit: Visit, side: str) -> None:
+def _turn_to_twelve(visit: GuideVisit, side: str) -> None:
     """Turn a sprocket by what the owner types, until a tooth points straight up."""
     letter = side[0].upper()
     while True:
@@ -223,7 +223,7 @@ def _turn_to_twelve(visit: Visit, side: str) -> None:
             visit.talk.say(f"The machine stopped: {alarm}")
 
 
-def first_mark(visit: Visit) -> bool:
+def first_mark(visit: GuideVisit) -> bool:
     """Hang the sled, drive it to the middle, make a dimple, and compare with the tape."""
     talk, settings = visit.talk, visit.settings()
     _has_z(visit)
@@ -254,7 +254,7 @@ def _reported(place: tuple[float, float, float]) -> str:
     return f"it reports {bare(place[0])}, {bare(place[1])} {unit()}"
 
 
-def _judge_mark(visit: Visit, settings: MachineSettings) -> bool:
+def _judge_mark(visit: GuideVisit, settings: MachineSettings) -> bool:
     """Say how far the first mark is off, and whether that is normal."""
     half_width, half_height = settings.sheet_width / 2, settings.sheet_height / 2
     left = visit.talk.length(
@@ -291,7 +291,7 @@ class Step:
 
     name: str
     title: str
-    run: Callable[[Visit], bool]
+    run: Callable[[GuideVisit], bool]
 
 
 STEPS = (
@@ -304,7 +304,7 @@ STEPS = (
 )
 
 
-def take(visit: Visit, step: Step) -> bool:
+def take(visit: GuideVisit, step: Step) -> bool:
     """Take a step, and keep that it is done. Raises LeftError if the owner leaves it."""
     done = step.run(visit)
     if done:

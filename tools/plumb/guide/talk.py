@@ -173,7 +173,7 @@ FILE = "guide.json"
 
 
 @dataclass
-class Progress:
+class GuideProgress:
     """Steps that are done, and the owner's statements on the machine."""
 
     folder: Path
@@ -192,18 +192,18 @@ class Progress:
         write_whole(self.folder / FILE, f"{json.dumps(kept, indent=2)}\n".encode())
 
 
-def progress_in(folder: Path) -> Progress:
+def progress_in(folder: Path) -> GuideProgress:
     """Return the progress in a folder; an empty progress where nothing was begun. Raises
     InputError.
     """
     path = folder / FILE
     if not path.exists():
-        return Progress(folder)
+        return GuideProgress(folder)
     try:
         kept = json.loads(read_text(path))
         done = [str(step) for step in kept["done"]]
         sigmas: Mapping[str, float] = kept["sigmas"]
-        return Progress(folder, done, {name: float(size) for name, size in sigmas.items()})
+        return GuideProgress(folder, done, {name: float(size) for name, size in sigmas.items()})
     except (ValueError, KeyError, TypeError, AttributeError):
         raise InputError(path, "is damaged", remedy="delete it, and begin again") from None
 

@@ -37,7 +37,7 @@ SENT, PARTED, TAKEN = 0.45, 0.6, 0.85  # shares of the time after which a long p
 
 
 @dataclass(frozen=True)
-class Checked:
+class CheckedJob:
     """A program, run dry."""
 
     done: Done
@@ -76,7 +76,7 @@ def check_job(
     tools: Tools | None = None,
     start: tuple[float, float, float] = (0.0, 0.0, 0.0),
     progress: Callable[[float], None] | None = None,
-) -> Checked:
+) -> CheckedJob:
     """Run a program dry; `inputs` are marks that tell which errors to expect, `tools` what cuts if
     it is not what the program says.
     """
@@ -96,7 +96,7 @@ def check_job(
         parts = with_errors(Believed.of(inputs), settings, parts)
     hanging = hanging_along(settings, over_sheet, limits or {})
     far(1.0)
-    return Checked(
+    return CheckedJob(
         done=done,
         findings=tuple(sorted(findings, key=lambda finding: finding.line)),
         hanging=hanging,

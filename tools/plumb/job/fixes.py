@@ -19,7 +19,7 @@ import numpy as np
 from plumb.job.bits import INCH
 from plumb.job.dry_run import CLEAR, Moves, pieces
 from plumb.job.findings import GOUGES, HALTS, Finding, findings_of
-from plumb.job.resume import Machine, Place
+from plumb.job.resume import JobMachine, Place
 from plumb.job.wood import FOREIGN
 from plumb.model.predict import Array
 from plumb.text.answers import Internal
@@ -37,7 +37,7 @@ Word = tuple[str, float, dict[str, float]]
 
 
 @dataclass(frozen=True)
-class Change:
+class FixedLine:
     """A line that was changed."""
 
     line: int
@@ -53,11 +53,11 @@ class Fixed:
     """A program that the machine runs."""
 
     lines: tuple[str, ...]
-    changes: tuple[Change, ...]
+    changes: tuple[FixedLine, ...]
 
 
 def fixed(
-    machine: Machine, lines: Sequence[str], findings: Sequence[Finding], *, source: str
+    machine: JobMachine, lines: Sequence[str], findings: Sequence[Finding], *, source: str
 ) -> Fixed:
     """Return an equal program; InputError at the first line for which none is known. `findings` of
     the program as it is, `source` its name.
@@ -142,7 +142,7 @@ class _Modes:
                 self.motion = int(code)
 
 
-def _changes(lines: Sequence[str], findings: Sequence[Finding], top: float) -> Iterator[Change]:
+def _changes(lines: Sequence[str], findings: Sequence[Finding], top: float) -> Iterator[FixedLine]:
     """Yield the lines to change, `top` [mm] the highest z of the program."""
     halting = {line: each.says for each in _halts(findings) for line in each.lines}
     means_top = _means_top(findings)
@@ -164,28 +164,28 @@ def _changes(lines: Sequence[str], findings: Sequence[Finding], top: float) -> I
             yield change
 
 
-def _drilled(number: int, line: str, words: Sequence[Word]) -> Change:
+def _drilled(number: int, line: str, words: Sequence[Word]) -> FixedLine:
     """Return the holes of a G73 by G83, or by G81 where a peck has no depth."""
     if any(each.get("Q", 0.0) > 0 for _, _, each in words):
         after, why = CYCLE.sub("G83", line.strip()), "this machine pecks by G83"
-        return Change(number, line.strip(), after, why, drills=True)
+        return FixedLine(number, line.strip(), after, why, drills=True)
     after = PECK.sub("", CYCLE.sub("G81", line.strip()))
     why = "a peck without a depth is the whole hole: G81"
-    return Change(number, line.strip(), after, why, drills=True)
+    return FixedLine(number, line.strip(), after, why, drills=True)
 
 
-def _after_cycle(number: int, line: str, words: Sequence[Word], modes: _Modes) -> Change | None:
+def _after_cycle(number: int, line: str, words: Sequence[Word], modes: _Modes) -> FixedLine | None:
     """Return the line as a rapid move, if that was in force before the holes."""
     if modes.before_cycle != 0 or any(code == CANCEL for _, code, _ in words):
         return None
     modes.motion = 0
     why = "behind G80 this machine wants the code of a motion; before the holes it was G0"
-    return Change(number, line.strip(), f"G0 {line.strip()}", why)
+    return FixedLine(number, line.strip(), f"G0 {line.strip()}", why)
 
 
 def _homeless(
     number: int, line: str, words: Sequence[Word], modes: _Modes, top: float
-) -> Change | None:
+) -> FixedLine | None:
     """Return a retract in place of the way home; None where the way there may cut."""
     axes = {axis: value for _, code, each in words for axis, value in each.items() if axis in AXES}
     if modes.motion > NO_MOTION or (not modes.relative and axes.get("Z", 0.0) < 0):
@@ -194,21 +194,21 @@ def _homeless(
     kept = _codes(words, HOME)
     why = "this machine has no home: "
     if "Z" not in homed:
-        return Change(number, line.strip(), kept, why + "the sled stays", goes_home=True)
+        return FixedLine(number, line.strip(), kept, why + "the sled stays", goes_home=True)
     after = " ".join(filter(None, [kept, _rise(modes, top)]))
-    return Change(number, line.strip(), after, why + "the bit goes up instead", goes_home=True)
+    return FixedLine(number, line.strip(), after, why + "the bit goes up instead", goes_home=True)
 
 
 def _from_top(
     number: int, line: str, words: Sequence[Word], modes: _Modes, top: float
-) -> Change | None:
+) -> FixedLine | None:
     axes = {axis: value for _, _, each in words for axis, value in each.items() if axis in AXES}
     if modes.motion != 0 or set(axes) != {"Z"} or axes["Z"] >= 0:
         return None
     kept = _codes(words, (MACHINE, 0.0))
     why = "the top of another machine's z; here z is 0 at the face of the sheet"
     after = " ".join(filter(None, [kept, _rise(modes, top)]))
-    return Change(number, line.strip(), after, why)
+    return FixedLine(number, line.strip(), after, why)
 
 
 def _rise(modes: _Modes, top: float) -> str:
@@ -237,7 +237,7 @@ def _refuse_halts(lines: Sequence[str], findings: Sequence[Finding]) -> None:
         raise _UnknownError(each.line, f"{lines[each.line - 1].strip()} ({each.says})")
 
 
-def _refuse_cuts_of(changes: Sequence[Change], moves: Moves) -> None:
+def _refuse_cuts_of(changes: Sequence[FixedLine], moves: Moves) -> None:
     """_UnknownError if a changed line cuts."""
     numbers = [each.line for each in changes if not each.drills]
     rises = (moves["length"] == 0) & (moves["z_to"] > moves["z_from"])
@@ -246,7 +246,7 @@ def _refuse_cuts_of(changes: Sequence[Change], moves: Moves) -> None:
         raise _UnknownError(int(moves["line"][wrong][0]), "the bit is in the wood there")
 
 
-def _at_home(machine: Machine, lines: Sequence[str], home: Place, top: float) -> Moves:
+def _at_home(machine: JobMachine, lines: Sequence[str], home: Place, top: float) -> Moves:
     """Return the moves of a program on a machine whose home is there."""
     x, y, z = home
     begin_x, begin_y, begin_z = machine.start

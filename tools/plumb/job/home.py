@@ -105,7 +105,7 @@ def place_of(settings: MachineSettings, mark: HomeMark) -> Array:
 def home_fit(settings: MachineSettings, mark: HomeMark, shown: Point) -> HomeFit:
     """Return how well a home mark agrees with what the machine shows of the bit in it."""
     x, y = (place_of(settings, mark) - np.array(shown)).tolist()
-    believed = believed_chains(settings, [Touch(mark.name, mark.place, shown)])[0]
+    believed = believed_chains(settings, [HomeTouch(mark.name, mark.place, shown)])[0]
     left, right = (np.array(mark.chains) - believed).tolist()
     # Both holes are touched, and each was made with the bit once.
     return HomeFit(mark.name, (x, y), (left, right), limit=SURE * 2**0.5 * TOUCH_SIGMA)
@@ -159,7 +159,7 @@ FAR = 50.0  # [mm] between holes from which on they are two places; nearer, they
 
 
 @dataclass(frozen=True)
-class Touch:
+class HomeTouch:
     """A mark with the bit in it. mm, from the middle of the sheet, y up."""
 
     name: str
@@ -167,7 +167,7 @@ class Touch:
     shown: Point  # what the machine says of the bit in it
 
 
-def refuse_repeated(touches: Sequence[Touch]) -> None:
+def refuse_repeated(touches: Sequence[HomeTouch]) -> None:
     """Raise InputError for a hole that is given twice: what it says counts once."""
     for (first, earlier), (second, later) in combinations(enumerate(touches, 1), 2):
         if dist(earlier.hole, later.hole) < SAME:
@@ -176,12 +176,12 @@ def refuse_repeated(touches: Sequence[Touch]) -> None:
             )
 
 
-def are_apart(touches: Sequence[Touch]) -> bool:
+def are_apart(touches: Sequence[HomeTouch]) -> bool:
     """Return whether two of the holes are far enough apart to be two places."""
     return any(dist(left.hole, right.hole) >= FAR for left, right in combinations(touches, 2))
 
 
-def lost_sign(touch: Touch) -> str:
+def lost_sign(touch: HomeTouch) -> str:
     """Return the coordinate, x or y, whose sign was lost: the other sign shows the bit near the
     hole.
     """
@@ -193,7 +193,7 @@ def lost_sign(touch: Touch) -> str:
     return near[0] if near else ""
 
 
-def believed_chains(settings: MachineSettings, touches: Sequence[Touch]) -> Array:
+def believed_chains(settings: MachineSettings, touches: Sequence[HomeTouch]) -> Array:
     """Return the chains (n, 2) [mm] that the machine believes at each touch. Raises InputError."""
     shown = np.array([touch.shown for touch in touches], dtype=float).reshape(-1, 2)
     try:

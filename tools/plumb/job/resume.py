@@ -25,11 +25,11 @@ class Resumed:
     lines: tuple[str, ...]
     first: int  # the line of the job that is done first
     begins: Place  # [mm] of the machine: where the bit goes into the wood or the job goes on
-    entry: Entry | None  # where a move of the job is cut in two
+    entry: CutMove | None  # where a move of the job is cut in two
 
 
 @dataclass(frozen=True)
-class Machine:
+class JobMachine:
     """A machine on which the job runs."""
 
     settings: MachineSettings
@@ -43,7 +43,7 @@ class Machine:
         return run
 
 
-def resume_at_line(machine: Machine, lines: Sequence[str], line: int) -> Resumed:
+def resume_at_line(machine: JobMachine, lines: Sequence[str], line: int) -> Resumed:
     """Go on at a line: from the last place before it at which the bit was out of the wood."""
     if not 1 <= line <= len(lines):
         raise InputError(f"--line {line}: the program has {len(lines)} lines")
@@ -57,7 +57,7 @@ def resume_at_line(machine: Machine, lines: Sequence[str], line: int) -> Resumed
 
 
 def resume_at_place(
-    machine: Machine, lines: Sequence[str], place: tuple[float, float], line: int | None = None
+    machine: JobMachine, lines: Sequence[str], place: tuple[float, float], line: int | None = None
 ) -> Resumed:
     """Go on where a cut passes nearest to a place [mm]; `line` picks one of several passes."""
     moves = machine.after(lines).finish().moves
@@ -77,7 +77,7 @@ def resume_at_place(
     return Resumed(tuple(program), entry.line, (*entry.place, entry.z), entry)
 
 
-def _last_free(machine: Machine, lines: Sequence[str], moves: Moves, before: int) -> int:
+def _last_free(machine: JobMachine, lines: Sequence[str], moves: Moves, before: int) -> int:
     """Return how many lines were done when the bit was last out of the wood, outside of a cycle."""
     z = np.full(len(lines) + 1, np.nan)
     z[0] = machine.start[2]
@@ -94,7 +94,7 @@ def _last_free(machine: Machine, lines: Sequence[str], moves: Moves, before: int
 class _Head:
     """First lines of a resumed program, before the job goes on."""
 
-    def __init__(self, machine: Machine, done: Sequence[str], run: Run, safe: float) -> None:
+    def __init__(self, machine: JobMachine, done: Sequence[str], run: Run, safe: float) -> None:
         """Take the run of the lines done, and use it up."""
         self.safe = safe
         self._begin, self._modes = run.origin, run.modes
@@ -150,7 +150,7 @@ SLOW = 100.0  # [mm/min] into the wood, where the program never goes straight do
 
 
 @dataclass(frozen=True)
-class Entry:
+class CutMove:
     """A move of the job that is cut in two."""
 
     line: int
@@ -187,7 +187,7 @@ class Entry:
         return " ".join([code, *words, f"I{centre[0]:.4f} J{centre[1]:.4f} F{feed:g}"])
 
 
-def entry_at(moves: Moves, place: tuple[float, float], *, line: int | None) -> Entry:
+def entry_at(moves: Moves, place: tuple[float, float], *, line: int | None) -> CutMove:
     """Return where a cut passes nearest to a place; of several passes the first, or that near
     `line`.
     """
@@ -215,7 +215,7 @@ def entry_at(moves: Moves, place: tuple[float, float], *, line: int | None) -> E
     lines = moves["line"].astype(int)
     begin = np.flatnonzero(samples.move == samples.move[best])
     x, y = samples.places[best]
-    return Entry(
+    return CutMove(
         line=int(lines[row]),
         rows=moves.only(np.flatnonzero((lines == lines[row]) & (np.arange(len(moves)) >= row))),
         share=float((best - begin[0]) / (len(begin) - 1)),

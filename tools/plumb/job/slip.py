@@ -15,8 +15,8 @@ import numpy as np
 import scipy
 
 from plumb.job.home import (
+    HomeTouch,
     Point,
-    Touch,
     are_apart,
     believed_chains,
     places_with,
@@ -50,7 +50,7 @@ FAR_OFF = 30.0  # [mm] of a coordinate that nothing else explains
 
 
 @dataclass(frozen=True)
-class Account:
+class SlipAccount:
     """Possible course of events, and its odds among all accounts."""
 
     kind: str  # NOTHING, SLIP, SHEET or OTHER
@@ -63,8 +63,8 @@ class SlipFinding:
     """Weighed accounts, and the verdict on them."""
 
     verdict: str  # of the kinds, or CANNOT_TELL
-    accounts: tuple[Account, ...]  # the likeliest first
-    touches: tuple[Touch, ...]
+    accounts: tuple[SlipAccount, ...]  # the likeliest first
+    touches: tuple[HomeTouch, ...]
     errors: Array  # (n, 2) [mm] hole - place by the machine's chains
     left: Array  # (n, 2) [mm] after the likeliest account
     sigma: float  # [mm] of a coordinate
@@ -73,7 +73,7 @@ class SlipFinding:
     log_density: float  # of the touches, over all accounts
 
     @property
-    def best(self) -> Account:
+    def best(self) -> SlipAccount:
         """The likeliest account."""
         return self.accounts[0]
 
@@ -86,7 +86,7 @@ class SlipFinding:
 
 def find_slip(
     settings: MachineSettings,
-    touches: Sequence[Touch],
+    touches: Sequence[HomeTouch],
     *,
     sigma: float | None = None,
     fixed: bool = False,
@@ -107,7 +107,7 @@ def find_slip(
 
 
 def _finding(
-    settings: MachineSettings, touches: Sequence[Touch], turn: float, used: float, fixed: bool
+    settings: MachineSettings, touches: Sequence[HomeTouch], turn: float, used: float, fixed: bool
 ) -> SlipFinding:
     """Return what may have happened, if the sheet is turned [rad] counter-clockwise."""
     believed = believed_chains(settings, touches)
@@ -135,7 +135,7 @@ def _finding(
 
 def _weighed(
     errors: dict[Links, Array], holes: Array, sigma: float, fixed: bool
-) -> tuple[tuple[Account, ...], float]:
+) -> tuple[tuple[SlipAccount, ...], float]:
     """Return all accounts with their odds, the likeliest first, and how likely the touches are."""
     poses = () if fixed else POSES
     logs: dict[tuple[str, Links], list[float]] = {}
@@ -159,7 +159,9 @@ def _weighed(
     totals = {key: float(scipy.special.logsumexp(each)) for key, each in logs.items()}
     whole = float(scipy.special.logsumexp([*totals.values()]))
     likeliest = ranked(totals, lambda key: -totals[key])
-    return tuple(Account(*key, odds=float(np.exp(totals[key] - whole))) for key in likeliest), whole
+    return tuple(
+        SlipAccount(*key, odds=float(np.exp(totals[key] - whole))) for key in likeliest
+    ), whole
 
 
 def _slip_shares() -> Iterator[tuple[Links, float]]:
@@ -195,7 +197,7 @@ def _log_density(error: Array, covariance: Array) -> float:
     return float(-0.5 * (size + error @ np.linalg.solve(covariance, error)))
 
 
-def _verdict(accounts: Sequence[Account], *, apart: bool, fixed: bool) -> str:
+def _verdict(accounts: Sequence[SlipAccount], *, apart: bool, fixed: bool) -> str:
     """Return what may be said of it."""
     best = accounts[0]
     if best.odds < GATE:
@@ -262,7 +264,7 @@ def next_hole(settings: MachineSettings, finding: SlipFinding) -> Point | None:
     return round(x), round(y)
 
 
-def _open(finding: SlipFinding) -> list[Account]:
+def _open(finding: SlipFinding) -> list[SlipAccount]:
     """Return the likeliest accounts that expect something; the likeliest first."""
     kinds = [each for each in finding.accounts if each.kind != OTHER]
     return kinds[: RIVALS + 1]
@@ -280,7 +282,7 @@ def _spots(settings: MachineSettings) -> Array:
 
 
 def _expected(
-    settings: MachineSettings, finding: SlipFinding, account: Account, spots: Array
+    settings: MachineSettings, finding: SlipFinding, account: SlipAccount, spots: Array
 ) -> _Expected:
     """Return what an account expects at places, after these touches."""
     slip = LINK * np.array(account.links, dtype=float)

@@ -49,18 +49,18 @@ class Piece:
 
 
 @dataclass(frozen=True)
-class Taken:
+class WoodTaken:
     """The piece, and how deep each move went into wood that nothing had cut (n,) [mm]."""
 
     piece: Piece | None  # None where nothing is cut
     met: Array
 
 
-def take(moves: Moves, tools: Tools) -> Taken:
+def take(moves: Moves, tools: Tools) -> WoodTaken:
     """Lead the bit along moves over the sheet."""
     cut = moves.cut
     if not cut.any():
-        return Taken(None, np.zeros(len(moves)))
+        return WoodTaken(None, np.zeros(len(moves)))
     which, bits = tools.at(moves["line"])
     radii = np.array([bit.diameter / 2 for bit in bits])
     slopes = np.array([bit.slope for bit in bits])
@@ -93,7 +93,7 @@ def take(moves: Moves, tools: Tools) -> Taken:
         cell=cell,
         heights=heights,
     )
-    return Taken(piece, met)
+    return WoodTaken(piece, met)
 
 
 def _led(moves: Moves) -> Samples:
@@ -115,7 +115,9 @@ def _extent(moves: Moves, *, widest: float) -> Array:
     return np.array([np.min(corners, axis=0), np.max(corners, axis=0)])
 
 
-def spoiled(moves: Moves, taken: Taken, tools: Tools, lines: Sequence[str]) -> Iterator[Finding]:
+def spoiled(
+    moves: Moves, taken: WoodTaken, tools: Tools, lines: Sequence[str]
+) -> Iterator[Finding]:
     """Return what spoils the piece, the bit or the sheet: each cause once, with all its lines."""
     if taken.piece is None:
         return

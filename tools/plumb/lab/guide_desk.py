@@ -14,7 +14,7 @@ from pathlib import Path
 from threading import Lock
 from typing import Literal
 
-from plumb.guide.steps import Step, Visit, take
+from plumb.guide.steps import GuideVisit, Step, take
 from plumb.guide.talk import LeftError, Talk, progress_in
 from plumb.lab.machine_line import MachineLine
 from plumb.line.sender import Sender, StoppedError
@@ -62,7 +62,7 @@ class GuideDesk:
         line: MachineLine,
         *,
         unit: str,
-        finished: Callable[[Visit], None],
+        finished: Callable[[GuideVisit], None],
     ) -> None:
         """Begin a step; `finished` is called when it is done. Raises InputError for a busy line."""
         with self._lock:
@@ -74,7 +74,7 @@ class GuideDesk:
             try:
                 talk = ScreenTalk(self, sender, line)
                 self._note_hanging(step, line)
-                visit = Visit(sender, talk, progress_in(folder), lambda: self._hang(line))
+                visit = GuideVisit(sender, talk, progress_in(folder), lambda: self._hang(line))
                 with shown_in(unit):
                     if take(visit, step):
                         finished(visit)

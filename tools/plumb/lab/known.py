@@ -12,7 +12,7 @@ from plumb.fit.by_hand import WEIGHED, WEIGHT, readings
 from plumb.fit.expected import WIDE, is_absurd, plausible_range, refuse_absurd
 from plumb.fit.problem import priors_with
 from plumb.lab.project import Choices
-from plumb.model.effect_words import CURVES, Curve, Reading, Unit
+from plumb.model.effect_words import CURVES, Curve, RuleReading, Unit
 from plumb.plan.separation import FRAME_CHECKS, effect_checks
 from plumb.settings.machine import GRAVITY, MachineSettings
 from plumb.text.errors import InputError
@@ -202,7 +202,7 @@ def _effects(settings: MachineSettings, choices: Choices) -> list[KnownNumber]:
     ]
 
 
-def _of_effect(name: str, reading: Reading, settings: MachineSettings) -> KnownNumber:
+def _of_effect(name: str, reading: RuleReading, settings: MachineSettings) -> KnownNumber:
     effect, _, part = name.partition(".")
     check = effect_checks()[effect]
     value, is_first = settings.effect(effect, part), effect in FIRST

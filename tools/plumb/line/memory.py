@@ -21,7 +21,7 @@ SAME = 1e-5  # of a value: the machine prints seven digits
 
 
 @dataclass(frozen=True)
-class Written:
+class WrittenNumbers:
     """Numbers that were sent, and the machine's answer to them."""
 
     before: dict[int, float]  # all numbers of the machine
@@ -49,7 +49,7 @@ def write_numbers(
     lines: list[str],
     *,
     keep: Callable[[dict[int, float]], None] = lambda before: None,
-) -> Written:
+) -> WrittenNumbers:
     """Send lines `$N=VALUE`, read all numbers back, and compare.
 
     `keep` gets all numbers that the machine has, before any is sent.
@@ -78,7 +78,7 @@ def write_numbers(
         for number, value in before.items()
         if number in after and not _same(after[number], value)
     }
-    return Written(before, changed)
+    return WrittenNumbers(before, changed)
 
 
 def _same(printed: float, value: float) -> bool:

@@ -22,7 +22,7 @@ class LostError(InputError):
     """Nothing more comes over the line: a cable, its power, or a program that has it."""
 
 
-class Port(Protocol):
+class LinePort(Protocol):
     """Both ways of a serial line, and the time that passes on it."""
 
     def write(self, characters: bytes) -> None:

@@ -13,7 +13,7 @@ from plumb.line.sender import PER_SECOND, Sender, plain
 LATE = 2.0  # [s] by which motion may end later than planned, because the feed yields
 
 
-class Reached:
+class SureLines:
     """The lines that are surely done.
 
     A line is answered while some of its motion is left, so it is done a while later. The while is
@@ -60,12 +60,12 @@ Came = Callable[[int, int], None]  # hears how many lines are surely done, and h
 UNDER_WAY = 2  # lines of a machine that is stopped: one that it answered, unheard, and the next
 
 
-class Course:
+class LineCourse:
     """How far a program surely is, and how far it may be: the machine has lines for a while."""
 
     def __init__(self, sender: Sender, lines: Sequence[str], came: Came, before: int) -> None:
         self._lines, self._came, self._before = lines, came, before
-        self._reached = Reached(sender, lines)
+        self._reached = SureLines(sender, lines)
         self._answered, self._left = 0, 0
 
     def leaving(self) -> Iterator[str]:

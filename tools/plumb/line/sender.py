@@ -13,7 +13,7 @@ from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field
 from time import monotonic
 
-from plumb.line.port import LostError, Port
+from plumb.line.port import LinePort, LostError
 from plumb.text.errors import InputError
 
 AHEAD = 126  # characters on their way at most
@@ -68,7 +68,7 @@ class Status:
 class Sender:
     """A machine at the end of a line."""
 
-    port: Port
+    port: LinePort
     said: Callable[[str], None] = lambda line: None  # hears everything that is no answer
     status: Status | None = None
     # Called again and again while lines are on their way; it may hold the machine, or stop it.

@@ -19,9 +19,9 @@ from typing import Any, Literal, TypeVar
 from pydantic import computed_field
 
 from plumb.line.memory import read_numbers
-from plumb.line.port import LostError, Port
+from plumb.line.port import LinePort, LostError
 from plumb.line.progress import SAID_PAUSED, Progress, waits_in
-from plumb.line.reached import Came, Course
+from plumb.line.reached import Came, LineCourse
 from plumb.line.sender import HALTED, REPORTS, STANDS, Sender, Status, StoppedError, Watch, cleaned
 from plumb.text.answers import Internal
 from plumb.text.errors import InputError
@@ -79,7 +79,7 @@ class LineWorker:
 
     def __init__(
         self,
-        opened: Callable[[], Port],
+        opened: Callable[[], LinePort],
         *,
         knows_place: bool = True,
         working: Callable[[bool], None] = lambda works: None,
@@ -93,7 +93,7 @@ class LineWorker:
         self._said = deque[str](maxlen=SAID)
         self._places = deque[tuple[float, Status]]()
         self._paused: Callable[[int], None] = lambda lines: None
-        self._course: Course | None = None  # of the program that is sent
+        self._course: LineCourse | None = None  # of the program that is sent
         self._waits = False  # in mid-work, for a person
         self._held_at = -SURE  # reports that had come at the last hold
         self._sender: Sender | None = None
@@ -158,7 +158,7 @@ class LineWorker:
 
         def sending(sender: Sender) -> _Done:
             self._paused = paused
-            self._course = course = Course(sender, clean, came, before)
+            self._course = course = LineCourse(sender, clean, came, before)
             try:
                 sender.stream(course.leaving(), answered=course.hears(answered))
                 self._await_rest(sender)
@@ -226,7 +226,7 @@ class LineWorker:
         return _Done({"program": replace(program, outcome=outcome), "trouble": trouble})
 
     def _run(self) -> None:
-        port: Port | None = None
+        port: LinePort | None = None
         try:
             port = self._opened()
             sender = self._sender = Sender(port, said=self._hear, attend=self._attend)

@@ -60,7 +60,7 @@ SLED_WEIGHT_RANGE = (30.0, 1000.0)  # [N] below it somebody wrote kilograms or p
 
 
 @dataclass(frozen=True)
-class Frame:
+class PlaceFrame:
     """How the places of a file are typed."""
 
     sheet: Sheet | None  # they count from its top left corner, y down; None: machine frame
@@ -94,7 +94,7 @@ def read_marks_toml(
     weight = _optional_weight(path, "sled_weight_n", head)
     file_round = _round(path, head, known)
     sheet = file_round.cut_with.sheet if file_round.cut_with else sheet
-    frame = Frame(sheet if top_left else None, unit)
+    frame = PlaceFrame(sheet if top_left else None, unit)
     return Measurements(
         marks=_marks(path, head, frame=frame, weight=weight),
         distances=_distances(path, head),
@@ -183,7 +183,7 @@ def _tables(path: str | PathLike[str], head: dict[str, Any], key: str) -> list[d
 
 
 def _marks(
-    path: str | PathLike[str], head: dict[str, Any], *, frame: Frame, weight: float | None
+    path: str | PathLike[str], head: dict[str, Any], *, frame: PlaceFrame, weight: float | None
 ) -> tuple[Mark, ...]:
     """Return all marks, moved to the machine frame."""
     marks: list[Mark] = []
@@ -223,19 +223,21 @@ def _name(value: object) -> str:
 
 
 def _place(
-    path: str | PathLike[str], place: str, table: dict[str, Any], key: str, frame: Frame
+    path: str | PathLike[str], place: str, table: dict[str, Any], key: str, frame: PlaceFrame
 ) -> Point | None:
     return _point(path, place, table[key], key, frame) if key in table else None
 
 
-def _point(path: str | PathLike[str], place: str, value: object, key: str, frame: Frame) -> Point:
+def _point(
+    path: str | PathLike[str], place: str, value: object, key: str, frame: PlaceFrame
+) -> Point:
     with naming(path, f"{place} {key}"):
         typed = point(value, unit=frame.unit)
     return typed if frame.sheet is None else to_machine(typed, sheet=frame.sheet)
 
 
 def _approach(
-    path: str | PathLike[str], place: str, table: dict[str, Any], frame: Frame
+    path: str | PathLike[str], place: str, table: dict[str, Any], frame: PlaceFrame
 ) -> Point | None:
     """Return the direction of the last move; in the top-left frame y runs down here as well."""
     if "approach" not in table:

@@ -89,7 +89,7 @@ class EffectWords(TypedDict):
 
 
 @dataclass(frozen=True)
-class Reading:
+class RuleReading:
     """Reading on a rule or a scale, from which a number follows: factor * curve(reading - zero)."""
 
     title: str

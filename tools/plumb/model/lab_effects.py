@@ -17,7 +17,7 @@ from plumb.model.effect_words import (
     EffectWords,
     ParameterWords,
     PlainWords,
-    Reading,
+    RuleReading,
 )
 
 Array = NDArray[np.float64]
@@ -36,7 +36,7 @@ class Seen:
 
 
 @dataclass(frozen=True)
-class Change:
+class PlaceShift:
     """Shifts of places by an effect, and its slopes with everything else held."""
 
     moved: Array  # (n, 2) [mm] to be added to the places
@@ -55,9 +55,9 @@ class LabEffect:
     words: EffectWords
     needs: str  # what measurements must hold to feel it
     acts_on: str  # SLED, EDGES or TAPE
-    change: Callable[[float, Seen], Change]  # of the number and what is seen
+    change: Callable[[float, Seen], PlaceShift]  # of the number and what is seen
     hidden_as: str  # what the bench does to a board by the number: drag, skew or strain
-    reading: Callable[[float, float], Reading] | None = None  # by hand, on a sheet [mm]
+    reading: Callable[[float, float], RuleReading] | None = None  # by hand, on a sheet [mm]
 
     @property
     def name(self) -> str:
@@ -123,7 +123,7 @@ def _words(
 # Sled friction: the sled rubs on the sheet and stops short of where its chains let it hang.
 
 
-def _friction(size: float, seen: Seen) -> Change:
+def _friction(size: float, seen: Seen) -> PlaceShift:
     """Displacement = -compliance * drag * unit approach.
 
     Friction pulls against the last motion; a side force changes both tensions, so sag and stretch,
@@ -131,7 +131,7 @@ def _friction(size: float, seen: Seen) -> Change:
     the compliance itself changes from place to place is left to who worked it out.
     """
     per_newton = -np.einsum("nij,nj->ni", seen.compliance, seen.approaches)
-    return Change(
+    return PlaceShift(
         moved=size * per_newton,
         by_size=per_newton,
         by_place=np.zeros((len(per_newton), 2, 2)),
@@ -162,7 +162,7 @@ SLED_FRICTION = LabEffect(
 # Sheet skew: places are read from edges of the sheet that are not square to each other.
 
 
-def _skew(size: float, seen: Seen) -> Change:
+def _skew(size: float, seen: Seen) -> PlaceShift:
     """Return the reading x grows by angle * y: a positive angle reads too far right at the top.
 
     That is a left edge whose top leans out to the left. Distances between marks do not feel it.
@@ -171,12 +171,12 @@ def _skew(size: float, seen: Seen) -> Change:
     by_size[:, 0] = seen.places[:, 1]
     by_place = np.zeros((len(by_size), 2, 2))
     by_place[:, 0, 1] = size
-    return Change(size * by_size, by_size, by_place)
+    return PlaceShift(size * by_size, by_size, by_place)
 
 
-def _by_diagonals(width: float, height: float) -> Reading:
+def _by_diagonals(width: float, height: float) -> RuleReading:
     """Return how the diagonals differ: their squares by about twice a diagonal times that."""
-    return Reading(
+    return RuleReading(
         "how much longer the diagonal from the top left corner is",
         1.0,
         math.hypot(width, height) / (2 * width * height),
@@ -215,18 +215,18 @@ SHEET_SKEW = LabEffect(
 # Tape scale: the tape's millimetres are not millimetres, so everything measured is too long.
 
 
-def _scale(size: float, seen: Seen) -> Change:
+def _scale(size: float, seen: Seen) -> PlaceShift:
     """Measured = true * (1 + strain), about the middle of the sheet: positive reads too long.
 
     (A tape that reads too long is itself too short. Where its hook sits only shifts all marks.)
     """
     by_place = np.broadcast_to(size * np.eye(2), (len(seen.places), 2, 2))
-    return Change(size * seen.places, seen.places, by_place)
+    return PlaceShift(size * seen.places, seen.places, by_place)
 
 
-def _over_a_metre(_width: float, _height: float) -> Reading:
+def _over_a_metre(_width: float, _height: float) -> RuleReading:
     """Return what is read off a rule that is held against the tape, on any sheet."""
-    return Reading("how much too much the tape reads over a metre", 0.1, 1 / 1000, digits=2)
+    return RuleReading("how much too much the tape reads over a metre", 0.1, 1 / 1000, digits=2)
 
 
 TAPE_SCALE = LabEffect(

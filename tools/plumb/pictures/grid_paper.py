@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import plumb.grid as marks_grid
-from plumb.pictures.measuring_sheet import Hole, MeasuringSheet, Reading, measuring_sheet
+from plumb.pictures.measuring_sheet import Hole, MeasuringSheet, ReadingRow, measuring_sheet
 from plumb.text.values import bare, unit
 
 TAPE = {
@@ -43,7 +43,7 @@ def content_of(
         words=("mark", "planned x", "planned y", "x", "y"),
         holes=holes,
         readings=tuple(
-            Reading(hole.name, (bare(hole.x, 1), bare(hole.y, 1)), "again" if hole.again else "")
+            ReadingRow(hole.name, (bare(hole.x, 1), bare(hole.y, 1)), "again" if hole.again else "")
             for hole in holes
         ),
         sheet=(machine.sheet_width, machine.sheet_height),

@@ -40,7 +40,7 @@ class Hole:
 
 
 @dataclass(frozen=True)
-class Reading:
+class ReadingRow:
     """A row of boxes to fill in."""
 
     name: str
@@ -56,7 +56,7 @@ class MeasuringSheet:
     how: tuple[str, ...]  # how to measure, a line each
     words: tuple[str, ...]  # above the boxes of a row
     holes: tuple[Hole, ...]
-    readings: tuple[Reading, ...]
+    readings: tuple[ReadingRow, ...]
     sheet: tuple[float, float]  # [mm] width and height of the wood
 
 
@@ -206,8 +206,8 @@ def _draw_tape(
 
 
 def _draw_boxes(
-    axis: Axes, content: MeasuringSheet, readings: list[Reading], *, top: float
-) -> list[Reading]:
+    axis: Axes, content: MeasuringSheet, readings: list[ReadingRow], *, top: float
+) -> list[ReadingRow]:
     """Rows of boxes in two columns; returns the readings that have no room on this page."""
     wide = (WIDE - GAP) / 2
     rows = int((LOW - top - HEAD) / ROW)
@@ -222,7 +222,7 @@ def _draw_boxes(
 def _draw_column(
     axis: Axes,
     content: MeasuringSheet,
-    readings: Sequence[Reading],
+    readings: Sequence[ReadingRow],
     left: float,
     top: float,
     wide: float,

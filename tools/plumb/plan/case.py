@@ -98,7 +98,7 @@ def hidden_hypotheses(frame: Explanation) -> tuple[Hypothesis, ...]:
 
 
 @dataclass(frozen=True)
-class Check:
+class PlannedCheck:
     """A number of the machine that would be measured directly."""
 
     name: str  # of a parameter or of the frame
@@ -115,10 +115,10 @@ class Ahead:
     where: Array  # (planned marks * 2,) [sigmas] predicted; NaN where the sled could not hang
 
 
-class Planned:
+class PlannedMeasurement:
     """A planned measurement; what it adds by an explanation is worked out once."""
 
-    def __init__(self, visits: Visits, checks: Sequence[Check] = ()) -> None:
+    def __init__(self, visits: Visits, checks: Sequence[PlannedCheck] = ()) -> None:
         self.visits, self.checks = visits, tuple(checks)
         self._known: dict[int, tuple[Explanation, Ahead]] = {}
 
@@ -129,7 +129,7 @@ class Planned:
         return self._known[id(at)][1]
 
 
-def ahead(at: Explanation, visits: Visits, checks: Sequence[Check] = ()) -> Ahead:
+def ahead(at: Explanation, visits: Visits, checks: Sequence[PlannedCheck] = ()) -> Ahead:
     """Return the rows after a planned measurement, by the slopes of an explanation."""
     where, marks = _seen(at, visits)
     checked = check_slopes(at, checks)
@@ -164,7 +164,7 @@ def _seen(at: Explanation, visits: Visits) -> tuple[Array, Array]:
     return where.ravel(), np.where(hangs[:, np.newaxis, np.newaxis], slopes, 0.0)
 
 
-def check_slopes(at: Explanation, checks: Sequence[Check]) -> Array:
+def check_slopes(at: Explanation, checks: Sequence[PlannedCheck]) -> Array:
     """Whitened slopes (c, u) of numbers that are measured directly."""
     problem = at.board.problem
     rows = np.zeros((len(checks), len(problem.names)))

@@ -9,7 +9,7 @@ import numpy as np
 
 from plumb.model.catalogue import is_felt_by_approach, is_of_chain
 from plumb.model.plain import least, ranked
-from plumb.plan.case import Case, Check
+from plumb.plan.case import Case, PlannedCheck
 from plumb.plan.planned_visits import Visits, grid, joined, new_places, nowhere, sent, usable
 from plumb.plan.separation import FRAME_CHECKS, Chooser, NumberCheck, effect_checks
 from plumb.settings.machine import GRAVITY
@@ -42,7 +42,7 @@ class Option:
     do: tuple[str, ...]  # what to do, in sentences
     minutes: float
     visits: Visits
-    checks: tuple[Check, ...] = ()
+    checks: tuple[PlannedCheck, ...] = ()
     value: str = ""  # how the checks' values follow from what was measured
 
     @property
@@ -77,22 +77,22 @@ def checks_for(case: Case) -> list[Option]:
     known = {problem.names[i]: float(problem.scale[i]) for i in held} | made
     offered = []
     for name, direct in effect_checks().items():
-        each = tuple(Check(f"{name}.{part}", sigma) for part, sigma in direct.sigmas.items())
+        each = tuple(PlannedCheck(f"{name}.{part}", sigma) for part, sigma in direct.sigmas.items())
         if name in case.effects and any(_sharper(check, known) for check in each):
             offered.append(_check("check", direct, each))
     for name, direct in FRAME_CHECKS.items():
-        check = Check(name, direct.sigmas[name])
+        check = PlannedCheck(name, direct.sigmas[name])
         if name in known and _sharper(check, known):
             offered.append(_check("frame", direct, (check,)))
     return offered
 
 
-def _sharper(check: Check, known: Mapping[str, float]) -> bool:
+def _sharper(check: PlannedCheck, known: Mapping[str, float]) -> bool:
     """Return whether it says more than what is known already."""
     return known.get(check.name, np.inf) > SHARPER * check.sigma
 
 
-def _check(kind: str, number: NumberCheck, each: tuple[Check, ...]) -> Option:
+def _check(kind: str, number: NumberCheck, each: tuple[PlannedCheck, ...]) -> Option:
     direct = number.direct
     return Option(
         kind, direct.title, (direct.steps,), direct.minutes, nowhere(), each, direct.value

@@ -18,10 +18,10 @@ from plumb.diagnosis.answer import is_silent
 from plumb.diagnosis.every_machine import asked_for, clean_of, pitches
 from plumb.diagnosis.evidence import (
     FEWER,
+    AccountGroup,
     Accounts,
     Effects,
     Noises,
-    Part,
     accounts_of,
     variants,
 )
@@ -32,7 +32,7 @@ from plumb.diagnosis.posterior import listing, together
 from plumb.diagnosis.priors import PITCH, TOGETHER, SizePriors, turned
 from plumb.model.catalogue import EVERY_MACHINE
 from plumb.model.plain import ascending
-from plumb.plan.case import Ahead, Case, Planned
+from plumb.plan.case import Ahead, Case, PlannedMeasurement
 
 Array = np.ndarray
 DRAWS = 120  # a chance is then right to about 4 in 100
@@ -61,7 +61,7 @@ class Outlooks:
         self.is_hidden = case.verdict == "nothing_provable"
         self._so_far: dict[Effects, SoFar] = {}
 
-    def of(self, planned: Planned) -> Outlook:
+    def of(self, planned: PlannedMeasurement) -> Outlook:
         """Return what to expect of a planned measurement."""
         rows = planned.ahead(self.case.frame)
         board = self.case.board
@@ -158,7 +158,7 @@ def _beyond(gram: Array, mine: Array, others: Array) -> Array:
 class Truths:
     """Variants of accounts that may be true."""
 
-    part: Part
+    part: AccountGroup
     chances: Array  # (a,)
     is_drifting: bool  # whether the chains are as makers sell them, or nominal
 
@@ -237,7 +237,7 @@ class SoFar:
         then = self._with(frame, effects, drawn, is_read)
         return then, np.array(truths), np.hstack(drawn_sizes)
 
-    def _of_acting(self, part: Part, place: int, sizes: Array) -> Array:
+    def _of_acting(self, part: AccountGroup, place: int, sizes: Array) -> Array:
         """Return sizes (k, count) of a variant as those (p, count) of the effects that act."""
         every = np.zeros((self.board.effects.shape[1], sizes.shape[1]))
         every[part.index[place]] = sizes

@@ -18,7 +18,7 @@ from plumb.fit.inputs import Inputs
 from plumb.fit.observations import Observations
 from plumb.grid.cut_with import cut_with_lines, with_form
 from plumb.model.plain import ascending, noun_of, plainly, ranked
-from plumb.plan.case import Case, Check, Planned, case_of
+from plumb.plan.case import Case, PlannedCheck, PlannedMeasurement, case_of
 from plumb.plan.options import MARK, READING, ROUND, Option, many_marks, options, spots
 from plumb.plan.outlook import Outlooks
 from plumb.plan.planned_visits import (
@@ -72,7 +72,7 @@ class Proposal:
     do = part("option.do", tuple[str, ...])
     minutes = part("option.minutes", float)
     marks = part("option.visits.each", tuple[Visit, ...])
-    checks = part("option.checks", tuple[Check, ...])
+    checks = part("option.checks", tuple[PlannedCheck, ...])
 
     @property
     def rate(self) -> float:
@@ -137,7 +137,7 @@ def _best_first(proposals: Sequence[Proposal]) -> tuple[Proposal, ...]:
 
 def _weighed(outlooks: Outlooks, option: Option, rooms: Sequence[Room]) -> Proposal:
     """Return an option with what to expect of it."""
-    case, planned = outlooks.case, Planned(option.visits, option.checks)
+    case, planned = outlooks.case, PlannedMeasurement(option.visits, option.checks)
     expected = outlooks.of(planned)
     question = QUESTIONS[case.verdict]
     parts = _parted(case, planned) if question != FIND else ()
@@ -145,7 +145,7 @@ def _weighed(outlooks: Outlooks, option: Option, rooms: Sequence[Room]) -> Propo
     return Proposal(option, question, expected.chance, expected.left, expected.bits, parts, then)
 
 
-def _parted(case: Case, planned: Planned) -> tuple[tuple[str, str], ...]:
+def _parted(case: Case, planned: PlannedMeasurement) -> tuple[tuple[str, str], ...]:
     """Pairs of suspects that are distinguished afterwards and are not now, most probable first."""
     lambdas: dict[frozenset[str], list[float]] = {}
     for hypothesis in case.hypotheses:
@@ -174,7 +174,7 @@ def _name(effects: Sequence[str]) -> str:
     return " + ".join(effects)
 
 
-def _rooms(case: Case, planned: Planned, rooms: Sequence[Room]) -> tuple[RoomThen, ...]:
+def _rooms(case: Case, planned: PlannedMeasurement, rooms: Sequence[Room]) -> tuple[RoomThen, ...]:
     """Return what could hide afterwards, the largest change first.
 
     About: the interval of an effect's least visible direction shrinks by so much, and with it what

@@ -21,7 +21,7 @@ from plumb.grid.program import marks_list, program
 from plumb.line.sender import Sender
 from plumb.model.lab_effects import LAB_EFFECTS
 from plumb.model.reach import plain_machine
-from plumb.plan.case import Check
+from plumb.plan.case import PlannedCheck
 from plumb.plan.planned_visits import Visits, marks_file, visit_lines
 from plumb.settings.machine import MachineSettings
 from plumb.vm.garage import Garage, set_up, with_new_sheet
@@ -98,7 +98,7 @@ class VirtualOwner:
         usual = self.garage.numbers["sled_weight"]
         self.machine.set("sled_weight", usual * weight / self.settings.sled_weight)
 
-    def check(self, checks: Sequence[Check]) -> list[Checked]:
+    def check(self, checks: Sequence[PlannedCheck]) -> list[Checked]:
         """Return numbers measured directly, each with its error."""
         return [
             Checked(

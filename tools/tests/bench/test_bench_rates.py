@@ -6,7 +6,7 @@ from dataclasses import replace
 import pytest
 from plumb.bench.judged_board import judge_board
 from plumb.bench.kinds import KINDS
-from plumb.bench.report import RATES, Wanted, play, row_of
+from plumb.bench.report import RATES, WantedBoards, play, row_of
 from plumb.text.errors import InputError
 
 SEED = 77
@@ -83,7 +83,7 @@ def test_an_interruption_keeps_the_boards_that_are_done(run, ask, monkeypatch):
 @pytest.fixture(scope="module")
 def alone():
     """Boards played one after the other, and which."""
-    wanted = Wanted((NONE, "stock/slip"), boards=2, marks=9, seed=2)
+    wanted = WantedBoards((NONE, "stock/slip"), boards=2, marks=9, seed=2)
     return wanted, play(wanted)
 
 
@@ -104,4 +104,4 @@ def test_a_cluster_of_two_workers_gives_the_same_rates(alone):
 def test_a_cluster_needs_dask(monkeypatch):
     monkeypatch.setitem(sys.modules, "distributed", None)
     with pytest.raises(InputError, match=r"pip install 'plumb\[cluster\]'"):
-        play(Wanted((NONE,), boards=1, marks=9, seed=2), cluster="tcp://localhost:1")
+        play(WantedBoards((NONE,), boards=1, marks=9, seed=2), cluster="tcp://localhost:1")

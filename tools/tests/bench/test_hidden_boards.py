@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from plumb.bench.boards import cut, plan
 from plumb.bench.causes import CAUSES, MAKER, OUTSIDE, Hidden
-from plumb.bench.hiding import Slip, slip
+from plumb.bench.hiding import PenSlip, slip
 from plumb.bench.kinds import KINDS, board_of
 from plumb.bench.shown import Truth
 from plumb.diagnosis import diagnose
@@ -92,7 +92,7 @@ def test_a_slip_moves_one_reading_of_the_marks_that_are_meant(where, is_repeated
     board = cut(Hidden(), plan(5, 5, repeats=True), seed=1)
     names = [mark.name for mark in board.measurements.marks]
     for seed in range(8):
-        wrong, slipped = slip(board, Slip(9.0, where), np.random.default_rng(seed))
+        wrong, slipped = slip(board, PenSlip(9.0, where), np.random.default_rng(seed))
         apart = lengths_of(wrong.measurements.measured - board.measurements.measured)
         assert np.count_nonzero(apart) == 1 and apart.max() == pytest.approx(9.0)
         assert (names.count(slipped) > 1) == is_repeated

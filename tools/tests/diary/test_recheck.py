@@ -9,7 +9,7 @@ from plumb.cure.machine_file import record_of
 from plumb.diary.file import FIT, append, fit_entry, read_diary
 from plumb.diary.recheck import LEFT, RIGHT, recheck
 from plumb.fit.inputs import Inputs
-from plumb.job.home import Touch
+from plumb.job.home import HomeTouch
 from plumb.marks.read import Measurements
 from plumb.model.predict import lengths, places
 from plumb.settings.toml import machine_toml
@@ -40,7 +40,7 @@ def touched(settings, *, longer=(0.0, 0.0), true=TRUE, noise=(0, 0), turn=0.0):
     where = places(true, lengths(settings, AT)[0] + np.array(longer))[0] + noise
     where = where @ np.array([[np.cos(turn), np.sin(turn)], [-np.sin(turn), np.cos(turn)]])
     return [
-        Touch(str(i), tuple(hole), tuple(target))
+        HomeTouch(str(i), tuple(hole), tuple(target))
         for i, (hole, target) in enumerate(zip(where.tolist(), AT.tolist(), strict=True))
     ]
 

@@ -7,7 +7,7 @@ import pytest
 from plumb.bench.causes import MAKER
 from plumb.diary.file import FIT, append, read_diary
 from plumb.diary.recheck import SHEET_Y, recheck
-from plumb.job.home import Touch
+from plumb.job.home import HomeTouch
 from plumb.settings.toml import machine_toml
 
 AT = np.array([(-900.0, 250.0), (900.0, -250.0)])
@@ -28,7 +28,7 @@ def checked(tmp_path):
         }
         append(tmp_path, FIT, entry)
         touches = [
-            Touch(str(i), tuple(hole), tuple(at))
+            HomeTouch(str(i), tuple(hole), tuple(at))
             for i, (hole, at) in enumerate(zip((AT + errors).tolist(), AT.tolist(), strict=True))
         ]
         return recheck(read_diary(tmp_path), MAKER, touches, sigma=sigma)

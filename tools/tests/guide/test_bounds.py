@@ -2,8 +2,8 @@
 
 import pytest
 from plumb.fit.expected import expected_anywhere, expected_priors, expected_sentence
-from plumb.guide.steps import Visit, _judge_mark, show_reach
-from plumb.guide.talk import Progress, progress_in
+from plumb.guide.steps import GuideVisit, _judge_mark, show_reach
+from plumb.guide.talk import GuideProgress, progress_in
 from plumb.settings.toml import machine_toml
 from plumb.text.errors import InputError
 from prepared_owner import PreparedOwner
@@ -29,7 +29,7 @@ SIGMAS = {"motor_height": 10.0, "motor_center_x": 0.1, "motor_gap": 0.1, "rotati
 def test_a_first_mark_twice_as_far_as_expected_is_still_normal(tmp_path, off, is_normal):
     width, height = BELIEVED.sheet
     owner = owner_of(str(width / 2), str(height / 2 + off))
-    visit = Visit(None, owner, Progress(tmp_path, [], SIGMAS))
+    visit = GuideVisit(None, owner, GuideProgress(tmp_path, [], SIGMAS))
     assert _judge_mark(visit, BELIEVED) is is_normal
     assert ("is normal" in owner.said[-1]) is is_normal
 
@@ -37,6 +37,6 @@ def test_a_first_mark_twice_as_far_as_expected_is_still_normal(tmp_path, off, is
 def test_the_guide_calls_normal_what_plumb_reach_does(tmp_path):
     owner = owner_of()
     (tmp_path / "machine.toml").write_text(machine_toml(BELIEVED))
-    assert show_reach(Visit(None, owner, Progress(tmp_path, [], SIGMAS)))
+    assert show_reach(GuideVisit(None, owner, GuideProgress(tmp_path, [], SIGMAS)))
     expected = expected_anywhere(BELIEVED, expected_priors(SIGMAS))
     assert owner.said[-1].endswith(expected_sentence(expected))

@@ -4,14 +4,14 @@ from types import SimpleNamespace
 
 import pytest
 from plumb.guide import steps
-from plumb.guide.steps import Visit, check_wires, first_mark, set_chains, tell_numbers
-from plumb.guide.talk import Progress
+from plumb.guide.steps import GuideVisit, check_wires, first_mark, set_chains, tell_numbers
+from plumb.guide.talk import GuideProgress
 from plumb.settings.toml import machine_toml
 from prepared_owner import PreparedOwner
 from synthetic import BELIEVED
 
 
-class Sent(Visit):
+class Sent(GuideVisit):
     """A visit that keeps what it would send; `alarms` stops the machine at lines with a word."""
 
     def __init__(self, folder, answers, *, place=(0.0, 0.0, 0.0), alarms=None):
@@ -20,7 +20,7 @@ class Sent(Visit):
         owner = PreparedOwner(lambda question: left.pop(0))
         self.said = owner.said
         sender = SimpleNamespace(status=SimpleNamespace(place=place))
-        super().__init__(sender, owner, Progress(folder))
+        super().__init__(sender, owner, GuideProgress(folder))
         (folder / "machine.toml").write_text(machine_toml(BELIEVED))
 
     def move(self, *lines):

@@ -2,8 +2,8 @@
 
 import pytest
 from plumb.bench.causes import Hidden
-from plumb.guide.steps import Visit, check_wires
-from plumb.guide.talk import Progress, chain_jog, ran_away, remedy
+from plumb.guide.steps import GuideVisit, check_wires
+from plumb.guide.talk import GuideProgress, chain_jog, ran_away, remedy
 from plumb.line.memory import read_numbers
 from plumb.line.sender import Sender
 from plumb.vm.garage import Garage
@@ -21,7 +21,7 @@ def jogged(tmp_path, side, *faults):
     for fault in faults:
         machine.set_wire(side, fault, True)
     sender = switched_on(machine)
-    visit = Visit(sender, PreparedOwner(input), Progress(tmp_path))
+    visit = GuideVisit(sender, PreparedOwner(input), GuideProgress(tmp_path))
     before = machine.chains[SIDES.index(side)]
     alarm = visit.move(*chain_jog(side).there)
     change = machine.chains[SIDES.index(side)] - before
@@ -74,7 +74,7 @@ class FirstDay:
         self.said, self._sees, self._before = owner.said, sees, 0.0
         self.sender = Sender(InProcessPort(self.machine))
         self.sender.await_start()
-        self.visit = Visit(self.sender, owner, Progress(folder))
+        self.visit = GuideVisit(self.sender, owner, GuideProgress(folder))
         self.heights = []
         self.sender.attend = lambda _: self.heights.append(self.machine.height)
 

@@ -9,7 +9,7 @@ from plumb.bench.causes import MAKER
 from plumb.bench.hiding import as_bought, usual_machine
 from plumb.fit.fit import fit
 from plumb.fit.inputs import Inputs
-from plumb.job.home import Touch
+from plumb.job.home import HomeTouch
 from plumb.job.slip import LINK, NO_LINKS
 from plumb.model.predict import lengths, places
 from plumb.settings.toml import FitRecord
@@ -44,5 +44,6 @@ def touched(number, *, links=NO_LINKS, moved=(0.0, 0.0), seed, holes=HOLES):
     assert np.abs(true.sleds(chains) - sleds).max() < 1e-3
     shown = places(settings, chains - LINK * np.array(links))[0]
     return [
-        Touch("1", tuple(h), tuple(s)) for h, s in zip(holes.tolist(), shown.tolist(), strict=True)
+        HomeTouch("1", tuple(h), tuple(s))
+        for h, s in zip(holes.tolist(), shown.tolist(), strict=True)
     ]

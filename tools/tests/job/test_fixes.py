@@ -7,12 +7,12 @@ from plumb.cli.main import main
 from plumb.job.bits import Tools
 from plumb.job.check import check_job
 from plumb.job.fixes import fixed
-from plumb.job.resume import Machine
+from plumb.job.resume import JobMachine
 from plumb.settings.toml import write_machine_toml
 from plumb.text.errors import InputError
 from workshop import NAMES, lines_of
 
-MACHINE = Machine(MAKER, (0.0, 0.0, 0.0), {})
+MACHINE = JobMachine(MAKER, (0.0, 0.0, 0.0), {})
 FUSION = """G90 G94
 G17
 G21

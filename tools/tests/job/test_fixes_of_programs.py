@@ -8,7 +8,7 @@ from plumb.bench.causes import MAKER
 from plumb.job.bits import Tools
 from plumb.job.check import check_job
 from plumb.job.fixes import fixed
-from plumb.job.resume import Machine
+from plumb.job.resume import JobMachine
 from workshop import NAMES, lines_of, run_dry
 
 FREE = "G0 Z{up}"
@@ -62,7 +62,7 @@ def test_a_fixed_program_cuts_the_wood_of_the_program_that_is_meant(name, habit)
     spoilt, count = with_lines_put_in(lines, foreign)
     meant, _ = with_lines_put_in(lines, plain)
     findings = check_job(MAKER, spoilt, tools=Tools.of(spoilt)).findings
-    mended = fixed(Machine(MAKER, (0.0, 0.0, 0.0), {}), spoilt, findings, source=name)
+    mended = fixed(JobMachine(MAKER, (0.0, 0.0, 0.0), {}), spoilt, findings, source=name)
     assert count and len(mended.changes) == count
     after, wanted = piece_of(mended.lines), piece_of(meant)
     np.testing.assert_allclose(after.heights, wanted.heights, atol=1e-6)

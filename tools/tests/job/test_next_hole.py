@@ -5,7 +5,7 @@ from itertools import product
 import numpy as np
 import pytest
 from plumb.bench.causes import MAKER
-from plumb.job.home import Touch
+from plumb.job.home import HomeTouch
 from plumb.job.slip import CANNOT_TELL, LINK, SHEET, SLIP, find_slip, next_hole
 from plumb.model.predict import lengths, places
 from slipped_machine import fitted_machine, touched
@@ -18,7 +18,7 @@ def touch_of(hole, *, links=(0, 0), moved=(0.0, 0.0, 0.0)):
     x, y, turn = moved
     sled = np.array([[hole[0] - turn * hole[1] + x, hole[1] + turn * hole[0] + y]])
     shown = places(MAKER, lengths(MAKER, sled)[0] - LINK * np.array(links))[0][0]
-    return Touch("1", tuple(hole), (float(shown[0]), float(shown[1])))
+    return HomeTouch("1", tuple(hole), (float(shown[0]), float(shown[1])))
 
 
 @pytest.mark.parametrize("links", [(1, 0), (0, -2), (-1, 2)])

@@ -9,12 +9,12 @@ from plumb.bench.causes import MAKER
 from plumb.job.check import check_job
 from plumb.job.dry_run import IN_WOOD
 from plumb.job.findings import GOUGES, HALTS
-from plumb.job.resume import Machine, cycles_after, resume_at_line, resume_at_place, tools_after
+from plumb.job.resume import JobMachine, cycles_after, resume_at_line, resume_at_place, tools_after
 from plumb.text.errors import InputError
 from scipy.spatial import cKDTree
 from workshop import NAMES, PROGRAMS, Workshop, lines_of, run_dry
 
-MACHINE = Machine(MAKER, (0.0, 0.0, 0.0), {})
+MACHINE = JobMachine(MAKER, (0.0, 0.0, 0.0), {})
 SETTINGS = Path(__file__).resolve().parents[3] / "docs/example/groundcontrol.ini"
 LINES = 8  # of each program that are tried
 APART = 0.5  # [mm] at most between the cut after a halt and the cut without

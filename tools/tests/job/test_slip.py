@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from plumb.bench.causes import MAKER
-from plumb.job.home import Touch, sigma_of
+from plumb.job.home import HomeTouch, sigma_of
 from plumb.job.slip import (
     CANNOT_TELL,
     COUNTS,
@@ -34,7 +34,7 @@ def touches(holes=HOLES, *, links=NO_LINKS, moved=(0.0, 0.0, 0.0), errors=0.0):
     chains = lengths(MAKER, sleds)[0] - LINK * np.array(links)
     shown = places(MAKER, chains)[0]
     return [
-        Touch(str(i), tuple(hole), tuple(where))
+        HomeTouch(str(i), tuple(hole), tuple(where))
         for i, (hole, where) in enumerate(zip(holes.tolist(), shown.tolist(), strict=True), 1)
     ]
 

@@ -2,7 +2,7 @@
 
 import pytest
 from line_board import SlowBoard, until
-from plumb.line.reached import LATE, Reached
+from plumb.line.reached import LATE, SureLines
 from plumb.line.sender import PAUSED, PER_SECOND, Sender
 from plumb.line.worker import LineWorker
 
@@ -33,7 +33,7 @@ def machine():
 
 
 def test_an_answer_counts_when_its_motion_is_over(machine):
-    reached = Reached(machine.sender, LINES)
+    reached = SureLines(machine.sender, LINES)
     assert reached.line == 2
     reached.note(1)
     machine.pass_on(1.0)
@@ -53,7 +53,7 @@ def test_an_answer_counts_when_its_motion_is_over(machine):
 
 
 def test_after_a_stop_nothing_is_done_any_more(machine):
-    reached = Reached(machine.sender, LINES)
+    reached = SureLines(machine.sender, LINES)
     reached.note(2)
     machine.pass_on(0.8 + LATE)
     reached.end()
@@ -62,7 +62,7 @@ def test_after_a_stop_nothing_is_done_any_more(machine):
 
 
 def test_a_hold_makes_no_line_done(machine):
-    reached = Reached(machine.sender, LINES)
+    reached = SureLines(machine.sender, LINES)
     reached.note(2)
     machine.state = PAUSED
     machine.pass_on(600)
@@ -71,7 +71,7 @@ def test_a_hold_makes_no_line_done(machine):
 
 def test_a_machine_that_answers_farther_ahead_has_come_less_far(machine):
     machine.sender.ahead = 10.0
-    reached = Reached(machine.sender, LINES)
+    reached = SureLines(machine.sender, LINES)
     reached.note(3)
     machine.pass_on(9.8 + LATE)
     assert reached.line == 2

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import plumb.grid as grids
 import pytest
-from plumb.cli.reach import SIGNS, ReachAnswer
+from plumb.cli.reach import SIGNS, SheetReach
 from plumb.grid import options
 from plumb.model.predict import (
     CANNOT_HANG,
@@ -121,7 +121,7 @@ def test_the_survey_finds_the_lower_corners_of_the_usual_machine():
 
 def test_the_map_shows_the_sheet_as_it_hangs():
     survey = survey_sheet(replace(SOFT, motor_gap=2900.0, motor_height=909.6))
-    lines = ReachAnswer(survey, None, []).map
+    lines = SheetReach(survey, None, []).map
     assert {len(line) for line in lines} == {77} and len(lines) == 20
     assert lines[0][38] == "T" and lines[-1][0] == lines[-1][-1] == "S"
     assert lines[10][38] == "." and set("".join(lines)) <= set(SIGNS)

@@ -12,7 +12,7 @@ from plumb.diagnosis.linear import LinearBoard, Metric
 from plumb.diagnosis.posterior import listing
 from plumb.diagnosis.priors import turned
 from plumb.marks.read import Measurements
-from plumb.plan.case import Check, Planned
+from plumb.plan.case import PlannedCheck, PlannedMeasurement
 from plumb.plan.options import many_marks
 from plumb.plan.outlook import Outlooks, _is_right, _shown
 from plumb.plan.planned_visits import nowhere
@@ -41,12 +41,12 @@ def stock():
 
 
 def checks(*names, sigma):
-    return Planned(nowhere(), [Check(name, sigma) for name in names])
+    return PlannedMeasurement(nowhere(), [PlannedCheck(name, sigma) for name in names])
 
 
 def test_measuring_the_cause_itself_settles_what_marks_leave_open(case):
     outlooks = Outlooks(case)
-    before = outlooks.of(Planned(nowhere()))
+    before = outlooks.of(PlannedMeasurement(nowhere()))
     sharp, less = (outlooks.of(checks(*PITCH, sigma=sigma)) for sigma in (5e-5, 1e-3))
     assert sharp.chance > before.chance + 0.3 and sharp.bits > less.bits > before.bits
     assert 1 <= sharp.left < less.left <= before.left + 0.1  # as far as draws tell
@@ -88,7 +88,7 @@ def drawn_machines(board, accounts, count, source):
 @pytest.mark.parametrize("machine", ["case", "stock"])
 def test_what_is_promised_comes_true_on_machines_drawn_from_the_posterior(machine, what, request):
     case = request.getfixturevalue(machine)
-    marks = Planned(many_marks(case).visits.taken(range(0, 28, 3)))
+    marks = PlannedMeasurement(many_marks(case).visits.taken(range(0, 28, 3)))
     planned = marks if what == "marks" else checks(*PITCH, sigma=5e-5)
     known = LinearBoard.of(case.frame, case.posterior.felt)
     accounts = accounts_of(known)
@@ -155,7 +155,7 @@ def is_settled(board, accounts, clean, acting, shown):
 
 def test_where_nothing_is_proved_each_effect_is_looked_for():
     hidden = case_on(nine())
-    expected = Outlooks(hidden).of(Planned(many_marks(hidden).visits))
+    expected = Outlooks(hidden).of(PlannedMeasurement(many_marks(hidden).visits))
     assert expected.left is None and 0 <= expected.chance <= 1 and expected.bits > 0.1
-    less = Outlooks(hidden).of(Planned(nowhere()))
+    less = Outlooks(hidden).of(PlannedMeasurement(nowhere()))
     assert less.chance <= expected.chance and less.bits < expected.bits

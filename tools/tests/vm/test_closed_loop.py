@@ -8,7 +8,7 @@ from plumb.bench.boards import plan, size_for
 from plumb.bench.causes import MAKER, Hidden, causes_of
 from plumb.grid.options import Grid
 from plumb.marks.read import read_marks
-from plumb.plan.case import Check
+from plumb.plan.case import PlannedCheck
 from plumb.plan.planned_visits import sent
 from plumb.vm.garage import Garage, astray, random_garage
 from plumb.vm.loop import Spent, closed_loop
@@ -38,7 +38,7 @@ def test_a_machine_without_a_fault_cuts_where_it_should(tmp_path, feed):
 
 def test_an_owner_measures_what_is_true_and_no_better():
     owner = VirtualOwner(Garage(hiding("chain_pitch"), motor_gap=2981.0))
-    (gap,) = owner.check([Check("motor_gap", 1.0)])
+    (gap,) = owner.check([PlannedCheck("motor_gap", 1.0)])
     assert abs(gap.value - 2981.0) < 4
     assert gap.value != 2981.0
     assert true_value(owner.garage, "chain_pitch.left") > 5e-4

@@ -9,7 +9,7 @@ import numpy as np
 from fastapi import APIRouter
 from pydantic import BaseModel
 
-from plumb.cure.check_marks import Check, CheckedMark, check_marks, check_sentence
+from plumb.cure.check_marks import CheckedMark, CheckRound, check_marks, check_sentence
 from plumb.diary.file import CHECK as NOTED
 from plumb.diary.file import append, read_diary
 from plumb.fit.inputs import Inputs, settings_in
@@ -211,7 +211,7 @@ def _promising(project: Project) -> list[str]:
     return names[: next(later, len(names))]
 
 
-def _entry(choices: Choices, form: str, checked: Check) -> dict[str, Any]:
+def _entry(choices: Choices, form: str, checked: CheckRound) -> dict[str, Any]:
     """Return the result of a round of check marks as the diary has it. mm."""
     with shown_in(choices.units):
         sentence = check_sentence(checked)
@@ -306,7 +306,7 @@ def _places(project: Project, choices: Choices, form: str) -> list[tuple[float, 
     return [mark.target for mark in form_of(project, choices, form).measurements.marks]
 
 
-def _checked(project: Project, inputs: Inputs, form: str) -> Check | None:
+def _checked(project: Project, inputs: Inputs, form: str) -> CheckRound | None:
     """Return the check marks against the fit; None before all are read."""
     choices = project.choices
     waiting = [

@@ -9,7 +9,7 @@ from pydantic import BaseModel, Field
 
 from plumb.firmware.settings import machine_of_numbers
 from plumb.fit.inputs import settings_in
-from plumb.guide.steps import SETTINGS, STEPS, Visit, open_step
+from plumb.guide.steps import SETTINGS, STEPS, GuideVisit, open_step
 from plumb.guide.talk import progress_in
 from plumb.lab.guide_desk import GuideDesk, Question
 from plumb.lab.machine_line import MachineLine, TheLine
@@ -108,7 +108,7 @@ def leave(project: TheProject, desk: Desk) -> GuideAnswer:
     return show_guide(project, desk)
 
 
-def _keep(project: Project, line: MachineLine, visit: Visit, step: str) -> None:
+def _keep(project: Project, line: MachineLine, visit: GuideVisit, step: str) -> None:
     """Open the machine that a step wrote, with what its owner knows of it."""
     if step not in ("read", "numbers"):
         return

@@ -12,7 +12,7 @@ from plumb.lab.machine_line import TheLine, held_otherwise, is_fit_of_machine
 from plumb.lab.project import Number
 from plumb.lab.rounds import command, known_words, opened, unit_words
 from plumb.lab.routes.project import TheProject
-from plumb.plan.case import Check
+from plumb.plan.case import PlannedCheck
 from plumb.plan.separation import FRAME_CHECKS, effect_checks
 from plumb.settings.machine import GRAVITY
 from plumb.text.errors import InputError
@@ -62,7 +62,7 @@ def measure(measuring: Measuring, project: TheProject, line: TheLine) -> Number:
         sigmas |= check.sigmas
     sigmas[WEIGHT] = WEIGHED * GRAVITY
     refuse_unknown([measuring.name], sigmas)
-    (checked,) = owner.check([Check(measuring.name, sigmas[measuring.name])])
+    (checked,) = owner.check([PlannedCheck(measuring.name, sigmas[measuring.name])])
     return Number(value=checked.value, sigma=checked.sigma)
 
 

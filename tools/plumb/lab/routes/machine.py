@@ -22,7 +22,7 @@ from plumb.lab.guard import PROTOCOL
 from plumb.lab.machine_line import MachineLine, Port, TheLine, line_of, ports, refuse_foreign_fit
 from plumb.lab.project import Project, save_choices
 from plumb.lab.routes.project import ProjectAnswer, TheProject, show
-from plumb.line.memory import Written, kept_before, lines_for
+from plumb.line.memory import WrittenNumbers, kept_before, lines_for
 from plumb.line.sender import Sender
 from plumb.line.worker import LineState
 from plumb.settings.files import read_settings
@@ -236,7 +236,7 @@ def _written(
 ) -> NumbersAnswer:
     path = str(project.path(file))
 
-    def write(sender: Sender) -> tuple[Written, str, str]:
+    def write(sender: Sender) -> tuple[WrittenNumbers, str, str]:
         # With other numbers the reported place is another, which looks like a move.
         sender.await_rest()
         try:
@@ -253,7 +253,7 @@ def _written(
     )
 
 
-def _changes(written: Written) -> list[NumberChange]:
+def _changes(written: WrittenNumbers) -> list[NumberChange]:
     """Return what was changed, by the names of the machine's table."""
     rows = {row.number: row for row in every_setting()}
     return [
