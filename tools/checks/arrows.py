@@ -93,7 +93,7 @@ FLOORS = (
 )
 
 # The folders of the lab's page: which folders each may import from, itself always.
-PAGE = "tools/lab/src"
+PAGE = "tools/page/src"
 PAGE_ARROWS = {
     "api": (),
     "controls": ("api",),
@@ -109,7 +109,7 @@ PAGE_ARROWS = {
 }
 # In the shell only the list of screens knows the screens.
 SCREENS = ("steps", "bench", "practice")
-LIST_OF_SCREENS = "tools/lab/src/shell/steps.ts"
+LIST_OF_SCREENS = "tools/page/src/shell/steps.ts"
 SCRIPT_IMPORT = re.compile(r"^\s*(?:import|export)\b[^;]*?[\"']([^\"']+)[\"']", re.MULTILINE)
 
 # The judge shares nothing with the model, so only the bench may ask it; only the virtual machine's

@@ -10,8 +10,8 @@ import pathspec
 ROOT = Path(__file__).resolve().parents[2]
 CXX = {".h", ".hpp", ".cpp"}
 SCRIPT = {".ts", ".tsx", ".js"}
-# What tools/lab/make writes; a test of the lab makes it again and compares.
-BUILT = ("tools/plumb/lab/page", "tools/lab/src/api/schema.ts")
+# What tools/page/make writes; a test of the lab makes it again and compares.
+BUILT = ("tools/plumb/lab/page", "tools/page/src/api/schema.ts")
 
 
 def own_files(root: Path) -> list[Path]:

@@ -85,7 +85,12 @@ def test_a_type_checker_knows_the_functions(tmp_path):
         "wrong: int = plumb.compare(inputs).rms\n"
         "plumb.raed\n"
     )
-    options = ["--config-file", TOOLS / "mypy.ini", "--cache-dir", TOOLS.parent / ".build/mypy"]
+    options = [
+        "--config-file",
+        TOOLS / "pyproject.toml",
+        "--cache-dir",
+        TOOLS.parent / ".build/mypy",
+    ]
     command = [sys.executable, "-m", "mypy", *options, "--no-pretty", program]
     done = subprocess.run(command, cwd=TOOLS, capture_output=True, text=True)
     errors = [line.split(":")[1] for line in done.stdout.splitlines() if ": error: " in line]

@@ -8,7 +8,7 @@ from folder import got, note_fit, type_in, until
 
 ROOT = Path(__file__).resolve().parents[3]
 EXAMPLE = ROOT / "docs/example"
-AXE = (ROOT / "tools/lab/node_modules/axe-core/axe.min.js").read_text()
+AXE = (ROOT / "tools/page/node_modules/axe-core/axe.min.js").read_text()
 SIZES = {"desktop": (1280, 900), "phone": (375, 740)}
 SMALLEST_TEXT = 13  # CSS pixels; the body has 15, and 16 on a phone; in drawings 12
 SMALLEST_TARGETS = {"desktop": 32, "phone": 44}  # CSS pixels, for a mouse and for a finger

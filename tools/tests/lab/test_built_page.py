@@ -24,12 +24,12 @@ def files(folder):
 
 def test_the_page_is_made_of_the_source_as_it_is(tmp_path):
     done = subprocess.run(
-        [ROOT / "tools/lab/make", tmp_path / "page"], capture_output=True, text=True
+        [ROOT / "tools/page/make", tmp_path / "page"], capture_output=True, text=True
     )
     assert done.returncode == 0, done.stdout + done.stderr
     made, shipped = files(tmp_path / "page"), files(PAGE)
     stale = sorted(name for name in made | shipped if made.get(name) != shipped.get(name))
-    assert stale == [], "run tools/lab/make"
+    assert stale == [], "run tools/page/make"
 
 
 def test_the_page_is_small_and_asks_no_other_site():
