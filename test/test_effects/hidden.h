@@ -127,8 +127,8 @@ inline reference::Machine judge(const kinematics::EffectParams<double>& effects,
   kinematics::setJudge(frameUnder(motors), effects, judged);
   reference::Machine machine;
   const std::map<std::string, double*> at = reference::numbersOf(machine);
-  for (const auto& each : judged.numbers) *at.at(each.first) = each.second;
-  for (const auto& each : judged.factors) *at.at(each.first) *= each.second;
+  for (const auto& each : judged.numbers) reference::field(at, each.first) = each.second;
+  for (const auto& each : judged.factors) reference::field(at, each.first) *= each.second;
   return machine;
 }
 

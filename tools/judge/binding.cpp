@@ -23,11 +23,7 @@ using Column = nb::ndarray<const double, nb::shape<-1>, nb::c_contig, nb::device
 reference::Machine machineWith(const std::map<std::string, double>& given) {
   reference::Machine machine;
   const std::map<std::string, double*> numbers = reference::numbersOf(machine);
-  for (const auto& [name, value] : given) {
-    const auto number = numbers.find(name);
-    if (number == numbers.end()) throw nb::key_error(reference::lacks(name).c_str());
-    *number->second = value;
-  }
+  for (const auto& [name, value] : given) reference::field(numbers, name) = value;
   return machine;
 }
 

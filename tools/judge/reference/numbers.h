@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <stdexcept>
 #include <string>
 
 #include "reference/machine.h"
@@ -39,11 +40,14 @@ inline std::map<std::string, double*> numbersOf(Machine& machine) {
   return numbers;
 }
 
-/// Refuses a name that the judge does not know.
-inline std::string lacks(const std::string& name) {
-  return "the judge has no number " + name +
-         ": add its mechanics and its name to tools/judge/reference (links.h for what changes the "
-         "count of links)";
+/// The field of a number among numbersOf(). Throws for a name that the judge does not know.
+inline double& field(const std::map<std::string, double*>& numbers, const std::string& name) {
+  const auto number = numbers.find(name);
+  if (number == numbers.end())
+    throw std::invalid_argument("the judge has no number " + name +
+                                ": add its mechanics and its name to tools/judge/reference "
+                                "(links.h for what changes the count of links)");
+  return *number->second;
 }
 
 }  // namespace reference

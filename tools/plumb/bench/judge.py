@@ -21,7 +21,7 @@ def places(numbers: Numbers, chains: Array, *, pushes: Array, weights: Array) ->
     hang.
 
     chains (n, 2) [mm] paid out, pushes (n, 2) [N] on the sled, weights (n,) [N] of it. A number
-    that is not named is the judge's default. KeyError for a name that the judge does not know.
+    that is not named is the judge's default. ValueError for a name that the judge does not know.
     """
     return _judge.places(
         {name: float(value) for name, value in numbers.items()},

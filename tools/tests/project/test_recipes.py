@@ -73,7 +73,7 @@ def test_recipes_are_short():
 
 
 def test_a_row_is_all_that_a_setting_needs(tmp_path):
-    for part in ("lib/Kinematics/src", "lib/Settings/src", "tools/core", "src"):
+    for part in ("lib/Kinematics/src", "lib/Settings/src", "src"):
         shutil.copytree(ROOT / part, tmp_path / part)
     row = re.search(r"```cpp\n(.*?)```", section("A setting"), re.DOTALL)[1]
     row = "".join(line.removeprefix("   ") for line in row.splitlines(keepends=True)).rstrip()
@@ -87,11 +87,12 @@ def test_a_row_is_all_that_a_setting_needs(tmp_path):
     )
     table.write_text(text, encoding="utf-8")
     (tmp_path / "ask.cpp").write_text(
-        '#include <cstdio>\n#include "tools/core/plain_table.h"\n'
-        "int main() { std::puts(settings_host::kTexts[kBeepLength].label); "
-        "return settings_host::PlainTable().at(kBeepLength).number; }\n"
+        '#include <cstdio>\n#include "settings_flash.h"\n'
+        "int main() { std::puts(flash_rows::kComments[kBeepLength]); "
+        "return flash_rows::kRows[kBeepLength].number; }\n"
     )
-    includes = ["-Ilib/Kinematics/src", "-Ilib/Settings/src", "-Isrc", "-I."]
+    flash = ROOT / "tools/vm/host_avr"
+    includes = ["-Ilib/Kinematics/src", "-Ilib/Settings/src", "-Isrc", f"-I{flash}"]
     sources = ["ask.cpp", *sorted(map(str, (tmp_path / "lib/Settings/src").glob("*.cpp")))]
     command = ["g++", "-std=c++17", "-O0", *includes, *sources, "-o", "ask"]
     subprocess.run(command, cwd=tmp_path, check=True)

@@ -93,10 +93,7 @@ class Sled {
   }
 
   double* at(const std::string& name) {
-    const std::map<std::string, double*> numbers = reference::numbersOf(machine_);
-    const auto number = numbers.find(name);
-    if (number == numbers.end()) throw std::invalid_argument(reference::lacks(name));
-    return number->second;
+    return &reference::field(reference::numbersOf(machine_), name);
   }
 
   reference::Machine machine_;
