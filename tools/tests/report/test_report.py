@@ -13,7 +13,7 @@ from reports import EXAMPLE, asked, board, nine, reported, spans
 from synthetic import TRUE, grid, marks_on
 
 INI, MARKS = EXAMPLE / "groundcontrol.ini", EXAMPLE / "marks.toml"
-AXE = Path(__file__).resolve().parents[2] / "lab/node_modules/axe-core/axe.min.js"
+AXE = Path(__file__).resolve().parents[2] / "page/node_modules/axe-core/axe.min.js"
 HOSTILE = (
     "</script><script>alert(1)</script>",
     '"><img src=x onerror=alert(1)>',

@@ -1,5 +1,6 @@
 // The drawing of a sheet as a file, in light colours: SVG, or PNG at twice its size, with the date and its settings.
 import { useContext } from "preact/hooks";
+import { isReport } from "../api/answers";
 import { saved } from "../api/client";
 import { Stamp } from "./scale";
 
@@ -17,6 +18,7 @@ export function Save({ drawing }: { drawing: { current: SVGSVGElement | null } }
     const content = as === "svg" ? new Blob([svg], { type: "image/svg+xml" }) : await png(svg);
     if (content) saved(content, `sheet.${as}`);
   };
+  if (isReport) return null;
   return (
     <>
       {(["svg", "png"] as const).map((as) => (
