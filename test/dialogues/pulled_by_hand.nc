@@ -19,8 +19,8 @@
 -> G91 G0 X10 G90
 <- ok
 ~~ wait 4
-~~ sled X10 Y0 within 0.3
-~~ status <Idle,MPos:10.00,0.00,0.00,WPos:0.000,0.000,0.000> within 0.3
+~~ sled X10 Y0 within 0.5
+~~ status <Idle,MPos:10.00,0.00,0.00,WPos:0.000,0.000,0.000> within 0.5
 ; A heavy sled that sinks all the time is shown where it is, and a jog may begin meanwhile.
 ~~ wait 3
 ~~ power cut

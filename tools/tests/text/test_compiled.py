@@ -24,7 +24,7 @@ def test_the_modules_here_are_of_these_sources():
     assert compiled.stale_source() is None
     names = {*compiled.digests()}
     assert {SAG, "src/settings_table.h", "tools/core/binding.cpp"} <= names
-    assert {"src/machine/pauses.cpp", "tools/vm/binding.cpp"} <= names
+    assert {"src/machine/waiting.cpp", "tools/vm/binding.cpp"} <= names
     assert not any(name.startswith(("src/board", "test/")) for name in names)
 
 
