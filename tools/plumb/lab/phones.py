@@ -56,7 +56,7 @@ class Invitation:
     @property
     def picture(self) -> str:
         """The link as a QR code, as the source of an image; empty without a network."""
-        return segno.make(self.link, error="m").svg_data_uri(scale=5) if self.address else ""
+        return segno.make(self.link, error="m").svg_data_uri(light="white") if self.address else ""
 
     @property
     def text(self) -> str:

@@ -2,7 +2,6 @@
 import type { Schemas } from "../api/client";
 import { Refusal } from "../shell/doing";
 import { useWatched } from "../shell/watched";
-import "./phones.css";
 
 type Answer = Schemas["PhonesAnswer"];
 
@@ -10,7 +9,7 @@ export function Phones() {
   const { state: answer, press, busy, refused } = useWatched<Answer>("phones");
   if (!answer) return null;
   return (
-    <details class="phones" open={answer.phones.length > 0}>
+    <details open={answer.phones.length > 0}>
       <summary>Your phone at the machine</summary>
       {!answer.is_shared && (
         <p>
@@ -20,15 +19,15 @@ export function Phones() {
       )}
       {answer.is_shared && !answer.address && <p>This computer is in no network.</p>}
       {answer.code && (
-        <p class="invitation">
-          <img src={answer.code} alt="The address and the PIN as a QR code" />
+        <p class="row">
+          <img src={answer.code} width="176" alt="The address and the PIN as a QR code" />
           <span>
             Scan it, or open {answer.address} and type <b>{answer.pin}</b>. Whoever is in your
             network can read what is sent.
           </span>
         </p>
       )}
-      <ul>
+      <ul class="plain">
         {answer.phones.map(({ number, name, may_move }) => (
           <li key={number} class="row">
             <b>{name}</b> {may_move ? "moves the machine too." : "looks, types, holds and stops."}
