@@ -105,4 +105,4 @@ def test_the_page_reveals_what_its_virtual_machine_hides(lab, page):
     score = page.get_by_role("region", name="Score")
     expect(score).to_contain_text("Hidden was sled_swing (right and up). You missed")
     expect(score).not_to_contain_text("You added")  # its numbers are as it listed them
-    expect(score).to_contain_text("2.13 mm as the settings were, 2.13 mm with yours")
+    expect(score).to_contain_text("2.13 → 2.13 mm error all over the sheet")

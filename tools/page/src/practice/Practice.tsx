@@ -1,7 +1,7 @@
 // Practice: what a virtual machine hid, once you have calibrated it like a real machine.
 import { useState } from "preact/hooks";
 import { type Schemas, send } from "../api/client";
-import { namedLength } from "../controls/lengths";
+import { namedLength, shownLength } from "../controls/lengths";
 import { useUnits } from "../controls/units";
 import { Do } from "../shell/doing";
 import { useProject } from "../shell/project";
@@ -55,9 +55,16 @@ function Score({ hidden, sentence, before_mm, after_mm }: Schemas["Revealed"]) {
         Hidden was <strong>{hidden}</strong>. {sentence}
       </p>
       <p>
-        Error all over the sheet: {namedLength(before_mm, units, 2)} as the settings were,{" "}
-        {after_mm == null ? "out of reach" : namedLength(after_mm, units, 2)} with yours.
+        <output class="large was">{shownLength(before_mm, units, 2)}</output>
+        <span aria-hidden="true"> → </span>
+        <output class="large">
+          {after_mm == null ? "out of reach" : namedLength(after_mm, units, 2)}
+        </output>{" "}
+        error all over the sheet, as the settings were and with yours.
       </p>
+      <a class="button" href="#/open">
+        Start another virtual machine
+      </a>
     </section>
   );
 }

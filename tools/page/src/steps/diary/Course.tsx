@@ -14,26 +14,28 @@ export function Course({ course }: { course: Schemas["NumberCourse"] }) {
         {course.noun}: <b>{last?.said}</b> {course.unit}
         {course.has_moved && " – has moved"}
       </figcaption>
-      <svg viewBox="0 0 100 100" preserveAspectRatio="none" role="img" aria-label={said(course)}>
-        {points.map((point, index) => (
-          <g key={point.at} stroke="var(--act)">
-            <line
-              x1={across(index)}
-              x2={across(index)}
-              y1={up(point.low)}
-              y2={up(point.high)}
-              class="interval"
-            />
-            <line
-              x1={across(index) - 2}
-              x2={across(index) + 2}
-              y1={up(point.value)}
-              y2={up(point.value)}
-              class="middle"
-            />
-          </g>
-        ))}
-      </svg>
+      {points.length > 1 && (
+        <svg viewBox="0 0 100 100" preserveAspectRatio="none" role="img" aria-label={said(course)}>
+          {points.map((point, index) => (
+            <g key={point.at} stroke="var(--act)">
+              <line
+                x1={across(index)}
+                x2={across(index)}
+                y1={up(point.low)}
+                y2={up(point.high)}
+                class="interval"
+              />
+              <line
+                x1={across(index) - 2}
+                x2={across(index) + 2}
+                y1={up(point.value)}
+                y2={up(point.value)}
+                class="middle"
+              />
+            </g>
+          ))}
+        </svg>
+      )}
     </figure>
   );
 }
