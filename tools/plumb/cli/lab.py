@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
+from plumb.lab.phones import Sharing
 from plumb.lab.server import serve
 
 
@@ -14,7 +15,7 @@ def run(arguments: argparse.Namespace) -> int:
         Path(arguments.folder),
         port=arguments.port,
         browser=not arguments.no_browser,
-        sharing=arguments.share,
+        sharing=arguments.share or "no",
         say=lambda url: print(url, flush=True),
     )
     return 0
@@ -47,13 +48,22 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument(
         "--share",
-        choices=("hands", "move"),
+        metavar="move",
+        type=sharing,
         nargs="?",
         const="hands",
-        default="no",
         help="let phones in this network be paired by a PIN: they look, type readings, hold and "
         "stop; move: they move the machine too, without a word from the computer",
     )
+
+
+def sharing(text: str) -> Sharing:
+    """Return how much a phone may do."""
+    rights: dict[str, Sharing] = {"hands": "hands", "move": "move"}
+    if text in rights:
+        return rights[text]
+    hint = f"name the folder first: plumb lab {text} --share"
+    raise argparse.ArgumentTypeError(f"'{text}' is neither hands nor move; {hint}")
 
 
 def port(text: str) -> int:

@@ -20,6 +20,7 @@ JOB, SETTINGS, MARKS = (EXAMPLE / name for name in ("pocket.nc", "groundcontrol.
         (["resume", JOB, SETTINGS, "--line", "0"], "--line: '0' is too low: it counts from 1"),
         (["resume", JOB, SETTINGS, "--line", "two"], "'two' is not a whole number, like 100"),
         (["check", JOB, SETTINGS, "--start", "1;2"], "'1;2' is not X,Y"),
+        (["lab", "--share", "garage"], "name the folder first: plumb lab garage --share"),
     ],
 )
 def test_a_wrong_word_is_named_and_not_what_stands_behind_it(run, words, says):
