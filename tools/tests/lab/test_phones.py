@@ -9,7 +9,7 @@ from playwright.sync_api import expect
 from plumb.lab import phones
 from plumb.lab.app import lab_app
 from plumb.lab.phones import Phones
-from screens import at_rest
+from screens import at_rest, axe_findings
 from served_lab import serve
 from test_readings_page import LEFT, type_in
 
@@ -156,6 +156,8 @@ def test_a_phone_that_scans_the_code_types_readings_until_it_is_sent_away(
     page.goto(lab.url)
     page.get_by_role("button", name="Let Android 1 move the machine").click()
     expect(phone.get_by_text("hold and stop")).to_have_count(0)
+    assert axe_findings(page) == []
     page.get_by_role("button", name="Send Android 1 away").click()
     phone.get_by_role("heading", name="Pair this phone").wait_for()
+    assert axe_findings(phone) == []
     context.close()
