@@ -115,22 +115,20 @@ def test_a_file_is_sent_alone(words, tmp_path, monkeypatch, capsys):
 
 def test_what_was_not_cut_is_resumed_by_the_command_that_is_printed(served, tmp_path):
     served()
-    # A line is done 15 reports behind its answer ($71 and LATE). The way of 28 mm takes 11 reports,
-    # and G1 is answered in its 6th. So the dwell of 7 is in the middle of what leaves G1 open: with
-    # 500 ms the second line was open too on every other day, by the phase of the reports. A sender
-    # that a busy computer holds up may hear the dwell's end as well.
+    # G1 is open while the dwell lasts. A sender that a busy computer holds up may take it for open
+    # longer, or hear the dwell's end as well; the file goes on from the line that it says.
     moves = MOVES.replace("P500", "P1300")
     (tmp_path / "job.nc").write_text(f"(a job)\n{moves}G0 X--5\n")
     said = plumb("send", "--port", "maslow", "job.nc", folder=tmp_path, code=2)
-    line = int(re.search(r"All before line (\d) of job.nc is done", said)[1])
-    assert line in (4, 5)
     commands = re.findall(r"^  plumb (.*)$", said.replace("\\\n", " "), re.MULTILINE)
     read, resume = (shlex.split(each) for each in commands)
     assert read == ["read", "--port", "maslow", "-o", "machine.toml"]
-    assert resume[-4:] == ["--line", f"{line}", "-o", "rest.nc"]
+    assert resume[-2:] == ["-o", "rest.nc"]
+    line = int(resume[resume.index("--line") + 1])
+    assert f"All before line {line} of job.nc is done" in said or "Nothing of job.nc" in said
     plumb(*read, folder=tmp_path)
     plumb(*resume, folder=tmp_path)
-    assert ("G1 X0 Y60 F800" in (tmp_path / "rest.nc").read_text()) == (line == 4)
+    assert ("G1 X0 Y60 F800" in (tmp_path / "rest.nc").read_text()) == (line <= 4)
 
 
 def test_programs_are_told_where_a_job_stopped(served, tmp_path):
