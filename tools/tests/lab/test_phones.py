@@ -11,6 +11,7 @@ from plumb.lab.app import lab_app
 from plumb.lab.phones import Phones
 from screens import at_rest, axe_findings
 from served_lab import serve
+from starlette.websockets import WebSocketDisconnect
 from test_readings_page import LEFT, type_in
 
 FAR = "192.168.1.5"
@@ -161,3 +162,18 @@ def test_a_phone_that_scans_the_code_types_readings_until_it_is_sent_away(
     phone.get_by_role("heading", name="Pair this phone").wait_for()
     assert axe_findings(phone) == []
     context.close()
+
+
+def test_the_live_line_of_a_phone_ends_when_it_is_sent_away(home):
+    paired, _ = home
+    phone, answer = pair(home)
+    got(answer)
+    line = f"ws://{FAR}:{ADDRESS.port}/api/live"
+    with phone.websocket_connect(line, subprotocols=["plumb"]) as live:
+        live.receive_json()
+        paired.send_away(1)
+        with pytest.raises(WebSocketDisconnect):
+            for _ in range(5):  # what was on its way
+                live.receive_json()
+    with pytest.raises(WebSocketDisconnect), phone.websocket_connect(line):
+        pass

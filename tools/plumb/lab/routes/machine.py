@@ -294,6 +294,8 @@ async def live(websocket: WebSocket) -> None:
             await websocket.send_text(TypeAdapter(MachineAnswer).dump_json(now).decode())
             said, said_at = now, monotonic()
         await asyncio.wait([gone], timeout=LOOK_EVERY)
+    if gone.cancel():  # a phone that was sent away: what it presses is no longer heard
+        await websocket.close()
 
 
 def _is_sent_away(websocket: WebSocket) -> bool:
