@@ -52,8 +52,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         type=sharing,
         nargs="?",
         const="hands",
-        help="let phones in this network be paired by a PIN: they look, type readings, hold and "
-        "stop; move: they move the machine too, without a word from the computer",
+        help="let phones on this network pair by a PIN: they can look, type readings, hold and "
+        "stop; move: they can also move the machine, without being allowed at the computer",
     )
 
 

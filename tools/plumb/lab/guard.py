@@ -127,9 +127,7 @@ class Guard:
         if phone is None:
             return Refusal(401, "this phone is not paired: scan the code on the computer")
         if not may_ask(phone, method, scope["path"]):
-            line = (
-                "this phone looks, types readings, holds and stops; the computer can let it do more"
-            )
+            line = "this phone may look, type readings, hold and stop; allow more on the computer"
             return Refusal(403, line)
         return None
 

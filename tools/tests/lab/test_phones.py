@@ -71,7 +71,7 @@ def test_a_paired_phone_types_reads_and_stops_and_does_the_rest_once_it_is_let(h
     body = {"choices": project["choices"], "read": project["choices_digest"]}
     change = ("PUT", "/api/choices"), ("POST", "/api/machine/disconnect")
     for method, way in change:
-        assert "can let it" in got(phone.request(method, way, json=body), 403)["error"]
+        assert "allow more" in got(phone.request(method, way, json=body), 403)["error"]
     for way in ("/api/phones", "/api/phones/", "/api/phones/1/let", "/api/phones/pair"):
         assert phone.get(way).status_code == 403, way
     got(computer.post("/api/phones/1/let", json={"may_move": True}))
@@ -148,7 +148,7 @@ def test_a_phone_that_scans_the_code_types_readings_until_it_is_sent_away(
     context.set_default_timeout(120_000)
     phone = context.new_page()
     phone.goto(f"http://{NETWORK}:{lab.port}/#/pair/{pin}")
-    phone.get_by_text("Android 1: look, type readings, hold and stop").wait_for()
+    phone.get_by_text("Android 1 can look, type readings, hold and stop").wait_for()
     assert phone.url.endswith("#/readings") and pin not in phone.url
     phone.get_by_label(LEFT.format(1), exact=True).wait_for()
     type_in(phone, 1, "98", "106")

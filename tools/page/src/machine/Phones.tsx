@@ -30,13 +30,14 @@ export function Phones() {
       <ul class="plain">
         {answer.phones.map(({ number, name, may_move }) => (
           <li key={number} class="row">
-            <b>{name}</b> {may_move ? "moves the machine too." : "looks, types, holds and stops."}
+            <b>{name}</b>{" "}
+            {may_move ? "may also move the machine." : "may look, type readings, hold and stop."}
             <button
               type="button"
               disabled={busy}
               onClick={() => void press(`${number}/let`, { may_move: !may_move })}
             >
-              {may_move ? `${name} is not to move the machine` : `Let ${name} move the machine`}
+              {may_move ? `Stop ${name} from moving the machine` : `Let ${name} move the machine`}
             </button>
             <button type="button" disabled={busy} onClick={() => void press(`${number}/send-away`)}>
               Send {name} away

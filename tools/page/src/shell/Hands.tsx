@@ -7,7 +7,8 @@ export function Hands() {
   if (!me || me.may_move) return null;
   return (
     <p class="hands soft" role="status">
-      {me.name}: look, type readings, hold and stop. The computer can let it move the machine.
+      {me.name} can look, type readings, hold and stop. On the computer you can let it move the
+      machine too.
     </p>
   );
 }
