@@ -20,11 +20,12 @@ AHEAD = 126  # characters on their way at most
 SILENCE = 5.0  # [s] the machine reports five times a second, so this long a silence has a reason
 START = 12.0  # [s] a board that was reset by the line takes up to six
 SILENT = 1.5  # [s] a Maslow reports five times a second; after a sender of Grbl it does not
-VERSION = b"B05\n"  # the question that turns its reports on
+QUESTION = "B05"  # turns its reports on
+VERSION = "Firmware Version"  # how its answer begins; an `ok` follows
 HOLD, GO_ON, STOP = b"\x84", b"~\n", b"!\n"
 ANSWERS = ("ok", "error:")
 WRONG = ("ALARM", "error:")  # how lines begin that nobody may miss
-QUESTIONS = ("$$", "B05", "B10 L", "B10 R")  # move nothing, and power no motor
+QUESTIONS = ("$$", QUESTION, "B10 L", "B10 R")  # move nothing, and power no motor
 PAUSED = "Pause"  # what a machine reports that holds
 HALTED = "Stop"  # what a machine reports that waits for Stop; it answers questions alone
 PATIENT = 5  # reports, a second of them
@@ -87,6 +88,7 @@ class Sender:
     _heard_at: float = math.inf  # nobody expects a machine to speak before it was asked
     _halted_from: int = 0  # reports that had come when it was last seen to do something
     _spare: int = 0  # answers to come that belong to no line
+    _asked: int = 0  # questions at the start that may still be answered; a board that boots is deaf
     _has_held: bool = False  # no `~` has come since the last hold
     # Answers to come for lines that were on their way behind a refused line, or were slipped in.
     _left: int = 0
@@ -101,16 +103,13 @@ class Sender:
             self.listen()
             if self.port.seconds() - asked > SILENT:
                 asked = self.port.seconds()
-                self.port.write(VERSION)
+                self.port.write(QUESTION.encode("ascii") + b"\n")
+                self._asked += 1
             if self.port.seconds() - begin > START:
                 raise LostError(
                     "the machine does not answer: check the cable, its power, and that no other "
                     "program has the line"
                 )
-        # Answers to that question belong to no line.
-        watch = Watch(self)
-        while asked != begin and not watch.has_lasted(REPORTS):
-            self.listen()
         self.said = said
         self.greeting += tuple(greeted)
         for line in greeted:
@@ -242,8 +241,17 @@ class Sender:
 
     def _say(self, line: str) -> None:
         """Pass on what is no answer, and learn what the machine says of its numbers."""
+        if line.startswith(VERSION) and self._is_late():
+            self._asked -= 1
+            self._spare += 1
+            return
         self._note_number(line)
         self.said(line)
+
+    def _is_late(self) -> bool:
+        """Return whether a version answers a question of the start, however late, and no line."""
+        next_line = self._on_the_way[0][0] if self._on_the_way else ""
+        return self._asked > 0 and next_line != QUESTION
 
     def _note_line(self, line: str) -> None:
         """Note a line that is sent, or answered: it may power the motors."""

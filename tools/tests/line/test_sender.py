@@ -127,21 +127,28 @@ def test_a_machine_that_a_sender_of_grbl_left_reports_again():
     assert sender.ask("$$") == ["this is $$"]
 
 
-def test_the_late_answer_of_a_machine_that_was_asked_to_report_belongs_to_no_line():
-    board = Board(lambda line: f"this is {line}\r\nok", left_by_grbl=True)
+@pytest.mark.parametrize("first", ["$$", "B05"])
+def test_the_late_answer_of_a_machine_that_was_asked_to_report_belongs_to_no_line(first):
+    said = {"B05": "Firmware Version 1.28\r\nok"}
+    board = Board(lambda line: said.get(line, f"this is {line}\r\nok"), left_by_grbl=True)
     at_once, late = board.read, []
 
     def read():
         heard = at_once()
-        if b"this is B05" in heard:
+        if b"Version" in heard and board.time < 3:
             late.append(heard[: heard.index(b"<")])
             return heard[heard.index(b"<") :]
-        return late.pop() + heard if late else heard
+        return late.pop() + heard if late and board.time > 12 else heard
 
     board.read = read
     sender = Sender(board)
     sender.await_start()
-    assert sender.ask("$$") == ["this is $$"]
+    while board.time < 12:
+        sender.listen()
+    known = {"$$": "this is $$", "B05": "Firmware Version 1.28"}
+    assert sender.ask(first) == [known[first]]
+    for line in ("$$", "B05", "$$"):
+        assert sender.ask(line) == [known[line]]
 
 
 def test_a_greeting_counts_for_no_line():

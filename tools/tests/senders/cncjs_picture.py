@@ -24,7 +24,6 @@ QUIET = ["--no-sandbox", "--disable-background-networking", "--disable-sync", "-
 QUIET += ["--enable-unsafe-swiftshader", "--use-angle=swiftshader"]
 PATIENCE_MS = 60_000  # of a busy computer
 ZOOMS = 4  # steps out, so that all of the pocket is in view
-CUTTING = 300.0  # [s] in which the pocket is cut
 # The panels that show a machine at work; the others say nothing about this firmware.
 RIGHT = ["axes", "gcode"]
 LEFT = ["connection", "console"]
@@ -54,7 +53,7 @@ def open_page(page: Page, cncjs: Cncjs, port: str) -> None:
 def cut(page: Page, cncjs: Cncjs) -> None:
     """Load the pocket and run it to its end."""
     cncjs.run(POCKET.read_text().splitlines())
-    until(cncjs.ended, "the pocket is cut", CUTTING)
+    until(cncjs.ended, "the pocket is cut")
     page.get_by_text("Idle", exact=True).first.wait_for()
     for _ in range(ZOOMS):
         page.locator("[aria-label='Zoom out']").click()

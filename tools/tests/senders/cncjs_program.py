@@ -56,7 +56,7 @@ class CncjsServer:
                 stderr=log,
                 start_new_session=True,  # the program that npm's wheel starts is a child of this
             )
-        until(self._answers, "CNCjs's server answers", START)
+        until(self._answers, "CNCjs's server answers")
 
     def _answers(self) -> bool:
         try:

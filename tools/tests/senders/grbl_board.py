@@ -3,8 +3,10 @@
 It keeps what the judge sees, and each byte that passed.
 """
 
+import re
 import threading
 import time
+from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass, field
 
@@ -13,15 +15,17 @@ from plumb.vm.pseudo_terminal import Pace, PseudoTerminal
 from usual_machine import declaration, switched_on, usual_machine
 
 SPEED = 2  # times real time
+PATIENCE = 300.0  # [s] of this computer
+AT_ONCE = re.compile(rb"[?!~\x18\x80-\xff]")  # characters that are no part of a line
 KEPT = 10_000  # [ms] after which the place is in the memory
 STANDS = 0.05  # [mm] in a second of a machine that does not move
 
 
-def until(true: Callable[[], object], why: str, seconds: float = 30.0) -> None:
-    """Wait until something is true; `seconds` of this computer."""
-    end = time.monotonic() + seconds
+def until(true: Callable[[], object], why: str) -> None:
+    """Wait until something is true, on a slow and busy computer too."""
+    end = time.monotonic() + PATIENCE
     while not true():
-        assert time.monotonic() < end, f"not within {seconds:g} s: {why}"
+        assert time.monotonic() < end, f"not within {PATIENCE:g} s: {why}"
         time.sleep(0.02)
 
 
@@ -50,6 +54,24 @@ class Tap:
         if said:
             self.passed.append((self.machine.seconds, "<", bytes(said)))
         return said
+
+    def ahead(self) -> list[tuple[float, int]]:
+        """Return how many characters of lines without an answer were on the way, from when on
+        [s].
+        """
+        lines, answers, lengths = b"", b"", deque()
+        course = []
+        for seconds, direction, came in list(self.passed):
+            if direction == ">":
+                *whole, lines = (lines + AT_ONCE.sub(b"", came)).split(b"\n")
+                lengths.extend(len(line) + 1 for line in whole)
+            else:
+                *whole, answers = (answers + came).split(b"\n")
+                for line in whole:
+                    if line.startswith((b"ok", b"error")) and lengths:
+                        lengths.popleft()
+            course.append((seconds, sum(lengths)))
+        return course
 
 
 class Board:
@@ -84,7 +106,7 @@ class Board:
     def wait(self, seconds: float) -> None:
         """Let so much [s] of the machine's time pass."""
         end = self.seconds + seconds
-        until(lambda: self.seconds >= end, "the machine's time passes", 60)
+        until(lambda: self.seconds >= end, "the machine's time passes")
 
     def moved(self, seconds: float = 1.0) -> float:
         """[mm] How far the sled goes in this time [s]."""
@@ -94,5 +116,5 @@ class Board:
 
     def rest(self) -> tuple[float, float]:
         """[mm] Where the sled is when it stands."""
-        until(lambda: self.moved() < STANDS, "the sled stands", 90)
+        until(lambda: self.moved() < STANDS, "the sled stands")
         return self.sled

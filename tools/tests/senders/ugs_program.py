@@ -256,7 +256,7 @@ class Ugs:
                 self._status.startswith("<Hold") and len(places) > 1 and places[-2] == places[-1]
             )
 
-        until(stands, "UGS sees Hold at one place before it resets", 20)
+        until(stands, "UGS sees Hold at one place before it resets")
         if self._status.startswith("<Hold"):
             self._line.write(RESET)
         with self._lock:
