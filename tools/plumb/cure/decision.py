@@ -273,7 +273,12 @@ def _reason(
     if diagnosis.verdict == "not_in_library":
         added = [name for name in chosen if name in named]
         if diagnosis.is_finding and added:
-            return f"{plainly(added)} takes most of the error, so that was added{usual}"
+            why = (
+                "takes most of the error"
+                if diagnosis.takes_most
+                else "is likely whatever else acts"
+            )
+            return f"{plainly(added)} {why}, so that was added{usual}"
         part = f"only {plainly(added)} was added, as far as it goes" if added else "none was added"
         return (
             f"no effects of the library explain all that the marks show, so {part}; read the worst "

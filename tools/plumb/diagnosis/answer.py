@@ -12,6 +12,7 @@ from pydantic import computed_field
 
 from plumb.diagnosis.expected_error import LeftOpen
 from plumb.diagnosis.explanation import Explanation
+from plumb.diagnosis.linear import Spot
 from plumb.diagnosis.nearest import nearest
 from plumb.diagnosis.noise import ORIGINS, Noise, left_by_noise, misfit_chance
 from plumb.diagnosis.outliers import Outlier
@@ -150,10 +151,22 @@ class Diagnosis:
     @property
     def is_finding(self) -> bool:
         """Whether causes are named although the machine does something that nobody draws: they
-        take most of the error, and predict readings that a fit did not see.
+        take most of the error, or are likely beside a spot of the sheet that does so.
         """
-        is_unknown = self.verdict == "not_in_library" and not self.disagreements
-        return is_unknown and bool(self.likely) and _takes_most(self.best, self.readings.frame)
+        if self.verdict != "not_in_library" or self.disagreements or not self.likely:
+            return False
+        is_likely = bool(self.spot) and self.explanations[0].share > LIKELIER
+        return is_likely or self.takes_most
+
+    @property
+    def takes_most(self) -> bool:
+        """Whether the effects to go on with take most of the error."""
+        return _takes_most(self.best, self.readings.frame)
+
+    @property
+    def spot(self) -> Spot | None:
+        """Place of the sheet about which the machine does what no effect draws."""
+        return self.readings.posterior.with_fields.spot
 
     def called(self, together: Together) -> str:
         """Return an explanation by the nouns of its effects, for people."""
@@ -241,7 +254,8 @@ COUNTS = ("Two", "Three", "Four")
 def _finding(diagnosis: Diagnosis) -> str:
     """Return how the error falls, and what stays that nobody draws."""
     falls = diagnosis.falls
-    which = f"Most of it is {plainly(diagnosis.likely)}"
+    share = "Most" if diagnosis.takes_most else "Part"
+    which = f"{share} of it is {plainly(diagnosis.likely)}"
     if len(falls) > 1:
         which = f"{COUNTS[len(falls) - 2]} things are wrong at once"
     steps = ", ".join(bare(each) for each in [diagnosis.rms_before, *(f.rms for f in falls[:-1])])
@@ -370,8 +384,12 @@ def judge(readings: CleanReadings, stated: Stated | None) -> Judgement:
         return Judgement("slip", posterior, (), best)
     unknown = posterior.field_chance + sum(posterior.moved_chances.values())
     if unknown > UNKNOWN or _misfits(readings, best, stated):
-        first = nearest(readings.frame, posterior)
-        posterior = posterior.weighing(first)
+        if posterior.with_fields.spot:
+            first = posterior.likeliest_with_field
+        else:
+            # Where the sled sticks, no fit may come to rest.
+            first = nearest(readings.frame, posterior) or posterior.likeliest_with_field
+            posterior = posterior.weighing(first)
         listed = tuple(posterior.listed_nearest_first(first))
         best = listed[0].account
         if first and not posterior.apart and _takes_most(readings.explained(best), readings.frame):

@@ -158,7 +158,7 @@ def doubts_of(
     return Contradictions(
         warnings=(
             *readings.noise.notes,
-            *(_place_warnings(best) if verdict == "not_in_library" else []),
+            *(_place_warnings(readings, best) if verdict == "not_in_library" else []),
             *_unsettled_warnings((readings.frame, best)),
             *_sign_warnings(readings),
         ),
@@ -166,7 +166,7 @@ def doubts_of(
     )
 
 
-def _place_warnings(nearest: Explanation) -> list[str]:
+def _place_warnings(readings: CleanReadings, nearest: Explanation) -> list[str]:
     """Return where to look first if nothing in the library explains the marks."""
     board = nearest.board
     of_marks = [shift for shift in shifts(nearest) if shift.reading.is_mark]
@@ -177,6 +177,12 @@ def _place_warnings(nearest: Explanation) -> list[str]:
     if board.rows.names.count(name) > 1:
         return [
             f"mark {name} stays {worded(off, 1)} off when it is read again: it is the machine there"
+        ]
+    if spot := readings.posterior.with_fields.spot:
+        x, y = (worded(float(along), 0) for along in spot.middle)
+        return [
+            f"what no effect draws acts about x {x}, y {y}: look there for a sheet that gives or "
+            "lies uneven, and for a cable or hose that pulls"
         ]
     return [
         f"the marks are farthest off at {name}, by {worded(off, 1)}: read it again; if it stays, "

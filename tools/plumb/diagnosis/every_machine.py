@@ -23,7 +23,7 @@ from plumb.diagnosis.evidence import (
     add_by_set,
     fitted,
 )
-from plumb.diagnosis.linear import LinearBoard, Metric
+from plumb.diagnosis.linear import Disturbance, LinearBoard, Metric
 from plumb.diagnosis.priors import PITCH, PITCH_CHANCE
 
 Array = np.ndarray
@@ -32,7 +32,7 @@ ONE_IN = 20.0  # times less likely after the marks than before: then what the se
 
 @dataclass(frozen=True)
 class Clean:
-    """Log evidences (sets, boards) of all sets with nothing else, and what hangs on them."""
+    """Log evidences (sets, boards) of all sets, and what hangs on them."""
 
     total: Array
     nominal: Array  # without what chains usually are longer or shorter
@@ -46,15 +46,19 @@ class Clean:
         return Clean(self.total[:, board], self.nominal[:, board], ratios, self.by_noise)
 
 
-def clean_of(board: LinearBoard, accounts: Accounts, noises: Noises) -> Clean:
-    """Weigh all sets, with nominal chains and with chains as makers sell them."""
+def clean_of(
+    board: LinearBoard, accounts: Accounts, noises: Noises, other: Disturbance | None = None
+) -> Clean:
+    """Weigh all sets, with nominal chains and with chains as makers sell them; beside something
+    else if it is given.
+    """
     usual = [int(column) for column in np.flatnonzero(board.sizes.usual)]
     shape = (len(accounts.effects), board.read.shape[1])
     by_pitch, density = [], {column: np.full(shape, -np.inf) for column in usual}
     by_noise = np.full(len(noises.sigmas), -np.inf)
     for is_drifting, log_chance in pitches(board):
         total = np.full(shape, -np.inf)
-        metric = Metric.of(board, noises.sigmas, pitch=is_drifting)
+        metric = Metric.of(board, noises.sigmas, other, pitch=is_drifting)
         for part in accounts.parts:
             fit = fitted(part, metric)
             weight = _by_noise(fit.evidence, part) + noises.log_prior + log_chance

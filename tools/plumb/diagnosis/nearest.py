@@ -13,7 +13,8 @@ import numpy as np
 
 from plumb.diagnosis.evidence import Effects
 from plumb.diagnosis.explanation import Explanation, free_columns, span
-from plumb.diagnosis.posterior import Posterior, explain_account
+from plumb.diagnosis.posterior import Posterior
+from plumb.diagnosis.refit import explain_account
 from plumb.fit.expected import plausible_range
 from plumb.model.plain import ranked
 

@@ -17,7 +17,6 @@ import numpy as np
 from plumb.diagnosis.every_machine import Clean, asked_for, clean_of, pitches
 from plumb.diagnosis.evidence import (
     FEWER,
-    UNLIKELY,
     Accounts,
     Effects,
     Noises,
@@ -26,33 +25,35 @@ from plumb.diagnosis.evidence import (
     outlier_weights,
     weights_of,
 )
-from plumb.diagnosis.explanation import Board, Explanation, explain
+from plumb.diagnosis.explanation import Board, Explanation
+from plumb.diagnosis.fields import (
+    Fields,
+    WithFields,
+    weigh_fields,
+    weights_with,
+)
 from plumb.diagnosis.linear import (
-    Disturbance,
     LinearBoard,
     Metric,
     MovedRound,
-    fields,
     moved_rounds,
+    smooth_fields,
 )
 from plumb.diagnosis.noise import Noise, noise_by
 from plumb.diagnosis.outliers import Reading, readings_of
 from plumb.diagnosis.priors import (
-    FIELD,
     FIELD_SPREADS,
     LIKELIER,
     MOVED,
     OUTLIER,
-    PITCH,
     TOGETHER,
     TURNED,
     noise_prior,
-    usual_checks,
-    zero_checks,
 )
+from plumb.diagnosis.refit import explain_account, felt_effects
 from plumb.fit.inputs import Stated
 from plumb.model.catalogue import EVERY_MACHINE
-from plumb.model.plain import ascending, ranked
+from plumb.model.plain import ascending, greatest, ranked
 
 Array = np.ndarray
 REFITTED = 6  # likeliest sets that are made linear about the fit of each
@@ -91,7 +92,7 @@ class Posterior:
     turned: float | None  # with all y errors the other way round; None without marks
     noise: Noise
     noises: Noises  # worth a look
-    fields: Sequence[Disturbance] = ()  # smooth, of each spread and width
+    with_fields: WithFields
 
     @cached_property
     def clean(self) -> float:
@@ -164,6 +165,11 @@ class Posterior:
         weights = self._weights(with_field)
         return [Listed(self.accounts[i], share) for i, share in listing(several, weights)]
 
+    @property
+    def likeliest_with_field(self) -> Effects:
+        """Effects of the account that is likeliest where a field acts."""
+        return self.accounts[greatest(self._weights(True))].effects
+
     def listed_nearest_first(self, nearest: Effects) -> list[Listed]:
         """Return the same where a smooth field acts, the account of some effects before all."""
         place = next(i for i, each in enumerate(self.accounts) if each.effects == nearest)
@@ -187,9 +193,9 @@ class Posterior:
         account = next(known, Account(effects, effects, -np.inf, -np.inf))
         if np.isfinite(account.field):
             return self
-        linear, only = _about(explain_account(self.frame, effects, effects), effects)
-        field, _ = _with_others(linear, only, self.noises, self.fields, FIELD)
-        weighed = replace(account, field=float(np.logaddexp.reduce(field)))
+        at = explain_account(self.frame, effects, effects)
+        field = self.with_fields.fields.weight_about(at, effects, self.noises)
+        weighed = replace(account, field=field)
         others = [each for each in self.accounts if each.effects != effects]
         return replace(self, accounts=(*others, weighed))
 
@@ -238,76 +244,35 @@ def posterior_of(board: Board, stated: Stated | None) -> Posterior:
     linear = LinearBoard.of(frame, felt)
     accounts = accounts_of(linear, TOGETHER if linear.measured <= FEWER else 2)
     middle, _ = noise_prior(stated)
-    others = fields(frame, middle)
-    noises = noises_of(linear, accounts, stated, others[1 :: len(FIELD_SPREADS)])
+    smooth = smooth_fields(frame, middle)
+    noises = noises_of(linear, accounts, stated, smooth[1 :: len(FIELD_SPREADS)])
     clean = clean_of(linear, accounts, noises).on(0)
     clean = _refitted(frame, felt, accounts, noises, clean)
     few = accounts.up_to(2)
-    # A field takes the place of most effects: sets that are unlikely without it stay so.
-    likely = (clean.total > clean.total.max() - UNLIKELY) | _small(accounts)
-    field, noise_of_field = _with_others(linear, few.among(likely), noises, others, FIELD)
+    fields = Fields.of(frame, linear, noises, smooth)
+    with_fields = weigh_fields(
+        frame, linear, accounts, noises, fields, float(np.logaddexp.reduce(clean.total))
+    )
     moves = moved_rounds(frame)
     moved = [
-        _with_others(linear, few, noises, [move.other], MOVED / len(moves))[0] for move in moves
+        weights_with(linear, few, noises, move.other) + np.log(MOVED / len(moves)) for move in moves
     ]
     readings = readings_of(board.rows)
     numbers = _numbers(readings, board, len(linear.read))
     return Posterior(
         frame=frame,
         felt=felt,
-        accounts=_accounts(linear, accounts, clean, field),
+        accounts=_accounts(linear, accounts, clean, with_fields),
         moved=tuple(
-            (move, float(np.logaddexp.reduce(weight)))
+            (move, float(np.logaddexp.reduce(weight, axis=None)))
             for move, weight in zip(moves, moved, strict=True)
         ),
         outliers=outlier_weights(linear, few, noises, numbers) + np.log(OUTLIER),
         turned=_turned(frame, linear, few, noises),
-        noise=noise_by(noises.sigmas, np.logaddexp(clean.by_noise, noise_of_field), stated),
+        noise=noise_by(noises.sigmas, np.logaddexp(clean.by_noise, with_fields.by_noise), stated),
         noises=noises,
-        fields=others,
+        with_fields=with_fields,
     )
-
-
-def _about(at: Explanation, effects: Effects) -> tuple[LinearBoard, Accounts]:
-    """Return the board made linear about a fit, and the account of its effects."""
-    names = [name for name in felt_effects(at) if name in (*effects, *EVERY_MACHINE, PITCH)]
-    linear = LinearBoard.of(at, names)
-    accounts = accounts_of(linear, len(effects))
-    wanted = [{*names} == {*effects} for names in accounts.effects]
-    return linear, accounts.among(np.array(wanted))
-
-
-def _small(accounts: Accounts) -> Array:
-    """Return which sets hold one effect at most (sets,)."""
-    return np.array([len(names) < 2 for names in accounts.effects])
-
-
-def felt_effects(frame: Explanation) -> Effects:
-    """Effects that change any of the measured numbers."""
-    board = frame.board
-    return tuple(
-        name for name in board.effect_columns if np.any(frame.slopes[:, board.columns([name])])
-    )
-
-
-def _with_others(
-    board: LinearBoard,
-    accounts: Accounts,
-    noises: Noises,
-    others: Sequence[Disturbance],
-    chance: float,
-) -> tuple[Array, Array]:
-    """Return the log weights (sets,) with one of some other things too, and the same
-    by noises (m,).
-    """
-    weights = [
-        weights_of(accounts, Metric.of(board, noises.sigmas, other, pitch=is_drifting), noises)
-        + (log + np.log(chance / len(others)))
-        for other in others
-        for is_drifting, log in pitches(board)
-    ]
-    together = np.logaddexp.reduce(weights)
-    return np.logaddexp.reduce(together, axis=1), np.logaddexp.reduce(together, axis=0)
 
 
 def _turned(
@@ -342,18 +307,41 @@ def _numbers(readings: Sequence[Reading], board: Board, none: int) -> Array:
 
 
 def _accounts(
-    board: LinearBoard, accounts: Accounts, clean: Clean, field: Array
+    board: LinearBoard, accounts: Accounts, clean: Clean, with_fields: WithFields
 ) -> tuple[Account, ...]:
-    """Put sets together that ask for the same effects."""
-    order = ascending(-clean.total)
-    asked = asked_for(board, accounts, clean, order)
-    several, weights = together(asked, np.stack([clean.total, field], axis=1)[order])
-    likeliest = dict(zip(reversed(asked), reversed(order.tolist()), strict=True))
+    """Put sets together that ask for the same effects; a field may explain what they ask for of
+    what every machine has.
+    """
+    by_field = _asked(board, accounts, with_fields.beside or clean, with_fields.total)
+    by_clean = _asked(board, accounts, clean, clean.total)
+    missing = ((), -np.inf)
     merged = [
-        Account(effects, accounts.effects[likeliest[effects]], *both)
-        for effects, both in zip(several, weights.tolist(), strict=True)
+        Account(
+            effects,
+            by_clean.get(effects, by_field.get(effects, missing))[0],
+            by_clean.get(effects, missing)[1],
+            by_field.get(effects, missing)[1],
+        )
+        for effects in {**by_clean, **by_field}
     ]
     return tuple(ranked(merged, lambda account: -account.clean))
+
+
+def _asked(
+    board: LinearBoard, accounts: Accounts, weighed: Clean, total: Array
+) -> dict[Effects, tuple[Effects, float]]:
+    """Return what sets ask for by these weights (sets,): the likeliest set behind it, and the log
+    weight of all.
+    """
+    order = ascending(-total)
+    order = order[np.isfinite(total[order])]
+    asked = asked_for(board, accounts, weighed, order)
+    several, weights = together(asked, total[order])
+    likeliest = dict(zip(reversed(asked), reversed(order.tolist()), strict=True))
+    return {
+        effects: (accounts.effects[likeliest[effects]], weight)
+        for effects, weight in zip(several, weights.tolist(), strict=True)
+    }
 
 
 def _refitted(
@@ -376,23 +364,3 @@ def _refitted(
         total[i] = _with_nothing(linear, only, noises)[i]
     shift = total - clean.total
     return replace(clean, total=total, nominal=clean.nominal + shift)
-
-
-def explain_account(frame: Explanation, asked: Effects, acting: Effects) -> Explanation:
-    """Refit the frame and the effects of an account; what every machine has and the settings leave
-    out too, held near what is usual where it does not act beyond that. What cannot be negative and
-    fits best there is held at zero.
-    """
-    board = frame.board
-    left_out = [
-        name
-        for name in EVERY_MACHINE
-        if name not in asked and not board.problem.start[board.columns([name])].any()
-    ]
-    effects = (*asked, *left_out)
-    usual = usual_checks(board, [name for name in effects if name not in acting])
-    fitted = explain(board.with_usual(usual), effects, start=frame)
-    impossible = zero_checks(fitted)
-    if not impossible:
-        return fitted
-    return explain(board.with_usual((*usual, *impossible)), effects, start=frame)

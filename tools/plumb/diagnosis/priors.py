@@ -26,7 +26,8 @@ ACTS = 0.1  # an effect
 UNUSUAL = 0.05  # that what every machine has is far from usual
 ALL = 0.01  # that every effect of the library acts at once
 TOGETHER = 3  # effects at once in an account; the marks of one sheet hardly carry more
-FIELD = 0.15  # that the machine also does what no effect of the library does
+FIELD = 0.15  # that the machine also does what no effect of the library does: half of it all over
+# the sheet, half about a single place
 OUTLIER = 0.1  # that some reading is off
 MOVED = 0.05  # that a later round was not cut by the same machine on the same sheet
 TURNED = 0.01  # that all y errors have the wrong sign
@@ -36,6 +37,7 @@ OUTLIER_SPREADS = (4.0, 20.0, 200.0)
 # [mm] and halves of what the marks span: what a smooth field of no effect does. All as likely.
 FIELD_SPREADS = (1.0, 2.0, 4.0)
 FIELD_WIDTHS = (0.35, 0.7, 1.4)
+SPOT_WIDTHS = (0.25, 0.45)  # of a field that acts about a single place
 ROUND_SPREAD = 6.0  # [mm] of a sheet laid elsewhere, and of a chain hung by a link less
 
 # The noise of a reading: the logarithm of its standard deviation is Student's t about what is

@@ -21,7 +21,8 @@ from plumb.diagnosis.outliers import (
     readings_of,
     without,
 )
-from plumb.diagnosis.posterior import Account, Posterior, explain_account, posterior_of
+from plumb.diagnosis.posterior import Account, Posterior, posterior_of
+from plumb.diagnosis.refit import explain_account
 from plumb.fit.inputs import Inputs, Stated
 from plumb.fit.observations import model_and_observations
 from plumb.fit.problem import USUAL_SIGMA

@@ -16,14 +16,14 @@ from plumb.diagnosis.evidence import (
     outlier_weights,
 )
 from plumb.diagnosis.explanation import explain, measured_board
-from plumb.diagnosis.linear import LinearBoard, Metric, fields
-from plumb.diagnosis.posterior import felt_effects
+from plumb.diagnosis.linear import LinearBoard, Metric, smooth_fields
 from plumb.diagnosis.priors import (
     OUTLIER_SPREADS,
     PITCH_CORRELATION,
     PITCH_SPREAD,
     size_priors,
 )
+from plumb.diagnosis.refit import felt_effects
 from plumb.fit.inputs import Inputs
 
 SIGMA = 0.6
@@ -39,7 +39,7 @@ FRAME = explain(
 BOARD = LinearBoard.of(FRAME, felt_effects(FRAME))
 ACCOUNTS = accounts_of(BOARD, 2)
 READ = BOARD.read[:, 0]
-FIELD = fields(FRAME, SIGMA)[4]
+FIELD = smooth_fields(FRAME, SIGMA)[4]
 
 
 def covariance(*, other=None, pitch=False, off=(), spread=0.0):

@@ -1,5 +1,6 @@
 """Slips next to hidden effects, and bumps, which are none."""
 
+import re
 from dataclasses import replace
 
 import numpy as np
@@ -26,12 +27,26 @@ def test_two_hidden_effects_hide_no_slip(length):
     assert "if it stays, it is the machine there" in diagnosis.outliers[0].sentence
 
 
-def test_a_bump_of_several_marks_is_no_slip():
-    for seed in range(3):
-        hidden = Hidden(outside="bump", outside_mm=1.0)
-        diagnosis = diagnose(Inputs(MAKER, cut(hidden, plan(5, 5), seed=seed).measurements))
-        assert diagnosis.verdict == "not_in_library" and not diagnosis.outliers
-        assert any("farthest off at" in said for said in diagnosis.warnings)
+@pytest.mark.parametrize("seed", range(3))
+def test_a_bump_of_several_marks_is_no_slip_and_its_place_is_said(seed):
+    board = cut(Hidden(outside="bump", outside_mm=1.0), plan(5, 5), seed=seed)
+    diagnosis = diagnose(Inputs(MAKER, board.measurements))
+    assert diagnosis.verdict == "not_in_library" and not diagnosis.outliers
+    (said,) = [each for each in diagnosis.warnings if "no effect draws" in each]
+    place = [float(number) for number in re.search(r"x (-?\d+) mm, y (-?\d+) mm", said).groups()]
+    places = np.array([(x, y) for x in range(-1200, 1201, 50) for y in range(-600, 601, 50)])
+    middle = places[np.argmax(np.sum(board.machine.field(places) ** 2, axis=1))]
+    assert np.all(np.abs(place - middle) < 0.4 * np.array([1200, 600]))
+
+
+@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize("names", [("chain_plane", "sled_swing"), ("chain_stretch", "sheet_skew")])
+def test_two_effects_are_named_beside_a_bump(names, seed):
+    causes = tuple((causes_of(name)[0], 2.5) for name in names)
+    hidden = Hidden(causes, outside="bump", outside_mm=0.7)
+    board = cut(hidden, plan(5, 5), seed=seed, noise=0.2, tape_sigma=0.2)
+    diagnosis = diagnose(Inputs(MAKER, board.measurements))
+    assert {*diagnosis.likely} >= {*names} and diagnosis.is_finding
 
 
 def test_what_a_later_round_confirms_is_the_machine():

@@ -38,6 +38,7 @@ def judged(shares, monkeypatch, *, field=TINY, moved=TINY, misfit=0.5, outliers=
         turned=None,
         noise=None,
         noises=None,
+        with_fields=SimpleNamespace(spot=None),
     )
     monkeypatch.setattr("plumb.diagnosis.answer.misfit_chance", lambda fitted, stated: misfit)
     monkeypatch.setattr("plumb.diagnosis.answer.nearest", lambda frame, posterior: ("a",))
