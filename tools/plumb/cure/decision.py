@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from math import hypot
 from typing import Annotated
 
 from pydantic import computed_field
@@ -122,14 +123,16 @@ class Decision:
 
     @property
     def expected_mm(self) -> float | None:
-        """The error to expect over the sheet [mm RMS] of the settings to go on with; None where
-        nothing is to be cut yet.
+        """The error to expect over the sheet [mm RMS] of the settings to go on with, and of what
+        no effect draws; None where nothing is to be cut yet.
         """
         if not self.done:
             return None
         both = zip(self.diagnosis.fits, self.diagnosis.explanations, strict=True)
         rivals = [(fit, each.share) for fit, each in both if fit is not self.diagnosis.best]
-        return expected_error(self.diagnosis.best, rivals).rms
+        expected = expected_error(self.diagnosis.best, rivals).rms
+        is_known = self.diagnosis.verdict != "not_in_library"
+        return expected if is_known else hypot(expected, self.diagnosis.pattern_mm)
 
     @property
     def step(self) -> NextStep:

@@ -3,8 +3,11 @@
 from pathlib import Path
 
 import pytest
+from plumb.bench.boards import cut, plan
+from plumb.bench.causes import MAKER, Hidden, causes_of
+from plumb.bench.judged_board import shape_error
 from plumb.cure.decision import decide
-from plumb.fit.inputs import read_inputs
+from plumb.fit.inputs import Inputs, read_inputs
 
 BOARDS = Path(__file__).resolve().parents[1] / "data/boards"
 
@@ -27,6 +30,14 @@ def test_what_predicts_best_is_written_though_a_bump_acts_too():
     result = cured("several-11")
     assert {*result.named} == {"frame_flex", "sled_swing", "sheet_skew"}
     assert result.done and result.addition.after.left_out_rms < 0.35
+
+
+def test_what_nobody_draws_is_part_of_the_error_that_is_promised():
+    hidden = Hidden(((causes_of("chain_plane")[0], 2.5),), outside="bump", outside_mm=1.0)
+    board = cut(hidden, plan(5, 5), seed=3, noise=0.2, tape_sigma=0.2)
+    result = decide(Inputs(MAKER, board.measurements))
+    left = shape_error(board.machine, result.addition.settings)
+    assert 0.5 < left == pytest.approx(result.expected_mm, rel=0.3)
 
 
 @pytest.mark.parametrize("name", ["real-25", "several-11"])
