@@ -46,6 +46,7 @@ def test_two_check_marks_hold_then_miss_and_others_are_planned(lab, page):
     page.get_by_label("Mark 2 from the left, mm").wait_for(timeout=PATIENCE)
     first = where(page)
     assert "G1" in (lab.folder / "check.nc").read_text()
+    expect(page.locator(".sheet .spot.faint")).to_have_count(23)  # that were fitted
     type_off(lab, page, 1, 0.3, 0.1)
     type_off(lab, page, 2, -0.2, 0.4)
     expect(page.locator(JUDGED)).to_contain_text("The settings hold.", timeout=PATIENCE)

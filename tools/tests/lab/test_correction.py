@@ -10,7 +10,7 @@ from plumb import api
 from plumb.cure.machine_file import correct
 from plumb.diary.file import read_diary
 from plumb.settings.files import read_settings
-from screens import measured_machine
+from screens import at_rest, measured_machine
 
 
 @pytest.fixture
@@ -129,6 +129,20 @@ def test_what_is_written_is_not_asked_again_and_goes_to_the_machine_next(lab, pa
     expect(page.locator(WANTED)).to_have_text("Connect the machine, then send machine.toml")
     page.get_by_role("button", name="Go back to groundcontrol.ini").click()
     expect(page.locator(TITLE)).to_have_text("What would change?")
+
+
+def test_a_slider_shows_the_errors_before_on_its_left_and_after_on_its_right(lab, page):
+    measured_machine(lab.folder)
+    page.goto(f"{lab.url}#/correct")
+    slider = page.get_by_role("slider", name="as groundcontrol.ini says on the left")
+    expect(slider).to_be_visible(timeout=PATIENCE)
+    beyond = page.locator(".sheet .arrow.beyond")
+    counts = []
+    for place in ("1220", "0", "-1220"):  # [mm] from the middle
+        slider.fill(place)
+        at_rest(page)
+        counts.append(beyond.count())
+    assert counts[0] > counts[1] > counts[2]
 
 
 def test_what_was_not_accepted_is_folded_away_and_can_be_accepted_later(lab, page):

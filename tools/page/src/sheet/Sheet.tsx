@@ -8,6 +8,7 @@ import { MarkCard } from "./MarkCard";
 import { BEYOND_NOISE, Marks } from "./Marks";
 import type { Mark, State } from "./marks";
 import { Save } from "./Save";
+import { Divide, halves, Slider } from "./Slider";
 import { States } from "./States";
 import { type Scale, ScaleContext, SheetSize, scaleOf, useScale } from "./scale";
 import { usePointing } from "./usePointing";
@@ -32,6 +33,8 @@ export interface SheetParts {
   states?: readonly State[];
   shown?: number;
   show?: (index: number) => void;
+  /** Whether the first state is drawn on the left of a slider, and the one that is shown on its right. */
+  slides?: boolean;
   /** Drawn pale, below the state that is shown. */
   ghosts?: State | undefined;
   print?: readonly (Pair | null)[] | undefined;
@@ -54,10 +57,13 @@ export function Sheet(parts: SheetParts) {
   const wide = useWidth(drawing);
   const zoom = useZoom(frame);
   const scale = useMemo(() => scaleOf(size, wide), [size[0], size[1], wide]);
-  const state = states[shown];
+  const [line, slide] = useState(0); // [mm] of the slider
+  const before = parts.slides && shown > 0 ? states[0] : undefined;
+  const after = states[shown];
+  const state = before && after ? halves(marks, line, [before, after]) : after;
   const factors = useMemo(() => states.map((_, i) => usualFactor(parts, size, i)), [states, sigma]);
   const hasArrows = state?.errors.some((error) => error) ?? false;
-  const factor = hasArrows ? factors[shown] : undefined;
+  const factor = hasArrows ? factors[before ? 0 : shown] : undefined;
   const pointing = usePointing(parts, scale, zoom, factor ?? 0);
   const { selected } = pointing;
   const keys = { ...KEYS, onKeyDown: pointing.onKeyDown };
@@ -68,6 +74,9 @@ export function Sheet(parts: SheetParts) {
     <>
       {states.length > 1 && show && (
         <States {...{ size, marks, states, shown, show, units }} factors={factors} />
+      )}
+      {before && state && (
+        <Slider x={line} wide={size[0]} move={slide} left={before.title} right={state.title} />
       )}
       <figure class="sheet">
         <div class="board">
@@ -89,6 +98,7 @@ export function Sheet(parts: SheetParts) {
                 <Wood size={size} />
                 <Axes units={units} origin={parts.origin ?? MIDDLE} />
                 {parts.children}
+                {before && <Divide x={line} />}
                 <Marks
                   marks={marks}
                   state={state}

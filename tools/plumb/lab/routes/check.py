@@ -54,6 +54,7 @@ class CheckAnswer(HowFar):
 
     trouble: str  # why nothing can be checked yet; empty if it can
     places: list[tuple[float, float]]  # machine frame
+    earlier: list[tuple[float, float]]  # of the marks that were fitted
     meant: list[tuple[float, float]]  # the same from the chosen edges
     form: str
     program: str
@@ -87,6 +88,7 @@ def show_check(project: TheProject, line: TheLine) -> CheckAnswer:
         **vars(far),
         trouble=trouble,
         places=places,
+        earlier=[mark.target for mark in inputs.measurements.marks if mark.measured],
         meant=[from_edges(place, sheet=sheet, corner=corner) for place in places],
         form=form,
         program=f"{CHECK}{number}.nc",

@@ -4,12 +4,15 @@ import { Sheet } from "../../sheet/Sheet";
 
 export function CheckMap({ answer }: { answer: Schemas["CheckAnswer"] }) {
   const read = answer.marks;
-  const marks = answer.places.map((target, index) => ({
-    name: read[index]?.name ?? `${index + 1}`,
-    target,
-    measured: read[index]?.measured,
-    look: "planned" as const,
-  }));
+  const marks = [
+    ...answer.places.map((target, index) => ({
+      name: read[index]?.name ?? `${index + 1}`,
+      target,
+      measured: read[index]?.measured,
+      look: "planned" as const,
+    })),
+    ...answer.earlier.map((target) => ({ name: "", target, look: "faint" as const })),
+  ];
   const off = {
     title: "from where they were promised",
     errors: read.map(

@@ -27,6 +27,7 @@ export function CorrectMap({ made, states }: MapParts) {
       shown={shown}
       show={(index) => show(states[index]?.title)}
       sigma={made.sigma ?? undefined}
+      slides
     >
       {first && state && (
         <SpanLines
