@@ -38,8 +38,7 @@
   ROW(kRotationRadius, 8, "rotation_radius, mm", kReal, kAnyValue, 250, 0, 2000, kGeometry, \
       "Advanced: rotationRadius", "From the bit to the end of each chain (triangular).", "") \
   ROW(kIdleTime, 9, "idle_time, ms", kWord, 1, 2000, 0, 65535, kNothing, \
-      "", "Rest after which the motors are switched off and the position is kept.", \
-      "the position is kept in a ring of 65 places, with a mark while the machine moves") \
+      "", "Rest after which the motors are switched off and the position is kept.", "") \
   ROW(kChainLength, 10, "chain_length, mm", kWord, 1, 3360, 0, 65535, kGeometry, \
       "Advanced: chainLength", "Length of each chain; no more is paid out.", "") \
   ROW(kExtendLength, 11, "extend_length, mm", kWord, 1, 1651, 0, 65535, kNothing, \
@@ -106,8 +105,8 @@
   ROW(kPwmFrequency, 39, "pwm_frequency", kByte, 1, 3, 1, 3, kDrives, \
       "Computed: fPWMComputed", "Motor PWM: 1 is 31 kHz, 2 is 4 kHz, 3 is 490 Hz, as far as the driver allows.", "") \
   ROW(kLeftTolerance, 40, "left_tolerance, %", kReal, kAnyValue, 0, -5, 5, kGeometry, \
-      "Advanced: leftChainTolerance", "By how much the left chain's links are longer than nominal; added to $180.", \
-      "the same chains; the ring, which is no chain, is not stretched by $180") \
+      "Advanced: leftChainTolerance", "How much longer than nominal the left chain's links are; added to $180.", \
+      "$180 does not stretch the ring") \
   ROW(kRightTolerance, 41, "right_tolerance, %", kReal, kAnyValue, 0, -5, 5, kGeometry, \
       "Advanced: rightChainTolerance", "The same for the right chain; added to $181.", "") \
   ROW(kPositionErrorLimit, 42, "position_limit, mm", kReal, kAnyValue, 2, 0.01f, 100000, kLoops, \
@@ -140,31 +139,31 @@
       "", "How far from a corner the sled may pass without stopping; 0: it stops.", "new") \
   ROW(kChainSpeed, 68, "chain_speed, mm/min", kReal, kAnyValue, 1000, 10, 10000, kLimits, \
       "", \
-      "Greatest speed of a chain; moves are slowed to keep it. More than 20 turns of a sprocket a minute (1270 " \
-      "with $13=63.5) is refused: no gearbox does it.", "new") \
+      "Greatest speed of a chain; moves are slowed to keep it. More than 20 sprocket turns a minute (1270 with " \
+      "$13=63.5) is refused.", "new") \
   ROW(kLoopRate, 69, "loop_rate, Hz", kByte, 100, 100, 100, 200, kRestart, \
       "", "How often the motors are controlled: 100 or 200.", "new") \
   ROW(kRefusedMotion, 70, "refused_motion", kBool, 1, 0, 0, 1, kNothing, \
       "", \
-      "What a line does whose motion cannot be done: 0 halts the machine until Stop; 1 answers error: and goes on " \
-      "with the next.", "new") \
+      "A line whose motion cannot be done: 0 halts the machine until Stop; 1 answers error: and goes on with " \
+      "the next.", "new") \
   ROW(kMotionAhead, 71, "motion_ahead, ms", kWord, 1, 1000, 0, 10000, kNothing, \
       "", \
-      "A line is answered when less than this is left of its motion, so that a sender that stops sending stops " \
-      "the sled.", "new") \
+      "A line is answered when less than this is left of its motion, so that a sender that stops stops the sled.", \
+      "new") \
   ROW(kLaserPulses, 72, "laser_pulses", kBool, 1, 0, 0, 1, kCutter, \
       "", "0: the laser's pin is high or low; 1: it is pulsed by S (0 to 255) and speed.", "new") \
   ROW(kBandGap, 75, "band_gap, V", kReal, kAnyValue, 1.1f, 0.9f, 1.3f, kNothing, \
-      "", "Reference of this processor; right when the supply that B30 tells is what a voltmeter shows on its 5 V.", \
+      "", "Reference of this processor; right when B30 shows the supply that a voltmeter shows on the 5 V pin.", \
       "new") \
   ROW(kLeastSupply, 76, "least_supply, V", kReal, kAnyValue, 4.3f, 0, 5, kNothing, \
-      "", "Below this supply of the Mega it says so; 0: never.", "new") \
+      "", "The machine says so when the Mega's supply falls below this; 0: never.", "new") \
   ROW(kHoldingTorque, 77, "holding_torque, N m", kReal, kAnyValue, 1.4f, 0, 1000, kNothing, \
       "", \
-      "What friction holds at the sprocket of a motor without power. Where the sled pulls harder, high on the sheet, " \
-      "the motors stay on at rest; 10: they never do.", "new") \
+      "What friction holds at the sprocket of a motor without power. Where the sled pulls harder, the motors stay " \
+      "on at rest; 10: they never do.", "new") \
   ROW(kReportInches, 78, "report_inches", kBool, 1, 0, 0, 1, kNothing, \
-      "", "Units of the status for a sender of Grbl, to whom it is $13. 0: mm; 1: inches.", "new")
+      "", "Units of the status for a sender of Grbl (its $13). 0: mm; 1: inches.", "new")
 
 #define PLUMB_KEPT_SETTINGS(ROW) \
   ROW(kSimulatedMotors, 99, "simulated_motors", kBool, 1, 0, 0, 1, kNothing, \

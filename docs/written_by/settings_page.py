@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import groupby
 
 from plumb.firmware.settings import Setting, every_setting, format_value
 from template import filled
@@ -10,6 +12,28 @@ from template import filled
 PAGE = "docs/settings.md"
 ANY_BUT_ZERO = 255
 LAST_PUBLISHED, FIRST_OF_OURS, FIRST_EFFECT = 44, 60, 100
+
+
+@dataclass(frozen=True)
+class Row:
+    """Settings that differ in nothing but number and name."""
+
+    settings: Sequence[Setting]
+
+    @property
+    def first(self) -> Setting:
+        """The setting that speaks for all."""
+        return self.settings[0]
+
+    @property
+    def numbers(self) -> str:
+        """Their `$` numbers."""
+        return _from_to([str(each.number) for each in self.settings])
+
+    @property
+    def names(self) -> str:
+        """Their names."""
+        return _from_to([f"`{each.name}`" for each in self.settings])
 
 
 def pages() -> dict[str, str]:
@@ -24,14 +48,25 @@ def page(settings: Sequence[Setting]) -> str:
         "settings.md",
         published=[setting for setting in listed if setting.number <= LAST_PUBLISHED],
         own=[setting for setting in listed if FIRST_OF_OURS <= setting.number < FIRST_EFFECT],
-        effects=[setting for setting in listed if setting.number >= FIRST_EFFECT],
+        count=len(listed),
         hidden=[setting for setting in settings if setting.access != "listed"],
+        rows=rows,
         format_value=format_value,
         limits=limits,
         takes_effect=takes_effect,
         in_programs=in_programs,
         sentence=sentence,
     )
+
+
+def rows(settings: Sequence[Setting]) -> list[Row]:
+    """Return the rows of a table: neighbours that say the same share one."""
+
+    def said(setting: Setting) -> tuple[str, ...]:
+        alike = (limits(setting), takes_effect(setting), in_programs(setting), sentence(setting))
+        return (setting.unit, format_value(setting.usual), *alike)
+
+    return [Row(list(alike)) for _, alike in groupby(settings, key=said)]
 
 
 def limits(setting: Setting) -> str:
@@ -48,7 +83,7 @@ def takes_effect(setting: Setting) -> str:
         return "at once"
     if "restart" in setting.touches:
         return "after a restart"
-    return "at rest: " + ", ".join(setting.touches)
+    return ", ".join(setting.touches)
 
 
 def in_programs(setting: Setting) -> str:
@@ -64,3 +99,7 @@ def sentence(setting: Setting) -> str:
     if setting.change and setting.change != "new":
         said += f" *Change: {setting.change}.*"
     return said
+
+
+def _from_to(words: Sequence[str]) -> str:
+    return f"{words[0]} to {words[-1]}" if len(words) > 2 else ", ".join(words)
