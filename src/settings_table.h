@@ -63,42 +63,49 @@
       "Advanced: zEncoderSteps", \
       "Encoder counts for one turn of z; negative: motor or encoder is wired the other way.", "") \
   ROW(kMainPositionP, 21, "main_position_p", kReal, kAnyValue, 1300, 0, 1e6f, kLoops, \
-      "Computed: KpPosMain", "Chain motors, position loop: proportional gain.", "") \
+      "Computed: KpPosMain", \
+      "Position loop of the chain motors: P, I, D, and the share of P that acts on the error.", "") \
   ROW(kMainPositionI, 22, "main_position_i", kReal, kAnyValue, 0, 0, 1e6f, kLoops, \
-      "Computed: KiPosMain", "Chain motors, position loop: integral gain.", "") \
+      "Computed: KiPosMain", \
+      "Position loop of the chain motors: P, I, D, and the share of P that acts on the error.", "") \
   ROW(kMainPositionD, 23, "main_position_d", kReal, kAnyValue, 34, 0, 1e6f, kLoops, \
-      "Computed: KdPosMain", "Chain motors, position loop: derivative gain.", "") \
+      "Computed: KdPosMain", \
+      "Position loop of the chain motors: P, I, D, and the share of P that acts on the error.", "") \
   ROW(kMainPositionWeight, 24, "main_position_weight", kReal, kAnyValue, 1, 0, 1, kLoops, \
       "Computed: propWeightMain", \
-      "Chain motors, position loop: share of the proportional part that acts on the error.", "") \
+      "Position loop of the chain motors: P, I, D, and the share of P that acts on the error.", "") \
   ROW(kMainSpeedP, 25, "main_speed_p", kReal, kAnyValue, 5, 0, 1e6f, kLoops, \
-      "Computed: KpVMain", "Chain motors, speed loop: proportional gain.", "") \
+      "Computed: KpVMain", "Speed loop of the chain motors: P, I, D, and the share of P that acts on the error.", "") \
   ROW(kMainSpeedI, 26, "main_speed_i", kReal, kAnyValue, 0, 0, 1e6f, kLoops, \
-      "Computed: KiVMain", "Chain motors, speed loop: integral gain.", "") \
+      "Computed: KiVMain", "Speed loop of the chain motors: P, I, D, and the share of P that acts on the error.", "") \
   ROW(kMainSpeedD, 27, "main_speed_d", kReal, kAnyValue, 0.28f, 0, 1e6f, kLoops, \
-      "Computed: KdVMain", "Chain motors, speed loop: derivative gain.", "") \
+      "Computed: KdVMain", "Speed loop of the chain motors: P, I, D, and the share of P that acts on the error.", "") \
   ROW(kMainSpeedWeight, 28, "main_speed_weight", kReal, kAnyValue, 1, 0, 1, kLoops, \
-      "", "Chain motors, speed loop: share of the proportional part that acts on the error.", "") \
+      "", "Speed loop of the chain motors: P, I, D, and the share of P that acts on the error.", "") \
   ROW(kZPositionP, 29, "z_position_p", kReal, kAnyValue, 1300, 0, 1e6f, kLoops, \
-      "Computed: KpPosZ", "Z motor, position loop: proportional gain; with 0 z refuses to move.", \
+      "Computed: KpPosZ", \
+      "Position loop of z: P, I, D, and the share of P that acts on the error; z refuses to move while P is 0.", \
       "the published default is 0, and nothing watches z then") \
   ROW(kZPositionI, 30, "z_position_i", kReal, kAnyValue, 0, 0, 1e6f, kLoops, \
-      "Computed: KiPosZ", "Z motor, position loop: integral gain.", "") \
+      "Computed: KiPosZ", \
+      "Position loop of z: P, I, D, and the share of P that acts on the error; z refuses to move while P is 0.", "") \
   ROW(kZPositionD, 31, "z_position_d", kReal, kAnyValue, 34, 0, 1e6f, kLoops, \
-      "Computed: KdPosZ", "Z motor, position loop: derivative gain.", "") \
+      "Computed: KdPosZ", \
+      "Position loop of z: P, I, D, and the share of P that acts on the error; z refuses to move while P is 0.", "") \
   ROW(kZPositionWeight, 32, "z_position_weight", kReal, kAnyValue, 1, 0, 1, kLoops, \
-      "Computed: propWeightZ", "Z motor, position loop: share of the proportional part that acts on the error.", "") \
+      "Computed: propWeightZ", \
+      "Position loop of z: P, I, D, and the share of P that acts on the error; z refuses to move while P is 0.", "") \
   ROW(kZSpeedP, 33, "z_speed_p", kReal, kAnyValue, 5, 0, 1e6f, kLoops, \
-      "Computed: KpVZ", "Z motor, speed loop: proportional gain.", "") \
+      "Computed: KpVZ", "Speed loop of z: P, I, D, and the share of P that acts on the error.", "") \
   ROW(kZSpeedI, 34, "z_speed_i", kReal, kAnyValue, 0, 0, 1e6f, kLoops, \
-      "Computed: KiVZ", "Z motor, speed loop: integral gain.", "") \
+      "Computed: KiVZ", "Speed loop of z: P, I, D, and the share of P that acts on the error.", "") \
   ROW(kZSpeedD, 35, "z_speed_d", kReal, kAnyValue, 0.28f, 0, 1e6f, kLoops, \
-      "Computed: KdVZ", "Z motor, speed loop: derivative gain.", "") \
+      "Computed: KdVZ", "Speed loop of z: P, I, D, and the share of P that acts on the error.", "") \
   ROW(kZSpeedWeight, 36, "z_speed_weight", kReal, kAnyValue, 1, 0, 1, kLoops, \
-      "", "Z motor, speed loop: share of the proportional part that acts on the error.", "") \
+      "", "Speed loop of z: P, I, D, and the share of P that acts on the error.", "") \
   ROW(kSagCorrection, 37, "sag_correction, 1e-12/mm^2", kReal, kAnyValue, 0, -1e5f, 1e5f, kGeometry, \
       "Advanced: chainSagCorrection", "Chain sag as the published programs fit it; added to $160.", \
-      "the same chains within 0.3 % of the sag") \
+      "the chains are as published to within 0.3 % of the sag") \
   ROW(kFeedSide, 38, "feed", kByte, 1, 1, 1, 2, kGeometry | kDrives, \
       "Computed: chainOverSprocketComputed", "1: chains leave over the top of their sprockets; 2: off the bottom.", \
       "") \

@@ -11,12 +11,13 @@ from template import filled
 
 PAGE = "docs/settings.md"
 ANY_BUT_ZERO = 255
+FEW = 4  # names that a row lists
 LAST_PUBLISHED, FIRST_OF_OURS, FIRST_EFFECT = 44, 60, 100
 
 
 @dataclass(frozen=True)
 class Row:
-    """Settings that differ in nothing but number and name."""
+    """Settings that one sentence describes."""
 
     settings: Sequence[Setting]
 
@@ -28,12 +29,31 @@ class Row:
     @property
     def numbers(self) -> str:
         """Their `$` numbers."""
-        return _from_to([str(each.number) for each in self.settings])
+        numbers = [str(each.number) for each in self.settings]
+        return f"{numbers[0]} to {numbers[-1]}" if len(numbers) > 1 else numbers[0]
 
     @property
     def names(self) -> str:
-        """Their names."""
-        return _from_to([f"`{each.name}`" for each in self.settings])
+        """Their names: all, or the first and the last of many."""
+        names = [f"`{each.name}`" for each in self.settings]
+        return ", ".join(names) if len(names) <= FEW else f"{names[0]} to {names[-1]}"
+
+    @property
+    def defaults(self) -> str:
+        """Their defaults in order; once if they are the same."""
+        return _distinct([format_value(each.usual) for each in self.settings])
+
+    @property
+    def limits(self) -> str:
+        """What they may be."""
+        return ", ".join(dict.fromkeys(limits(each) for each in self.settings))
+
+    @property
+    def keys(self) -> str:
+        """Their keys in the clients' files."""
+        section = self.first.key.partition(": ")[0]
+        keys = [in_programs(each).removeprefix(f"{section}: ") for each in self.settings]
+        return _distinct([in_programs(self.first), *keys[1:]])
 
 
 def pages() -> dict[str, str]:
@@ -51,20 +71,16 @@ def page(settings: Sequence[Setting]) -> str:
         count=len(listed),
         hidden=[setting for setting in settings if setting.access != "listed"],
         rows=rows,
-        format_value=format_value,
-        limits=limits,
         takes_effect=takes_effect,
-        in_programs=in_programs,
         sentence=sentence,
     )
 
 
 def rows(settings: Sequence[Setting]) -> list[Row]:
-    """Return the rows of a table: neighbours that say the same share one."""
+    """Return the rows of a table: neighbours with the same sentence share one."""
 
     def said(setting: Setting) -> tuple[str, ...]:
-        alike = (limits(setting), takes_effect(setting), in_programs(setting), sentence(setting))
-        return (setting.unit, format_value(setting.usual), *alike)
+        return (setting.sentence, setting.unit, takes_effect(setting))
 
     return [Row(list(alike)) for _, alike in groupby(settings, key=said)]
 
@@ -101,5 +117,5 @@ def sentence(setting: Setting) -> str:
     return said
 
 
-def _from_to(words: Sequence[str]) -> str:
-    return f"{words[0]} to {words[-1]}" if len(words) > 2 else ", ".join(words)
+def _distinct(words: Sequence[str]) -> str:
+    return words[0] if len(set(words)) == 1 else ", ".join(words)
