@@ -38,8 +38,7 @@
   ROW(kRotationRadius, 8, "rotation_radius, mm", kReal, kAnyValue, 250, 0, 2000, kGeometry, \
       "Advanced: rotationRadius", "From the bit to the end of each chain (triangular).", "") \
   ROW(kIdleTime, 9, "idle_time, ms", kWord, 1, 2000, 0, 65535, kNothing, \
-      "", "Rest after which the motors are switched off and the position is kept.", \
-      "the position is kept in a ring of 65 places, with a mark while the machine moves") \
+      "", "Rest after which the motors are switched off and the position is kept.", "") \
   ROW(kChainLength, 10, "chain_length, mm", kWord, 1, 3360, 0, 65535, kGeometry, \
       "Advanced: chainLength", "Length of each chain; no more is paid out.", "") \
   ROW(kExtendLength, 11, "extend_length, mm", kWord, 1, 1651, 0, 65535, kNothing, \
@@ -64,50 +63,57 @@
       "Advanced: zEncoderSteps", \
       "Encoder counts for one turn of z; negative: motor or encoder is wired the other way.", "") \
   ROW(kMainPositionP, 21, "main_position_p", kReal, kAnyValue, 1300, 0, 1e6f, kLoops, \
-      "Computed: KpPosMain", "Chain motors, position loop: proportional gain.", "") \
+      "Computed: KpPosMain", \
+      "Position loop of the chain motors: P, I, D, and the share of P that acts on the error.", "") \
   ROW(kMainPositionI, 22, "main_position_i", kReal, kAnyValue, 0, 0, 1e6f, kLoops, \
-      "Computed: KiPosMain", "Chain motors, position loop: integral gain.", "") \
+      "Computed: KiPosMain", \
+      "Position loop of the chain motors: P, I, D, and the share of P that acts on the error.", "") \
   ROW(kMainPositionD, 23, "main_position_d", kReal, kAnyValue, 34, 0, 1e6f, kLoops, \
-      "Computed: KdPosMain", "Chain motors, position loop: derivative gain.", "") \
+      "Computed: KdPosMain", \
+      "Position loop of the chain motors: P, I, D, and the share of P that acts on the error.", "") \
   ROW(kMainPositionWeight, 24, "main_position_weight", kReal, kAnyValue, 1, 0, 1, kLoops, \
       "Computed: propWeightMain", \
-      "Chain motors, position loop: share of the proportional part that acts on the error.", "") \
+      "Position loop of the chain motors: P, I, D, and the share of P that acts on the error.", "") \
   ROW(kMainSpeedP, 25, "main_speed_p", kReal, kAnyValue, 5, 0, 1e6f, kLoops, \
-      "Computed: KpVMain", "Chain motors, speed loop: proportional gain.", "") \
+      "Computed: KpVMain", "Speed loop of the chain motors: P, I, D, and the share of P that acts on the error.", "") \
   ROW(kMainSpeedI, 26, "main_speed_i", kReal, kAnyValue, 0, 0, 1e6f, kLoops, \
-      "Computed: KiVMain", "Chain motors, speed loop: integral gain.", "") \
+      "Computed: KiVMain", "Speed loop of the chain motors: P, I, D, and the share of P that acts on the error.", "") \
   ROW(kMainSpeedD, 27, "main_speed_d", kReal, kAnyValue, 0.28f, 0, 1e6f, kLoops, \
-      "Computed: KdVMain", "Chain motors, speed loop: derivative gain.", "") \
+      "Computed: KdVMain", "Speed loop of the chain motors: P, I, D, and the share of P that acts on the error.", "") \
   ROW(kMainSpeedWeight, 28, "main_speed_weight", kReal, kAnyValue, 1, 0, 1, kLoops, \
-      "", "Chain motors, speed loop: share of the proportional part that acts on the error.", "") \
+      "", "Speed loop of the chain motors: P, I, D, and the share of P that acts on the error.", "") \
   ROW(kZPositionP, 29, "z_position_p", kReal, kAnyValue, 1300, 0, 1e6f, kLoops, \
-      "Computed: KpPosZ", "Z motor, position loop: proportional gain; with 0 z refuses to move.", \
+      "Computed: KpPosZ", \
+      "Position loop of z: P, I, D, and the share of P that acts on the error; z refuses to move while P is 0.", \
       "the published default is 0, and nothing watches z then") \
   ROW(kZPositionI, 30, "z_position_i", kReal, kAnyValue, 0, 0, 1e6f, kLoops, \
-      "Computed: KiPosZ", "Z motor, position loop: integral gain.", "") \
+      "Computed: KiPosZ", \
+      "Position loop of z: P, I, D, and the share of P that acts on the error; z refuses to move while P is 0.", "") \
   ROW(kZPositionD, 31, "z_position_d", kReal, kAnyValue, 34, 0, 1e6f, kLoops, \
-      "Computed: KdPosZ", "Z motor, position loop: derivative gain.", "") \
+      "Computed: KdPosZ", \
+      "Position loop of z: P, I, D, and the share of P that acts on the error; z refuses to move while P is 0.", "") \
   ROW(kZPositionWeight, 32, "z_position_weight", kReal, kAnyValue, 1, 0, 1, kLoops, \
-      "Computed: propWeightZ", "Z motor, position loop: share of the proportional part that acts on the error.", "") \
+      "Computed: propWeightZ", \
+      "Position loop of z: P, I, D, and the share of P that acts on the error; z refuses to move while P is 0.", "") \
   ROW(kZSpeedP, 33, "z_speed_p", kReal, kAnyValue, 5, 0, 1e6f, kLoops, \
-      "Computed: KpVZ", "Z motor, speed loop: proportional gain.", "") \
+      "Computed: KpVZ", "Speed loop of z: P, I, D, and the share of P that acts on the error.", "") \
   ROW(kZSpeedI, 34, "z_speed_i", kReal, kAnyValue, 0, 0, 1e6f, kLoops, \
-      "Computed: KiVZ", "Z motor, speed loop: integral gain.", "") \
+      "Computed: KiVZ", "Speed loop of z: P, I, D, and the share of P that acts on the error.", "") \
   ROW(kZSpeedD, 35, "z_speed_d", kReal, kAnyValue, 0.28f, 0, 1e6f, kLoops, \
-      "Computed: KdVZ", "Z motor, speed loop: derivative gain.", "") \
+      "Computed: KdVZ", "Speed loop of z: P, I, D, and the share of P that acts on the error.", "") \
   ROW(kZSpeedWeight, 36, "z_speed_weight", kReal, kAnyValue, 1, 0, 1, kLoops, \
-      "", "Z motor, speed loop: share of the proportional part that acts on the error.", "") \
+      "", "Speed loop of z: P, I, D, and the share of P that acts on the error.", "") \
   ROW(kSagCorrection, 37, "sag_correction, 1e-12/mm^2", kReal, kAnyValue, 0, -1e5f, 1e5f, kGeometry, \
       "Advanced: chainSagCorrection", "Chain sag as the published programs fit it; added to $160.", \
-      "the same chains within 0.3 % of the sag") \
+      "the chains are as published to within 0.3 % of the sag") \
   ROW(kFeedSide, 38, "feed", kByte, 1, 1, 1, 2, kGeometry | kDrives, \
       "Computed: chainOverSprocketComputed", "1: chains leave over the top of their sprockets; 2: off the bottom.", \
       "") \
   ROW(kPwmFrequency, 39, "pwm_frequency", kByte, 1, 3, 1, 3, kDrives, \
       "Computed: fPWMComputed", "Motor PWM: 1 is 31 kHz, 2 is 4 kHz, 3 is 490 Hz, as far as the driver allows.", "") \
   ROW(kLeftTolerance, 40, "left_tolerance, %", kReal, kAnyValue, 0, -5, 5, kGeometry, \
-      "Advanced: leftChainTolerance", "By how much the left chain's links are longer than nominal; added to $180.", \
-      "the same chains; the ring, which is no chain, is not stretched by $180") \
+      "Advanced: leftChainTolerance", "How much longer than nominal the left chain's links are; added to $180.", \
+      "$180 does not stretch the ring") \
   ROW(kRightTolerance, 41, "right_tolerance, %", kReal, kAnyValue, 0, -5, 5, kGeometry, \
       "Advanced: rightChainTolerance", "The same for the right chain; added to $181.", "") \
   ROW(kPositionErrorLimit, 42, "position_limit, mm", kReal, kAnyValue, 2, 0.01f, 100000, kLoops, \
@@ -140,31 +146,31 @@
       "", "How far from a corner the sled may pass without stopping; 0: it stops.", "new") \
   ROW(kChainSpeed, 68, "chain_speed, mm/min", kReal, kAnyValue, 1000, 10, 10000, kLimits, \
       "", \
-      "Greatest speed of a chain; moves are slowed to keep it. More than 20 turns of a sprocket a minute (1270 " \
-      "with $13=63.5) is refused: no gearbox does it.", "new") \
+      "Greatest speed of a chain; moves are slowed to keep it. More than 20 sprocket turns a minute (1270 with " \
+      "$13=63.5) is refused.", "new") \
   ROW(kLoopRate, 69, "loop_rate, Hz", kByte, 100, 100, 100, 200, kRestart, \
       "", "How often the motors are controlled: 100 or 200.", "new") \
   ROW(kRefusedMotion, 70, "refused_motion", kBool, 1, 0, 0, 1, kNothing, \
       "", \
-      "What a line does whose motion cannot be done: 0 halts the machine until Stop; 1 answers error: and goes on " \
-      "with the next.", "new") \
+      "A line whose motion cannot be done: 0 halts the machine until Stop; 1 answers error: and goes on with " \
+      "the next.", "new") \
   ROW(kMotionAhead, 71, "motion_ahead, ms", kWord, 1, 1000, 0, 10000, kNothing, \
       "", \
-      "A line is answered when less than this is left of its motion, so that a sender that stops sending stops " \
-      "the sled.", "new") \
+      "A line is answered when less than this is left of its motion, so that a sender that stops stops the sled.", \
+      "new") \
   ROW(kLaserPulses, 72, "laser_pulses", kBool, 1, 0, 0, 1, kCutter, \
       "", "0: the laser's pin is high or low; 1: it is pulsed by S (0 to 255) and speed.", "new") \
   ROW(kBandGap, 75, "band_gap, V", kReal, kAnyValue, 1.1f, 0.9f, 1.3f, kNothing, \
-      "", "Reference of this processor; right when the supply that B30 tells is what a voltmeter shows on its 5 V.", \
+      "", "Reference of this processor; right when B30 shows the supply that a voltmeter shows on the 5 V pin.", \
       "new") \
   ROW(kLeastSupply, 76, "least_supply, V", kReal, kAnyValue, 4.3f, 0, 5, kNothing, \
-      "", "Below this supply of the Mega it says so; 0: never.", "new") \
+      "", "The machine says so when the Mega's supply falls below this; 0: never.", "new") \
   ROW(kHoldingTorque, 77, "holding_torque, N m", kReal, kAnyValue, 1.4f, 0, 1000, kNothing, \
       "", \
-      "What friction holds at the sprocket of a motor without power. Where the sled pulls harder, high on the sheet, " \
-      "the motors stay on at rest; 10: they never do.", "new") \
+      "What friction holds at the sprocket of a motor without power. Where the sled pulls harder, the motors stay " \
+      "on at rest; 10: they never do.", "new") \
   ROW(kReportInches, 78, "report_inches", kBool, 1, 0, 0, 1, kNothing, \
-      "", "Units of the status for a sender of Grbl, to whom it is $13. 0: mm; 1: inches.", "new")
+      "", "Units of the status for a sender of Grbl (its $13). 0: mm; 1: inches.", "new")
 
 #define PLUMB_KEPT_SETTINGS(ROW) \
   ROW(kSimulatedMotors, 99, "simulated_motors", kBool, 1, 0, 0, 1, kNothing, \

@@ -39,8 +39,6 @@ def pages() -> dict[str, str]:
         rows=ROWS,
         frame_steps=FRAME_STEPS,
         alike=lambda name: alike(name, showings),
-        rms=rms,
-        worst=worst,
         largest=lambda several: f"{max(map(worst, several)):.1f}",
     )
     drawn = {picture_name(each["name"]): each["name"] for each in effects}

@@ -29,8 +29,8 @@ class Answers {
   bool isAnswered() const { return is_answered_; }
   /// Sets whether the line counts as answered.
   void setAnswered(bool yes) { is_answered_ = yes; }
-  /// From now on no refusal halts the machine, or one may again: nothing of a program depends on a
-  /// line of the operator.
+  /// Sets whether a refusal may halt the machine. For a line of the operator it may not, because no
+  /// program depends on it.
   void serve(bool yes) { is_serving_ = yes; }
   /// Whether a line of the operator is in execution.
   bool isServing() const { return is_serving_; }

@@ -38,16 +38,17 @@ class Axes {
   /// Set-points that wait to be taken.
   uint8_t waiting() const { return set_points_.count(); }
   void dropSetPoints();
-  /// Everything brakes, the path and z away from it, and stays. For Course alone, as goOn() is.
+  /// Brakes everything, the path and z's own motion, and holds it. Only Course calls this, and
+  /// goOn().
   void stand();
   /// The path goes on.
   void goOn();
-  /// To be asked again and again at the end of a way: whether it was played, and z has come near
-  /// it, or for a while no nearer.
+  /// To be called repeatedly at the end of a path: whether it was played, and z is near it, or has
+  /// stopped coming nearer.
   bool isZNear();
-  /// Whether the path rests, for now; z may be on its way.
+  /// Whether the path rests, for now; z may still move.
   bool isPathAtRest() const;
-  /// Whether nothing is on its way, for now.
+  /// Whether nothing moves, for now.
   bool isAtRest() const;
   /// From now on goes at `share` 256ths of the planned speed; see motion::Playback.
   void goAt(uint16_t share);

@@ -1,4 +1,4 @@
-// Worth of an axis' encoder counts: in lengths, in turns, in counts of a set-point.
+// What encoder counts of an axis mean: as lengths, as turns, as counts of a set-point.
 #pragma once
 
 #include <Motion.h>

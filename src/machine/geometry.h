@@ -1,4 +1,4 @@
-// Between places on the sheet and chain lengths, by whichever kinematics the settings name.
+// Turns places on the sheet into chain lengths and back, by the kinematics that the settings name.
 #pragma once
 
 #include <Kinematics.h>
@@ -66,7 +66,7 @@ class Geometry {
   void prepareRing(const settings::Values& values, const kinematics::Frame<float>& frame);
   void prepareBrackets(const settings::Values& values, const kinematics::Frame<float>& frame);
 
-  /// Whether a chain of that length [mm] is there.
+  /// Whether the chain is that long [mm].
   bool isChain(float length) const { return !signbit(length) && length <= chain_length_; }
 
   kinematics::Machine<float> ring_;

@@ -28,7 +28,7 @@ class Greeting {
   void saySource(const settings::Started& started);
   /// After a reset by a sender of Grbl: the line for which it waits.
   void sayWelcome();
-  /// Says the lines after which clients begin to send.
+  /// Prints the lines after which clients begin to send.
   void sayReady();
 
  private:

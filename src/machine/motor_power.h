@@ -22,7 +22,7 @@ class MotorPower {
   /// Waits at most a second for the position's record.
   bool awaitRecord();
 
-  // What a motion is refused for before its motors get power, whichever line asks for it.
+  // Reasons to refuse a motion before its motors get power.
   /// Refuses to go on from where nobody sent the sled: it moved while its motors were off.
   bool goOnFromHere();
   /// Refuse to move chains, or z, by motors whose position loop has no gain: they would lag without

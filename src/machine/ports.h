@@ -1,5 +1,4 @@
-// Interfaces of a board that the machine's logic needs, behind which is the hardware, or a
-// simulated board on the host.
+// Interfaces of a board: the hardware, or a simulated board on the host.
 #pragma once
 
 #include <Settings.h>
@@ -85,8 +84,8 @@ class Clock {
   virtual uint32_t milliseconds() = 0;
   /// To be called wherever the main program waits, to show that it is alive.
   virtual void idle() = 0;
-  /// To be called where the main program has nothing left to do: the processor may sleep for up to
-  /// a millisecond.
+  /// To be called when the main program has nothing left to do: the processor may sleep for up to a
+  /// millisecond.
   virtual void sleep() {}
   /// Keeps the control tick off while shared numbers are read or written; nests.
   virtual void holdTicks() = 0;

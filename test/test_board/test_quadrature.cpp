@@ -49,7 +49,7 @@ TEST(Quadrature, CountsNothingWhenBothChannelsChangeOrNone) {
   }
 }
 
-TEST(Quadrature, TellsHowManyStepsWereIllegal) {
+TEST(Quadrature, CountsIllegalSteps) {
   Quadrature quadrature = {0, 0, 0};
   for (int i = 1; i <= 400; ++i) quadrature.turn(kRising[i % 4]);
   EXPECT_EQ(quadrature.illegal, 0) << "one channel after the other";

@@ -79,7 +79,7 @@ class Bench {
 
 }  // namespace
 
-TEST(Axes, YieldWhereTheSupplyIsWeakAndRiseAgain) {
+TEST(Axes, YieldToAWeakSupplyAndRecover) {
   for (const float ticks : {100.0f, 200.0f}) {
     for (unsigned seed = 0; seed < 20; ++seed) {
       Bench bench(seed, ticks);

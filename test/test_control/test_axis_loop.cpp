@@ -58,7 +58,7 @@ TEST_P(AtRate, AnAxisComesToRestAndStaysThere) {
   }
 }
 
-TEST_P(AtRate, AStepIsPassedByLittle) {
+TEST_P(AtRate, AStepOvershootsLittle) {
   for (unsigned seed = 0; seed < kMotors; ++seed) {
     ControlledAxis axis(seed, GetParam());
     double beyond = 0;
@@ -67,7 +67,7 @@ TEST_P(AtRate, AStepIsPassedByLittle) {
   }
 }
 
-TEST_P(AtRate, ABlockedMotorThatComesFreeDoesNotShootOff) {
+TEST_P(AtRate, AMotorThatComesFreeDoesNotShootOff) {
   for (unsigned seed = 0; seed < kMotors; ++seed) {
     ControlledAxis axis(seed, GetParam());
     axis.motor.wires.blocked = true;
@@ -97,7 +97,7 @@ motion::AxisLoop drivenAt(float rpm) {
 
 }  // namespace
 
-TEST(AxisLoop, DropsItsDutyOnceWhereTheSetPointsTurnRound) {
+TEST(AxisLoop, DropsItsDutyOnceWhenTheSetPointsTurnRound) {
   for (const float way : {1.0f, -1.0f}) {
     motion::AxisLoop loop = drivenAt(way * 0.3f);
     const float before = way * float(loop.follow(0, way * 0.3f * kPerTick, 0));
@@ -118,7 +118,7 @@ TEST(AxisLoop, KeepsItsDutyWhereTheSetPointsHardlyMove) {
   EXPECT_LT(loop.follow(0, -0.26f * kPerTick, 0), 0);
 }
 
-TEST(AxisLoop, KeepsADutyThatDrivesTheNewWayAlready) {
+TEST(AxisLoop, KeepsADutyThatAlreadyDrivesTheNewWay) {
   motion::AxisLoop loop = drivenAt(5);
   for (int i = 0; i < 20; ++i) loop.follow(-0.01f, 5 * kPerTick, 0);
   const int before = loop.follow(-0.01f, 5 * kPerTick, 0);

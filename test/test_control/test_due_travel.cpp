@@ -49,7 +49,7 @@ TEST(DueTravel, IsThatOfAWeakMotorBeyondItsMargin) {
   EXPECT_NEAR(ticksUntilDue(atRest(kCounts, 0.005f), 160, 0), 101, 4);
 }
 
-TEST(DueTravel, IsPaidFourfoldByCountsThatCome) {
+TEST(DueTravel, IsPaidFourfoldByCounts) {
   EXPECT_EQ(0, ticksUntilDue(atRest(), 255, 3)) << "11.9 counts are due, 12 paid";
   EXPECT_EQ(8, ticksUntilDue(atRest(), 255, 1)) << "56.8 counts at 11.9 - 4 a tick";
 }
@@ -62,7 +62,7 @@ TEST(DueTravel, IsNotMadeByCountsAgainstTheDrive) {
 }
 
 // A broken channel counts to and fro. 11.9 counts are due a tick, 4 are paid for each that comes.
-TEST(DueTravel, IsNotPaidByCountsThatGoAgain) {
+TEST(DueTravel, IsNotPaidByCountsThatGoBack) {
   const auto ticks = [](std::initializer_list<int> moved) {
     DueTravel due = atRest();
     for (int i = 1; i < 100; ++i)
@@ -76,7 +76,7 @@ TEST(DueTravel, IsNotPaidByCountsThatGoAgain) {
 }
 
 // 11.9 counts are due a tick, up to 56.8. Up to two that went must come back before any pays.
-TEST(DueTravel, CountsThatWentComeBackFirst) {
+TEST(DueTravel, CountsThatWentAwayComeBackFirst) {
   const auto ticks = [](std::initializer_list<int> first) {
     DueTravel due = atRest();
     for (const int moved : first) EXPECT_FALSE(due.look(255 * kMean, 0, int16_t(moved)));
@@ -89,7 +89,7 @@ TEST(DueTravel, CountsThatWentComeBackFirst) {
   EXPECT_EQ(6, ticks({-9})) << "as if two";
 }
 
-TEST(DueTravel, WhatCameBeforeIsNoCredit) {
+TEST(DueTravel, EarlierTravelIsNoCredit) {
   DueTravel due = atRest();
   for (int i = 0; i < 100; ++i) EXPECT_FALSE(due.look(255 * kMean, 0, 9));
   EXPECT_EQ(5, ticksUntilDue(due, 255, 0)) << "as of a motor that never moved";
@@ -102,7 +102,7 @@ TEST(DueTravel, StaysDueInATickWithoutDuty) {
   EXPECT_EQ(51 - 40, ticksUntilDue(due, 160, 0));
 }
 
-TEST(DueTravel, ForgetsWhatWentAtRestAndInTheOtherDirection) {
+TEST(DueTravel, ForgetsLostCountsAtRestAndInTheOtherDirection) {
   DueTravel due = atRest();
   due.look(255 * kMean, 0, -2);
   due.rest();
@@ -121,7 +121,7 @@ TEST(DueTravel, BeginsAgainInTheOtherDirectionAndAtRest) {
   EXPECT_EQ(51, ticksUntilDue(due, 160, 0));
 }
 
-TEST(DueTravel, LearnsForEachDirectionByItself) {
+TEST(DueTravel, LearnsEachDirectionSeparately) {
   // The usual motor makes 0.002 turns a second for each step of duty. 20 counts a tick need 123
   // steps, so 77 of 200 overcome friction and load. With the margin that is 77 + 9 + 15 = 101.
   const DueTravel forward = learned(200, 20, 500);
@@ -134,13 +134,13 @@ TEST(DueTravel, LearnsForEachDirectionByItself) {
   EXPECT_NEAR(ticksUntilDue(backward, -121, 0), 27, 2);
 }
 
-TEST(DueTravel, SomethingIsAlwaysDueFromTheWhole) {
+TEST(DueTravel, IsAlwaysMadeAtFullDuty) {
   const DueTravel stiff = learned(255, 2, 1000);
   EXPECT_EQ(0, ticksUntilDue(stiff, 210, 0));
   EXPECT_EQ(51, ticksUntilDue(stiff, 220, 0)) << "210 is the most that it may need";
 }
 
-TEST(DueTravel, LearnsNothingFromOneThatHardlyTurnsOrNotEvenly) {
+TEST(DueTravel, LearnsNothingFromASlowOrUnevenMotor) {
   EXPECT_EQ(51, ticksUntilDue(learned(200, 1, 500), 160, 0)) << "a count a tick";
   DueTravel uneven = atRest();
   for (int i = 0; i < 500; ++i) uneven.look(200 * kMean, 20 * kMean, int16_t(i % 2 ? 22 : 18));
@@ -159,7 +159,7 @@ TEST(DueTravel, LearnsNothingFromOneThatHardlyTurnsOrNotEvenly) {
 }
 
 // 150 steps for two counts a tick: 138 of them overcome friction and load, 18 more than it knew.
-TEST(DueTravel, LearnsAnEighthOfWhatIsMoreATick) {
+TEST(DueTravel, LearnsAnEighthOfTheDifferenceEachTick) {
   EXPECT_EQ(0, ticksUntilDue(learned(150, 2, 1000), 169, 0)) << "138 + 17 + 15";
   EXPECT_NEAR(505, ticksUntilDue(learned(150, 2, 1000), 170, 0), 10);
   // 12 of 18 in 8 ticks.

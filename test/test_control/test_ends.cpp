@@ -36,7 +36,7 @@ class Ending : public testing::TestWithParam<double> {};
 
 INSTANTIATE_TEST_SUITE_P(Both, Ending, testing::Values(100.0, 200.0));
 
-TEST_P(Ending, PassesItsGoalByLittleAtEverySpeed) {
+TEST_P(Ending, OvershootsLittleAtEverySpeed) {
   for (const double feed : {300.0, 600.0, 800.0, 1000.0, 1200.0}) {
     const std::vector<double> past = beyondOf(GetParam(), feed);
     printf("%3.0f Hz %4.0f mm/min: past the goal %.3f, worst %.3f mm\n", GetParam(), feed,

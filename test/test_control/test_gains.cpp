@@ -27,7 +27,7 @@ TEST(Ahead, IsThreeHundredthsOfASecondToTheNearestTick) {
   EXPECT_EQ(3, AxisLoop::ticksAhead(0.0087f)) << "3.45 ticks";
 }
 
-TEST(PositionGains, SpeedAskedForCountsWhereThereIsAnyGain) {
+TEST(PositionGains, TheSpeedFedForwardNeedsAGain) {
   for (const float gain : {0.5f, 1300.0f}) {
     AxisLoop loop = loopWith({gain, 0, 0, 1});
     loop.follow(0, 0.001f, 0);

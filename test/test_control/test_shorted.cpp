@@ -47,7 +47,7 @@ TEST(ShortedMotor, RunsOnWhereNoCurrentCanFlow) {
   EXPECT_TRUE(runsAs([](Motor& motor) { motor.wires.driver_complains = true; }));
 }
 
-TEST(ShortedMotor, IsNotBrakedBelowTheDropOfItsBridge) {
+TEST(ShortedMotor, IsNotBrakedBelowTheDropOfTheBridge) {
   // 80 of 255 overcome friction and drop; the motor turns with less back-EMF than 1.8 V.
   Motor motor(world::MotorConstants(), 1);
   motor.run(80, 2);

@@ -107,7 +107,7 @@ TEST_P(SledAtRate, ComesToItsEndAndStaysThere) {
   }
 }
 
-TEST_P(SledAtRate, CutsACornerByLittle) {
+TEST_P(SledAtRate, CutsCornersLittle) {
   for (const double feed : {300.0, 800.0}) {
     const Spread ours = corners("corner", GetParam(), feed);
     EXPECT_LT(ours.median, 0.13);
@@ -115,7 +115,7 @@ TEST_P(SledAtRate, CutsACornerByLittle) {
   }
 }
 
-TEST_P(SledAtRate, StraysByThePlayOfItsGearsHoweverItIsControlled) {
+TEST_P(SledAtRate, StraysByThePlayOfItsGearsUnderAnyControl) {
   const Spread play = ofAll("play alone", GetParam(), 800, [](unsigned seed) {
     return straysFromSquare<PlayAlone>(seed, GetParam(), 800, motion::SetPoints::kMost);
   });
@@ -124,7 +124,7 @@ TEST_P(SledAtRate, StraysByThePlayOfItsGearsHoweverItIsControlled) {
   EXPECT_NEAR(play.worst, 0.062, 0.005);
 }
 
-TEST_P(SledAtRate, PassesASlowCornerOnMotorsThatTurnRound) {
+TEST_P(SledAtRate, PassesASlowCornerWhereMotorsReverse) {
   const Spread ours = corners("slow corner", GetParam(), 200);
   EXPECT_LT(ours.median, 0.08);
   EXPECT_LT(ours.worst, 0.12);

@@ -40,7 +40,7 @@ TEST(SlipWatch, SuspectsAJumpOfFifteenStepsTowardsPayingOut) {
   }
 }
 
-TEST(SlipWatch, PassesOverAnEdgeThatComesLate) {
+TEST(SlipWatch, IgnoresALateEdge) {
   SlipWatch watch = calmAt(100);
   EXPECT_EQ(0, suspicions(watch, 1, 115) + suspicions(watch, 1, 111) + suspicions(watch, 1, 94) +
                    suspicions(watch, 30, 100));
@@ -66,7 +66,7 @@ TEST(SlipWatch, SuspectsAJumpOnce) {
 }
 
 // A steady ramp of r steps a tick parts the two means by 12 r.
-TEST(SlipWatch, PassesOverALoadThatChangesSlowly) {
+TEST(SlipWatch, IgnoresALoadThatChangesSlowly) {
   for (const int ticks_a_step : {2, 1}) {
     SlipWatch watch = calmAt(-200);
     int count = 0;
@@ -75,13 +75,13 @@ TEST(SlipWatch, PassesOverALoadThatChangesSlowly) {
   }
 }
 
-TEST(SlipWatch, BeginsAgainAfterATugTowardsWindingIn) {
+TEST(SlipWatch, StartsAgainAfterATugTowardsWindingIn) {
   SlipWatch watch = calmAt(100), gentle = calmAt(100);
   EXPECT_EQ(0, suspicions(watch, 6, 82) + suspicions(watch, 12, 125));
   EXPECT_EQ(1, suspicions(gentle, 6, 88) + suspicions(gentle, 12, 125));
 }
 
-TEST(SlipWatch, IsRestlessWhileItsDutyJumpsToEitherSide) {
+TEST(SlipWatch, IsUnsteadyWhileTheDutyJumps) {
   for (const int jump : {12, -12, 9, -9}) {
     SlipWatch watch = calmAt(100);
     EXPECT_FALSE(watch.isRestless());
@@ -97,7 +97,7 @@ TEST(SlipWatch, IsRestlessWhileItsDutyJumpsToEitherSide) {
 }
 
 // The mean over sixteen ticks is fifteen ticks late.
-TEST(Pace, IsKeptUpToALag) {
+TEST(Pace, IsTheSpeedUpToALag) {
   for (const int sign : {-1, 1})
     for (const int gain : {12, 14}) {
       Pace pace;
@@ -107,7 +107,7 @@ TEST(Pace, IsKeptUpToALag) {
     }
 }
 
-TEST(Pace, ComesBackFromAnyWay) {
+TEST(Pace, RecoversFromAnyState) {
   Pace pace;
   for (const int32_t way : {1000000000, -1000000000}) {
     EXPECT_FALSE(pace.isKept(way));

@@ -108,7 +108,7 @@ TEST_F(Slips, AreSuspectedOfTheChainThatLetGo) {
 }
 
 // A sled that is jerked, or a supply that sags, moves the duty of both.
-TEST_F(Slips, AreNotSuspectedWhileTheOtherChainIsRestless) {
+TEST_F(Slips, AreNotSuspectedWhileTheOtherChainIsUnsteady) {
   go(kSettles);
   letGo({kLeftAxis, kRightAxis});
   expectSlips(0, 0);

@@ -79,7 +79,7 @@ TEST_P(Watched, ReversedMotorAndReversedEncoderTurnBack) {
   }
 }
 
-TEST(Watch, OneThatIsOnlyTooWeakIsLeftBehind) {
+TEST(Watch, AWeakMotorIsLeftBehind) {
   motion::Watch watch;
   watch.tune(2, 8113.73f, 0.01f);
   for (int i = 0; i < 300; ++i) EXPECT_EQ(Fault::kNone, watch.look(255, 20, 1.9f));

@@ -39,7 +39,7 @@ TEST(Windup, OfTheSpeedLoopEndsAtTheGreatestDuty) {
   EXPECT_NEAR(double(ticks), 127 + 16, 6) << "ticks until the duty has turned";
 }
 
-TEST(Windup, OfTheDutyEndsAtTheWhole) {
+TEST(Windup, OfTheDutyEndsAtFullDuty) {
   AxisLoop loop = loopWith({0, 0, 0, 1}, {7, 0, 0, 1});
   for (int i = 0; i < 10000; ++i) loop.run(10);
   EXPECT_EQ(255, loop.run(10));

@@ -119,7 +119,7 @@ TEST_P(AnyLine, IsAnsweredOnceOrHaltsUntilStop) {
 
 INSTANTIATE_TEST_SUITE_P(Seeds, AnyLine, testing::Range(1u, conversations() + 1));
 
-TEST(Settings, ComeBackAsTheyWereSentInWhateverForm) {
+TEST(Settings, ComeBackAsTheyWereSentInAnyForm) {
   std::vector<Step> steps = readScript("test/dialogues", "setup.inc");
   const std::pair<const char*, const char*> values[] = {
       {"$3=463.1", "$3=463.1 (*"},    {"$12=8113.73 ", "$12=8113.73 (*"},

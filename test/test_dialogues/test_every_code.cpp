@@ -115,7 +115,7 @@ TEST(EveryGCode, OfTheTableIsDone) {
   EXPECT_EQ("", HostMachine(steps).play());
 }
 
-TEST(EveryModeCode, LeavesAPlaceOnItsLineToTheMotionInForce) {
+TEST(EveryModeCode, LeavesAPlaceOnItsLineToTheCurrentMotion) {
   std::vector<Step> steps = readScript("test/dialogues", "setup.inc");
   int x = 0;
   for (const int tenths : doneCodes()) {

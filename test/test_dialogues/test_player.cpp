@@ -34,14 +34,14 @@ TEST(Line, MatchesLetterByLetterOrWithinATolerance) {
   EXPECT_FALSE(matches("whole line", readExpected("whole")));
 }
 
-TEST(APlayer, FailsAtTheLineThatCameOtherwise) {
+TEST(APlayer, FailsAtALineThatDiffers) {
   const std::string wrong = wrongIn("<* ready\n<- ok\n<- Settings of a friend*\n");
   EXPECT_EQ(0u, wrong.find("asked.nc:3: Settings of a friend*\n  came instead: ")) << wrong;
   EXPECT_NE("", wrongIn("<* never said\n"));
   EXPECT_NE("", wrongIn("<* ready\n")) << "a line too many";
 }
 
-TEST(APlayer, FailsWhereTheMachineIsOtherwise) {
+TEST(APlayer, FailsWhenTheMachineDiffers) {
   const std::string in_motion = "-> G1 X50 F600\n<- ok\n~~ wait 1\n~~ ";
   EXPECT_EQ("", wrongBehindSetup(in_motion + "on left at once\n~~ laser low\n~~ quiet\n"));
   for (const char* question :
@@ -61,7 +61,7 @@ TEST(APlayer, RefusesWhatItDoesNotUnderstand) {
   EXPECT_THROW(wrongIn("== ok\n"), std::runtime_error);
 }
 
-TEST(APlayer, FailsWhereTheFirmwareFallsSilent) {
+TEST(APlayer, FailsWhenTheFirmwareFallsSilent) {
   HostMachine machine(readScript("test/dialogues", "setup.inc"));
   machine.player.look = [&] { machine.brain.delayProgram(3000); };
   EXPECT_NE(std::string::npos, machine.play().find("silence"));

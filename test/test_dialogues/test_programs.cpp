@@ -70,7 +70,7 @@ class Program : public testing::TestWithParam<std::string> {};
 
 }  // namespace
 
-TEST_P(Program, GoesWhereItSays) { EXPECT_EQ("", HostMachine(stepsOf(GetParam())).play()); }
+TEST_P(Program, EndsInTheRightPlaces) { EXPECT_EQ("", HostMachine(stepsOf(GetParam())).play()); }
 
 INSTANTIATE_TEST_SUITE_P(All, Program, testing::ValuesIn(programs()), [](const auto& info) {
   return std::filesystem::path(info.param).stem().string();

@@ -21,6 +21,6 @@ TEST_P(AgainstJudge, WouldMissWithoutTheEffect) {
   EXPECT_GT(worstOver(laws, judge(GetParam().effects)), 8 * GetParam().allowed);
 }
 
-TEST_P(AgainstJudge, TheBitIsWithinMicrometresUnderMotorsLowAndHigh) {
+TEST_P(AgainstJudge, TheBitIsWithinMicrometresUnderLowAndHighMotors) {
   EXPECT_LT(worstAtTheBit(GetParam()), GetParam().allowed_at_bit);
 }

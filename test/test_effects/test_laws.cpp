@@ -138,7 +138,7 @@ TEST(Registry, EffectsAddUpWithoutDisturbingEachOther) {
     }
 }
 
-TEST(Registry, EveryEffectSpeaksToPeople) {
+TEST(Registry, EveryEffectHasItsWords) {
   for (const EffectInfo& info : collect().effects) {
     EXPECT_GT(strlen(info.summary), 20u) << info.name;
     EXPECT_GT(strlen(info.pattern), 20u) << info.name;
@@ -195,7 +195,7 @@ struct Missing {
 
 }  // namespace
 
-TEST(Registry, ClearsWhatBendsAndNothingElse) {
+TEST(Registry, ClearsOnlyTheEffectsThatBend) {
   EffectParams<double> effects;
   for (double& value : effects.value) value = 1;
   Effects::For<double>::clearBends(effects.value);

@@ -56,7 +56,7 @@ TEST(PublishedChains, TakeTheArmForChain) {
   EXPECT_NEAR(same / published, 1, 1e-4);
 }
 
-TEST(PublishedChains, NoneChangeNothing) {
+TEST(PublishedChains, ThatAreZeroChangeNothing) {
   const EffectParams<double> ours = added(frameWithArm(250), {0, {0, 0}, 2438.4, 1219.2});
   for (const double value : ours.value) EXPECT_EQ(1, value);
 }

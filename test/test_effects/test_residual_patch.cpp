@@ -42,7 +42,7 @@ TEST(ResidualPatch, ItsHigherTermsAreLegendresPolynomials) {
   EXPECT_NEAR(-0.446, addedBy({{kRightYyy, 1.0}}, {0, 300}).right, 0.03);
 }
 
-TEST(ResidualPatch, NothingRunsAwayBeyondTheSheet) {
+TEST(ResidualPatch, StaysBoundedBeyondTheSheet) {
   std::vector<Sized> all;
   for (int setting = kLeftX; setting <= kRightYyy; ++setting) all.push_back({setting, 1.0});
   for (int x = -1500; x <= 1500; x += 100)

@@ -72,7 +72,7 @@ class Driller {
 
 }  // namespace
 
-TEST(Drilling, GoesAcrossAboveDownAndBackToWhereZWas) {
+TEST(Drilling, GoesAcrossDownAndBackToWhereZWas) {
   Driller tool(10);
   EXPECT_EQ("across 5 6, rapid 2, feed -3, rapid 10", tool.drill("G98 G81 X5 Y6 Z-3 R2"));
   EXPECT_EQ("across 7 6, rapid 2, feed -3, rapid 10", tool.drill("X7"));
@@ -109,7 +109,7 @@ TEST(Drilling, PecksWithG83) {
   EXPECT_EQ("across 2 0, rapid 1, feed -0.5, rapid 5", tool.drill("X2 Z-0.5"));
 }
 
-TEST(Drilling, NeverGoesDownFastBelowThePeckBefore) {
+TEST(Drilling, NeverGoesDownFastBelowTheLastPeck) {
   Driller tool(5);
   // A peck shorter than the clearance: the way back ends at R, not above it.
   EXPECT_EQ("across 1 0, rapid 1, feed 0.9, rapid 1, feed 0.8, rapid 5",
@@ -169,7 +169,7 @@ TEST(Drilling, PecksToTheBottomInTheSmallestPecks) {
   EXPECT_EQ("feed -3", steps.substr(steps.rfind("feed"), 7));
 }
 
-TEST(Drilling, MakesNoStepOfManyHolesWhereNothingMoves) {
+TEST(Drilling, RepeatsNoHoleInOnePlace) {
   Driller tool(2);
   ASSERT_EQ(DrillFault::kNone, tool.read("G81 X3 Z2 R2 L999"));
   std::string all;
@@ -177,14 +177,14 @@ TEST(Drilling, MakesNoStepOfManyHolesWhereNothingMoves) {
   EXPECT_EQ(all, tool.allSteps());
 }
 
-TEST(Drilling, LeavesNothingOfALineThatWasBrokenOff) {
+TEST(Drilling, LeavesNothingOfAnInterruptedLine) {
   Driller tool(5);
   ASSERT_EQ(DrillFault::kNone, tool.read("G81 X1 Z-1 R1"));
   ASSERT_NE(DrillFault::kNone, tool.read("X2 L0"));
   EXPECT_EQ("", tool.allSteps());
 }
 
-TEST(Drilling, MayHaveNoDepthAtAll) {
+TEST(Drilling, MayHaveNoDepth) {
   Driller tool(5);
   EXPECT_EQ("across 1 0, rapid 1, rapid 5", tool.drill("G81 X1 Z1 R1"));
 }

@@ -58,7 +58,7 @@ TEST(Quick, CharactersSwallowTheLineFeedBehindThem) {
   EXPECT_EQ("G1 X5|", lines(input)) << "a question stands between";
 }
 
-TEST(Quick, CharactersFindRoomWhenNothingElseDoes) {
+TEST(Quick, CharactersFindRoomInAFullBuffer) {
   Input input;
   EXPECT_EQ("", put(input, std::string(125, 'G') + "\n"));
   EXPECT_EQ("~", put(input, "~\n"));
@@ -79,7 +79,7 @@ TEST(Quick, AQuestionMarkAsksForTheStatusOutsideComments) {
   EXPECT_EQ("X1 (?) ;?||", lines(input)) << "its line feed ends a line";
 }
 
-TEST(Input, MakesAControlCharacterInALineAMistakeAsADigitMayHaveBecomeIt) {
+TEST(Input, MakesAControlCharacterInALineAMistake) {
   for (const char each : {'\x00', '\x01', '\x0b', '\x10', '\x1f', '\x7f'}) {
     Input input;
     put(input, std::string("G0\nX1") + each + "0\n");
@@ -108,7 +108,7 @@ TEST(Input, SkipsALineThatAnUnreadableCharacterMakesTooLong) {
   EXPECT_EQ("(too long)|", lines(input));
 }
 
-TEST(Input, DropsWhatIsLeftOfALineThatWasCut) {
+TEST(Input, DropsTheRestOfAnInterruptedLine) {
   for (const char* begun : {"G1 X10 ", "G1 X10 (a", "G1 X10 ;a", " ", "(", "G1\nG1 X10 "}) {
     Input input;
     put(input, begun);
@@ -127,7 +127,7 @@ TEST(Input, DropsWhatIsLeftOfALineThatWasCut) {
   EXPECT_EQ("G1 X6|", lines(input)) << "between two lines nothing is cut";
 }
 
-TEST(Input, EndsALineThatWasCutAlsoBehindTheStop) {
+TEST(Input, EndsAnInterruptedLineEvenAfterTheStop) {
   for (const char* stop : {"!", "\x18", "`"}) {
     Input input;
     put(input, std::string("G1 X10") + stop);
@@ -173,7 +173,7 @@ TEST(Input, MakesADigitWithAWrongBitAMistake) {
   }
 }
 
-TEST(Input, MakesASpaceOfATab) {
+TEST(Input, TurnsATabIntoASpace) {
   Input input;
   put(input, "X1\tY2\n");
   EXPECT_EQ("X1 Y2|", lines(input));
@@ -194,13 +194,13 @@ TEST(Input, HoldsTheHundredAndTwentyEightCharactersOfGrblSenders) {
   }
 }
 
-TEST(Input, TakesALineOfAHundredAndTwentySixCharacters) {
+TEST(Input, AcceptsALineOfAHundredAndTwentySixCharacters) {
   Input input;
   EXPECT_EQ("", put(input, std::string(126, 'X') + "\n"));
   EXPECT_EQ(std::string(126, 'X') + "|", lines(input));
 }
 
-TEST(Input, SwallowsALongerLineToItsEndAndTellsOnce) {
+TEST(Input, SkipsATooLongLineAndReportsItOnce) {
   Input input;
   EXPECT_EQ("", put(input, std::string(127, 'X') + "\nG1\n"));
   EXPECT_EQ("(too long)|G1|", lines(input));

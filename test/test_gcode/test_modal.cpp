@@ -5,13 +5,13 @@
 
 using namespace gcode;
 
-TEST(Modal, TakesTheModesThatClientsSendFreely) {
+TEST(Modal, AcceptsTheModesThatClientsSend) {
   Modal modal;
   for (int tenths : {170, 200, 210, 400, 540, 610, 640, 800, 900, 910, 911, 940, 970, 980, 990})
     EXPECT_TRUE(modal.take(uint16_t(tenths))) << tenths;
 }
 
-TEST(Modal, LeavesWhatMovesAndWhatItCannotKeep) {
+TEST(Modal, LeavesMotionAndUnknownCodesAlone) {
   Modal modal;
   // Motion, what needs words, compensation, scaling, rotation, other systems, feed a turn.
   for (int tenths : {0,   10,  20,  30,  40,  100, 280, 300, 382, 410, 420, 430, 431, 490,
@@ -20,7 +20,7 @@ TEST(Modal, LeavesWhatMovesAndWhatItCannotKeep) {
   EXPECT_EQ(0, modal.motion);
 }
 
-TEST(Modal, EndsAProgramInTheCoordinatesThatClientsKnow) {
+TEST(Modal, EndsAProgramInTheCoordinatesOfTheClients) {
   Modal modal;
   for (int tenths : {180, 200, 550, 910, 930}) modal.take(uint16_t(tenths));
   modal.motion = kPeck;
@@ -40,7 +40,7 @@ TEST(Modal, EndsAProgramInTheCoordinatesThatClientsKnow) {
   EXPECT_EQ(2, modal.motion);
 }
 
-TEST(WorkOffsets, CallAPlaceWhatG10L20Says) {
+TEST(WorkOffsets, FollowG10L20) {
   float stored[18] = {};
   WorkOffsets offsets(stored);
   offsets.setToolLength(-2);

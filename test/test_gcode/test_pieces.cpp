@@ -16,22 +16,22 @@ TEST(Pieces, OfAnEmptyLineAreNone) {
   for (const char* line : {"", "  ", "%", "(c)", "; c", "N5"}) EXPECT_EQ("", codesOf(line)) << line;
 }
 
-TEST(Code, ThatNobodyKnowsIsNoMistake) {
+TEST(Code, ThatIsUnknownIsNoMistake) {
   for (const char* line : {"G54", "G92", "G28", "G64", "G80", "G94", "G17", "M7", "M8", "M999"})
     EXPECT_EQ(Fault::kNone, faultOf(line)) << line;
 }
 
-TEST(Code, ThatCannotBeIsAMistake) {
+TEST(Code, ThatIsImpossibleIsAMistake) {
   for (const char* line : {"G-1", "G0.05 X5", "G1.04 X5", "M1000", "G1e9"})
     EXPECT_EQ(Fault::kNoCode, faultOf(line)) << line;
 }
 
-TEST(Mistake, AnywhereIsFoundBeforeAnythingRuns) {
+TEST(Mistake, IsFoundBeforeAnythingRuns) {
   EXPECT_EQ(Fault::kNoNumber, faultOf("G0 X5 G1 Y6 M"));
   EXPECT_EQ('M', findMistake("G0X5G1Y6M").letter);
 }
 
-TEST(Pieces, OfACodeThatNeedsAPlaceTakeItFromWhereverItStands) {
+TEST(Pieces, OfACodeThatNeedsAPlaceTakeItFromAnywhereInTheLine) {
   EXPECT_EQ("G91 G28", codesOf("G28 G91 Z0"));
   const std::vector<Piece> home = piecesOf("G28 G91 Z0 G90");
   ASSERT_EQ(3u, home.size());
@@ -52,7 +52,7 @@ TEST(Pieces, OfACodeWithItsPlaceStayInOrder) {
   EXPECT_EQ("G10 G0", codesOf("G10 Z0 G0 Z5"));
 }
 
-TEST(Pieces, OfACodeThatGetsNoPlaceComeLast) {
+TEST(Pieces, OfACodeWithoutItsPlaceComeLast) {
   EXPECT_EQ("G28", codesOf("G28"));
   EXPECT_EQ("G90 G28", codesOf("G28 G90"));
   EXPECT_FALSE(piecesOf("G28 G90").at(1).words.hasPlace());

@@ -44,7 +44,7 @@ TEST(Number, IsTheNearestFloatOrItsNeighbourForAnyDecimals) {
   }
 }
 
-TEST(Number, IsTheNearestFloatOrItsNeighbourAsSeventeenDigitsOfADouble) {
+TEST(Number, WithSeventeenDigitsIsTheNearestFloatOrItsNeighbour) {
   std::mt19937 random(2);
   std::uniform_real_distribution<double> exponent(-2, 5);
   for (int i = 0; i < 300000; ++i) {

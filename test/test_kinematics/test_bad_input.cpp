@@ -28,7 +28,7 @@ Found foundFor(float left, float right) {
 
 }  // namespace
 
-TEST(BadInput, PlacesThatAreNoNumbers) {
+TEST(BadInput, PlacesThatAreNaN) {
   EXPECT_EQ(Found::kOutOfReach, foundAt(kNan, 0));
   EXPECT_EQ(Found::kOutOfReach, foundAt(0, kNan));
   EXPECT_EQ(Found::kOutOfReach, foundAt(kNan, kNan));
@@ -59,14 +59,14 @@ TEST(BadInput, NoRingStillKeepsTheBitOutOfTheSprocket) {
   EXPECT_EQ(Found::kOutOfReach, inverse(bare, Point<float>{-1484.2f, 1065.6f}).found);
 }
 
-TEST(BadInput, LengthsThatAreNoNumbers) {
+TEST(BadInput, LengthsThatAreNaN) {
   EXPECT_EQ(Found::kOutOfReach, foundFor(kNan, 1500));
   EXPECT_EQ(Found::kOutOfReach, foundFor(1500, kNan));
   EXPECT_EQ(Found::kOutOfReach, foundFor(INFINITY, 1500));
   EXPECT_EQ(Found::kOutOfReach, foundFor(1e30f, 1e30f));
 }
 
-TEST(BadInput, AGuessThatIsNoNumberDoesNotSpoilTheSearch) {
+TEST(BadInput, ANaNAsAGuessDoesNotSpoilTheSearch) {
   const Chains<float> chains = inverse(machine(), Point<float>{200, -300}).chains;
   const Place<float> place = forward(machine(), chains, Point<float>{kNan, INFINITY});
   ASSERT_EQ(Found::kYes, place.found);

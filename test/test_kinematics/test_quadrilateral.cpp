@@ -206,7 +206,7 @@ TEST(Quadrilateral, StepsSmoothlyInFloat) {
   EXPECT_LT(worst, 0.0015);
 }
 
-TEST(Quadrilateral, RefusesPlacesThatAreNoNumbers) {
+TEST(Quadrilateral, RefusesPlacesThatAreNaN) {
   EXPECT_EQ(Found::kOutOfReach, foundTilted(nanf(""), 0));
   EXPECT_EQ(Found::kOutOfReach, foundTilted(0, nanf("")));
   EXPECT_EQ(Found::kOutOfReach, foundTilted(INFINITY, 0));
@@ -214,13 +214,13 @@ TEST(Quadrilateral, RefusesPlacesThatAreNoNumbers) {
   EXPECT_EQ(Found::kOutOfReach, foundTilted(1e30f, -1e30f));
 }
 
-TEST(Quadrilateral, SearchesNoLongerWherePlacesAreOutOfReach) {
+TEST(Quadrilateral, SearchesNoLongerForPlacesOutOfReach) {
   for (const Point<float>& place :
        {Point<float>{0, 1500}, {1600, 0}, {-1480, -500}, {nanf(""), nanf("")}})
     EXPECT_EQ(1, inverse(published(), place).tries) << place.x << " " << place.y;
 }
 
-TEST(Quadrilateral, EveryPlaceIsRefusedOrGivesChainsThatPull) {
+TEST(Quadrilateral, EveryPlaceIsRefusedOrHasTautChains) {
   const Quadrilateral<double> machine = lawsOf<double>(triedSleds()[0]);
   int found = 0, refused = 0;
   for (double x = -1700; x <= 1700; x += 25)
@@ -269,7 +269,7 @@ TEST(Quadrilateral, RefusesASledThatWouldTopple) {
   }
 }
 
-TEST(Quadrilateral, AGuessThatIsNoNumberDoesNotSpoilTheSearch) {
+TEST(Quadrilateral, ANaNAsAGuessDoesNotSpoilTheSearch) {
   const Chains<float> chains = inverse(published(), Point<float>{200, -300}).chains;
   const TiltedPlace<float> place =
       forward(published(), chains, Point<float>{nanf(""), INFINITY}, nanf(""));

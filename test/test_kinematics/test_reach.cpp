@@ -71,7 +71,7 @@ Reach verdictAt(double x, double y, const ReachLimits<double>& limits = ReachLim
 
 }  // namespace
 
-TEST_P(ReachOf, GiveIsWhatTheJudgesSledDoesWhenPushed) {
+TEST_P(ReachOf, GiveIsThatOfTheJudgesSled) {
   EXPECT_LT(worstGive(lawsOf<double>(GetParam()), judgeOf(GetParam())), 0.018);
 }
 
@@ -151,7 +151,7 @@ INSTANTIATE_TEST_SUITE_P(Reach, EachLimit, testing::Values(-1000, 1000),
                            return tested.param < 0 ? "LeftOfTheMiddle" : "RightOfTheMiddle";
                          });
 
-TEST_P(EachLimit, IsAskedAtItsOwnValue) {
+TEST_P(EachLimit, IsTestedAtItsExactValue) {
   const Point<double> place = {GetParam(), -400};
   const Reached<double> here = reachedBy(lawsOf<double>(triedMachines()[0]), place);
   const uint8_t near = place.x < 0 ? kLeft : kRight;
@@ -170,7 +170,7 @@ TEST_P(EachLimit, IsAskedAtItsOwnValue) {
   }
 }
 
-TEST(Reach, WhatComesFirstIsTold) {
+TEST(Reach, TheFirstReasonIsGiven) {
   ReachLimits<double> strict;
   strict.most_give = 0;
   EXPECT_EQ(Reach::kTooVertical, verdictAt(0, 0, strict));
@@ -199,7 +199,7 @@ TEST(Reach, MostGiveIsTheLargerRoot) {
   EXPECT_FLOAT_EQ(6, mostGive(Give<float>{2, 2, 5}));
 }
 
-TEST(Reach, WhereNothingHangsNothingIsTold) {
+TEST(Reach, NothingIsSaidWhereNothingHangs) {
   const Machine<float> machine = lawsOf<float>(triedMachines()[0]);
   const float nan = std::numeric_limits<float>::quiet_NaN();
   const float inf = std::numeric_limits<float>::infinity();

@@ -23,7 +23,7 @@ struct Faults : testing::Test, PreparedAxes<BoardAtRest> {
 
 }  // namespace
 
-TEST_F(Faults, AnAxisThatStandsIsDisprovedAlone) {
+TEST_F(Faults, OnlyTheAxisThatStandsLosesItsCounts) {
   axes.jumpTo(kLeftAxis, 50);
   ticks(120);
   EXPECT_EQ(motion::Fault::kStands, axes.fault().fault);
@@ -32,7 +32,7 @@ TEST_F(Faults, AnAxisThatStandsIsDisprovedAlone) {
   EXPECT_FALSE(axes.isDisproved(kZAxis));
 }
 
-TEST_F(Faults, AnAxisThatIsLeftBehindIsNotDisproved) {
+TEST_F(Faults, AnAxisThatIsLeftBehindKeepsItsCounts) {
   leaveRightBehind();
   const Axes::AxisFault worst = axes.fault();
   EXPECT_EQ(motion::Fault::kLeftBehind, worst.fault);
@@ -40,7 +40,7 @@ TEST_F(Faults, AnAxisThatIsLeftBehindIsNotDisproved) {
   EXPECT_FALSE(axes.isDisproved(kRightAxis));
 }
 
-TEST_F(Faults, TheWorstIsTold) {
+TEST_F(Faults, TheWorstIsReported) {
   axes.jumpTo(kLeftAxis, 50);
   ticks(120);
   leaveRightBehind();

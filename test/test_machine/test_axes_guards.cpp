@@ -41,7 +41,7 @@ struct GuardedMotors : Drives {
 
 }  // namespace
 
-TEST(AxesGuards, WhatTheTickUsesIsTouchedOnlyWhileItIsHeldOff) {
+TEST(AxesGuards, SharedStateChangesOnlyWithTicksHeldOff) {
   const FlashTable table;
   float room[kSettingCount];
   settings::Values values(table, room);

@@ -11,7 +11,7 @@ typedef PreparedAxes<BoardAtRest> Driven;
 
 }  // namespace
 
-TEST(AxesYield, BecauseOfAnyAxisThatIsFarOff) {
+TEST(AxesYield, ForAnyAxisThatIsFarOff) {
   for (const Axis axis : {kLeftAxis, kRightAxis, kZAxis}) {
     Driven driven;
     driven.axes.follow();
@@ -24,7 +24,7 @@ TEST(AxesYield, BecauseOfAnyAxisThatIsFarOff) {
   }
 }
 
-TEST(AxesCounts, AreTakenOverWithoutPowerAndWithoutAWayToGo) {
+TEST(AxesCounts, AreTakenOverWithoutPowerOrMotion) {
   Driven driven;
   driven.axes.follow();
   driven.ticks(2);
@@ -37,14 +37,14 @@ TEST(AxesCounts, AreTakenOverWithoutPowerAndWithoutAWayToGo) {
   }
 }
 
-TEST(AxesImagination, AHeightThatIsDeclaredMeanwhileIsNotThatOfTheRealZ) {
+TEST(AxesImagination, ADeclaredHeightIsNotThatOfTheRealZ) {
   Driven driven;
   driven.axes.simulate(true);
   driven.axes.declareLifted(2);
   EXPECT_TRUE(driven.axes.isImagined());
 }
 
-TEST(AxesImagination, ChainsThatAreTurnedByHandAreOtherThanSaid) {
+TEST(AxesImagination, ChainsTurnedByHandDifferFromTheirRecord) {
   for (const int sign : {-1, 1}) {
     Driven driven;
     driven.axes.simulate(true);
@@ -81,7 +81,7 @@ TEST(AxesLengths, StandingStillForgetsWhatWaits) {
   EXPECT_EQ(0, driven.axes.waiting());
 }
 
-TEST(AxesDrive, EndsWhereTheyStandStillEvenIfTheEncoderIsLost) {
+TEST(AxesDrive, EndsAtStandstillEvenWithALostEncoder) {
   Driven driven;
   driven.axes.follow();
   driven.axes.jumpTo(kLeftAxis, 1);

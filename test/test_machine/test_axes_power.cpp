@@ -34,7 +34,7 @@ TEST(AxesPower, AnAxisTurnsAtASpeedWithoutItsPositionLoop) {
   EXPECT_EQ(0, powered.axes.state(kLeftAxis).duty);
 }
 
-TEST(AxesPower, ADutyIsNoMoreThanAllOfIt) {
+TEST(AxesPower, ADutyIsAtMostFull) {
   Powered powered;
   powered.axes.driveOpen(kLeftAxis, 300);
   powered.axes.driveOpen(kRightAxis, -300);
@@ -86,7 +86,7 @@ TEST(AxesScale, ChangesOnceForEachNewScale) {
   EXPECT_FALSE(powered.axes.prepare(powered.values));
 }
 
-TEST(AxesPower, ALiftAsksForItsSpeedAhead) {
+TEST(AxesPower, ALiftFeedsItsSpeedForward) {
   Powered lifted, jumped;
   lifted.axes.follow();
   jumped.axes.follow();
@@ -110,7 +110,7 @@ TEST(AxesLengths, ADeclaredHeightEndsALift) {
   EXPECT_FLOAT_EQ(3, powered.axes.target(kZAxis));
 }
 
-TEST(AxesLengths, AWayThatIsForgottenEndsALift) {
+TEST(AxesLengths, AForgottenPathEndsALift) {
   const std::function<void(Axes&)> forgetters[] = {
       [](Axes& axes) { axes.dropSetPoints(); },
       [](Axes& axes) { axes.standStill(); },
@@ -132,7 +132,7 @@ TEST(AxesLengths, AWayThatIsForgottenEndsALift) {
   }
 }
 
-TEST(AxesLengths, StepsThatTheEncodersMissedBeforeTheyWereArrangedDoNotCount) {
+TEST(AxesLengths, StepsMissedBeforeTheEncodersWereSetUpDoNotCount) {
   Powered powered;
   powered.board.illegal = 1000;
   EXPECT_TRUE(powered.axes.hasMissedSteps(kLeftAxis));

@@ -41,7 +41,7 @@ Seen seen(BoardWatch& watch, Board& board, int looks, bool is_powered = true,
 
 }  // namespace
 
-TEST(BoardWatch, BelievesNothingBeforeTheReferenceHasSettled) {
+TEST(BoardWatch, ReportsNothingBeforeTheReferenceHasSettled) {
   BoardWatch watch;
   Board board;
   board.supply = 0;  // nothing measured yet
@@ -53,7 +53,7 @@ TEST(BoardWatch, BelievesNothingBeforeTheReferenceHasSettled) {
   EXPECT_NEAR(5, watch.lowestSupply(), 0.03);
 }
 
-TEST(BoardWatch, BelievesADriverThatComplainsForATenthOfASecond) {
+TEST(BoardWatch, ReportsADriverErrorAfterATenthOfASecond) {
   BoardWatch watch;
   Board board;
   board.complains = true;
@@ -67,7 +67,7 @@ TEST(BoardWatch, BelievesADriverThatComplainsForATenthOfASecond) {
   EXPECT_EQ(0, seen(watch, board, 100, false).fails);
 }
 
-TEST(BoardWatch, SaysAWornEepromOnce) {
+TEST(BoardWatch, ReportsAWornEepromOnce) {
   BoardWatch watch;
   Board board;
   EXPECT_EQ(0, seen(watch, board, 10).worn);

@@ -41,13 +41,13 @@ TEST(Course, HoldsWhateverMoves) {
   }
 }
 
-TEST(Course, LetsThePathGoWhereLinesMayMoveItOrQueuedMovesEnd) {
+TEST(Course, LetsThePathGoOnlyForLinesOrQueuedMoves) {
   for (const State state : all<State>())
     EXPECT_EQ(state == State::kRunning || state == State::kJogging || state == State::kHalted,
               Course::pathGoesIn(state));
 }
 
-TEST(Course, OpensAHaltByNothingButAStop) {
+TEST(Course, OnlyAStopOpensAHalt) {
   for (const State state : all<State>())
     for (const Event event : all<Event>()) {
       const State next = Course::after(state, event);
@@ -56,7 +56,7 @@ TEST(Course, OpensAHaltByNothingButAStop) {
     }
 }
 
-TEST(Course, RunsAgainOnlyOnceZIsBackOrAllHasStood) {
+TEST(Course, RunsAgainOnceZIsBackOrEverythingStands) {
   for (const State state : all<State>())
     for (const Event event : all<Event>())
       if (Course::after(state, event) == State::kRunning) {
@@ -76,7 +76,7 @@ TEST(Course, EndsAPauseOnlyByResumeOrStopOrFault) {
   }
 }
 
-TEST(Course, DoesLinesOfTheOperatorOnlyWhereThePathStands) {
+TEST(Course, DoesTheOperatorsLinesOnlyWhileThePathStands) {
   for (const State state : all<State>()) {
     const bool is_operators = Course::linesIn(state) == Lines::kOperator;
     EXPECT_EQ(state == State::kHeld || state == State::kPaused, is_operators) << int(state);
@@ -101,7 +101,7 @@ TEST(Course, AsksOneGateForEveryKindOfLine) {
   EXPECT_FALSE(Course::pathGoesIn(State::kChecking));
 }
 
-TEST(Overrides, FeedGoesInStepsBetweenItsEnds) {
+TEST(Overrides, FeedStepsBetweenItsLimits) {
   Overrides all;
   EXPECT_EQ(100, all.feed());
   EXPECT_FALSE(all.take(Quick::kFeedUsual));
@@ -135,7 +135,7 @@ TEST(Overrides, RapidsHaveThreeSteps) {
   EXPECT_EQ(100, all.feed());
 }
 
-TEST(Overrides, TheSpindlesGoesAsTheFeedsAndAllGoBackAtOnce) {
+TEST(Overrides, SpindleStepsLikeTheFeedAndAllResetAtOnce) {
   Overrides all;
   EXPECT_FALSE(all.reset());
   EXPECT_TRUE(all.take(Quick::kSpindleUp));

@@ -33,7 +33,7 @@ struct Bench {
 
 }  // namespace
 
-TEST(Laser, CutsInG1ToG3OfWhatItIsArmedFor) {
+TEST(Laser, IsOnInG1ToG3OnlyWhenArmed) {
   Bench bench({});
   EXPECT_EQ(0, bench.cutter.beamOf(1));
   bench.cutter.setFull();
@@ -53,7 +53,7 @@ TEST(Laser, CutsInG1ToG3OfWhatItIsArmedFor) {
   EXPECT_EQ(0, bench.cutter.beamOf(1));
 }
 
-TEST(Laser, ShowsTheBeamOrAllOfIt) {
+TEST(Laser, ShowsTheBeamOrFullPower) {
   Bench plain({}), pulsed({{72, 1}});
   for (Bench* bench : {&plain, &pulsed}) {
     bench->cutter.show(40);
@@ -100,7 +100,7 @@ TEST(Spindle, AnOverrideSlowsAPulsedSpindle) {
   EXPECT_EQ(64, bench.spindle()) << "no slower than it may";
 }
 
-TEST(Spindle, ByRelayKnowsNoSpeed) {
+TEST(Spindle, ByRelayHasNoSpeed) {
   for (const float kind : {2.0f, 3.0f}) {
     Bench bench({{17, kind}});
     bench.cutter.setSpindle(true);
@@ -111,7 +111,7 @@ TEST(Spindle, ByRelayKnowsNoSpeed) {
   }
 }
 
-TEST(Laser, GivesItsBeamToTheMoveItWasAimedFor) {
+TEST(Laser, GoesOnWithItsMove) {
   Bench bench({});
   bench.cutter.setFull();
   bench.cutter.arm(true);
@@ -123,7 +123,7 @@ TEST(Laser, GivesItsBeamToTheMoveItWasAimedFor) {
   EXPECT_EQ(0, bench.cutter.takeBeam());
 }
 
-TEST(Spindle, ThatIsPulsedStopsThoughItsKindChanged) {
+TEST(Spindle, ThatIsPulsedStopsAfterAChangeOfKind) {
   Bench bench({{17, 4}});
   bench.cutter.setSpindle(true);
   EXPECT_EQ(255, bench.spindle());

@@ -91,7 +91,7 @@ TEST(FrameSettings, APlaceIsFoundFromAnyGuess) {
   }
 }
 
-TEST(FrameSettings, SprocketsThatRunOutBendTheChainsNoMoreThanTheBoundSays) {
+TEST(FrameSettings, RunoutStaysWithinTheBound) {
   const Shaped round({{7, 2}, {8, 139}, {10, 5000}});
   const Shaped uneven({{7, 2}, {8, 139}, {10, 5000}, {190, 0.5f}});
   const double allowed = double(uneven.geometry.sprockets().effects.first) -

@@ -34,7 +34,7 @@ struct MotorPowerHighUp : MotorPowerAlone {
   }
 };
 
-TEST_F(MotorPowerHighUp, StaysWhereTheSledPullsHarderThanFriction) {
+TEST_F(MotorPowerHighUp, StaysOnWhereTheSledPullsHarderThanFriction) {
   keepRecord();
   // 1.4 N m at a radius of 10.1 mm: the chains of a sled of 97.9 N pull that hard at y = 507.
   EXPECT_FALSE(areOnAfterARestAt(500));
@@ -44,7 +44,7 @@ TEST_F(MotorPowerHighUp, StaysWhereTheSledPullsHarderThanFriction) {
   EXPECT_FALSE(axes.isPowered());
 }
 
-TEST_F(MotorPowerHighUp, GoesWhereNobodyKnowsWhatHangsOnTheChains) {
+TEST_F(MotorPowerHighUp, GoesOffAtAnUnknownPlace) {
   keepRecord();
   hangAt(0, 600);
   place.lose(settings::Doubt::kCounts);
@@ -54,9 +54,9 @@ TEST_F(MotorPowerHighUp, GoesWhereNobodyKnowsWhatHangsOnTheChains) {
   EXPECT_FALSE(axes.isPowered());
 }
 
-TEST_F(MotorPowerHighUp, GoesWhereMotorsAreSimulated) { EXPECT_FALSE(areOnAfterARestAt(600)); }
+TEST_F(MotorPowerHighUp, GoesOffWithSimulatedMotors) { EXPECT_FALSE(areOnAfterARestAt(600)); }
 
-TEST_F(MotorPowerAlone, WaitsForTheRecordForASecondWheneverThatIs) {
+TEST_F(MotorPowerAlone, WaitsUpToASecondForTheRecord) {
   board.now_ms = 5000;
   keeper.declareChains();
   axes.simulate(false);

@@ -5,7 +5,7 @@ using namespace machine;
 
 struct MovesAlone : PartsAtRest {};
 
-TEST_F(MovesAlone, WaitForRoomInTheQueueAndEndThereAfterAStop) {
+TEST_F(MovesAlone, WaitForRoomInTheQueueUntilAStop) {
   for (int i = 1; i <= 16; ++i) EXPECT_TRUE(moves.move(0, words(i % 2 ? "G0 X9" : "G0 X0")));
   waiting.rounds = 0;
   waiting.in_each_round = [&] {

@@ -98,7 +98,7 @@ TEST_F(Keeper, KeepsOnceWhatRests) {
   EXPECT_TRUE(machine.keeper.isSettled());
 }
 
-TEST_F(Keeper, MarksItAlsoWhereNobodyAsked) {
+TEST_F(Keeper, MarksMotionThatNobodyAskedFor) {
   machine.axes.driveOpen(kZAxis, 1);
   machine.pass(30);
   EXPECT_EQ(Known::kMoving, machine.afterCut().known);
@@ -130,7 +130,7 @@ TEST_F(Keeper, WaitsForAMotorThatCreeps) {
   EXPECT_EQ(1, machine.kept);
 }
 
-TEST_F(Keeper, LeavesARecordWhoseChainIsPulled) {
+TEST_F(Keeper, InvalidatesARecordWhoseChainIsPulled) {
   machine.board.counted[kLeftAxis] = 12;
   machine.pass(1000);
   EXPECT_EQ(Known::kAtRest, machine.afterCut().known) << "chains give way a little";
@@ -169,7 +169,7 @@ TEST_F(Keeper, ADeclarationLeavesTheRecordUntilItIsKept) {
   EXPECT_EQ(Known::kMoving, machine.afterCut().known);
 }
 
-TEST_F(Keeper, ADeclarationOfTheSameLengthsIsOne) {
+TEST_F(Keeper, ADeclarationOfTheSameLengthsCounts) {
   machine.keeper.declareChains();
   machine.pass(30);
   EXPECT_EQ(Known::kMoving, machine.afterCut().known);
@@ -194,7 +194,7 @@ TEST_F(Keeper, AStopBeforeMotorsHavePowerComesBackToRest) {
   EXPECT_EQ(Known::kAtRest, machine.afterCut().known);
 }
 
-TEST_F(Keeper, ADoubtOverZLeavesTheChains) {
+TEST_F(Keeper, ADoubtAboutZLeavesTheChains) {
   machine.keeper.doubt(kZAxis, settings::Doubt::kCounts);
   machine.pass(1000);
   EXPECT_TRUE(machine.keeper.trustsChains());

@@ -70,7 +70,7 @@ TEST_F(Printed, ZeroHasNoSignAndEveryDecimal) {
   EXPECT_EQ("0.0500", fixed(0.05f, 4));
 }
 
-TEST_F(Printed, NoMachineHasWhatShowsAsZero) {
+TEST_F(Printed, OnlyTinyNumbersShowAsZero) {
   for (const float number : {100000.0f, -100000.0f, NAN, INFINITY, -INFINITY})
     EXPECT_EQ("0.00", fixed(number, 2));
   EXPECT_EQ("99999.00", fixed(99999, 2));

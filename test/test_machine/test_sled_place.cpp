@@ -10,7 +10,7 @@ namespace {
 
 struct PlaceAlone : PartsAtRest {};
 
-TEST_F(PlaceAlone, IsKeptAsNoneWhereTheChainsPutTheSledNowhere) {
+TEST_F(PlaceAlone, IsUnknownIfTheChainsFitNoPlace) {
   const auto isPlaceKept = [&] {
     for (int i = 0; i < 1000; ++i) {
       waiting.pass();
@@ -26,7 +26,7 @@ TEST_F(PlaceAlone, IsKeptAsNoneWhereTheChainsPutTheSledNowhere) {
   EXPECT_FALSE(isPlaceKept());
 }
 
-TEST_F(PlaceAlone, IsLookedForWhereAChainWasPulledAtRest) {
+TEST_F(PlaceAlone, IsSearchedAgainAfterAChainWasPulled) {
   axes.simulate(false);
   waiting.in_each_round = [&] { place.keepWhenAtRest(board.now_ms); };
   waiting.waitFor(1000);

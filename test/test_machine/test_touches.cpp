@@ -200,7 +200,7 @@ TEST(Touches, LimitsAreHowItMoves) { expectExactly(settings::kLimits, howItMoves
 
 TEST(Touches, TheCutterIsItsPins) { expectExactly(settings::kCutter, howItCuts); }
 
-TEST(Touches, DrivesAreArrangedAtTheStart) {
+TEST(Touches, DrivesAreSetUpAtTheStart) {
   expectExactly(settings::kDrives, [](const Values& values) { return howItStarts(values, true); });
 }
 
@@ -209,7 +209,7 @@ TEST(Touches, TheRateIsReadAtTheStart) {
                 [](const Values& values) { return howItStarts(values, false); });
 }
 
-TEST(Touches, ANewWayOfTheDrivesIsAskedOfThemAtOnce) {
+TEST(Touches, ANewSettingOfTheDrivesActsAtOnce) {
   BoardAtRest board;
   settings_host::Eeprom eeprom;
   const FlashTable table;

@@ -5,7 +5,7 @@ using namespace machine;
 
 struct WaitingAlone : PartsAtRest {};
 
-TEST_F(WaitingAlone, LastsItsTimeAndEndsAtOnceAfterAStop) {
+TEST_F(WaitingAlone, LastsItsTimeOrUntilAStop) {
   EXPECT_TRUE(waiting.waitFor(50));
   EXPECT_EQ(50, waiting.rounds);
   waiting.in_each_round = [&] {
@@ -18,14 +18,14 @@ TEST_F(WaitingAlone, LastsItsTimeAndEndsAtOnceAfterAStop) {
   EXPECT_EQ(60, waiting.rounds);
 }
 
-TEST_F(WaitingAlone, HasPatienceOfHalfASecondForAnAxisThatNeverComes) {
+TEST_F(WaitingAlone, GivesUpAfterHalfASecondOnAMissingAxis) {
   axes.simulate(false);
   axes.jumpTo(kLeftAxis, axes.length(kLeftAxis) + 1);
   waiting.settle();
   EXPECT_EQ(500, waiting.rounds);
 }
 
-TEST_F(WaitingAlone, StandsStillOnceAxesThatFollowAreNearTheirSetPointsAlsoInAStop) {
+TEST_F(WaitingAlone, EndsOnceAxesAreNearTheirSetPoints) {
   axes.simulate(false);
   axes.jumpTo(kLeftAxis, axes.length(kLeftAxis) + 1);
   waiting.stop();
@@ -46,7 +46,7 @@ TEST_F(WaitingAlone, GoesOnAfterTheLastSetPointUntilTheMotorsAreThere) {
   EXPECT_NEAR(500, rounds_still, 2);
 }
 
-TEST_F(WaitingAlone, DoesNotDrainWhatDoesNotMove) {
+TEST_F(WaitingAlone, DoesNotWaitForWhatDoesNotMove) {
   axes.simulate(false);
   axes.jumpTo(kLeftAxis, axes.length(kLeftAxis) + 1);
   EXPECT_TRUE(waiting.drain());

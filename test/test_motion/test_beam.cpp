@@ -63,7 +63,7 @@ TEST(Beam, IsNeverOnAMoveWithoutIt) {
   }
 }
 
-TEST(Beam, IsAsStrongAsTheSpeedHoweverThatChanges) {
+TEST(Beam, IsProportionalToTheSpeedAtAnyOverride) {
   Engraver engraver;
   engraver.burnTo(60, 200);
   for (int i = 0; i < 900 && engraver.step(); ++i) {
@@ -77,7 +77,7 @@ TEST(Beam, IsAsStrongAsTheSpeedHoweverThatChanges) {
   EXPECT_EQ(0, engraver.beams[399].beam);
 }
 
-TEST(Beam, IsOutWhileSetPointsAreMissing) {
+TEST(Beam, IsOffWhileSetPointsAreMissing) {
   Engraver engraver;
   engraver.burnTo(500, 255);
   for (int i = 0; i < 100; ++i) engraver.step();
@@ -86,7 +86,7 @@ TEST(Beam, IsOutWhileSetPointsAreMissing) {
   EXPECT_EQ(0, engraver.playback.beam());
 }
 
-TEST(Beam, IsNoStrongerThanAskedWhereTheFeedIsBoosted) {
+TEST(Beam, IsNoStrongerThanAskedWhenTheFeedIsBoosted) {
   Engraver engraver;
   engraver.mover.boost(2, 20);
   engraver.burnTo(60, 100, 8);

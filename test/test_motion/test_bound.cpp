@@ -48,7 +48,7 @@ Path<double> piece(Paths& paths, bool straight) {
 
 }  // namespace
 
-TEST(Bound, OfTheDistanceIsReachedAndNeverPassed) {
+TEST(Bound, OfTheDistanceIsReachedAndNeverExceeded) {
   const Tried tried = triedMachines()[0];
   const Distances distances = {sprocketOf(tried, 0), sprocketOf(tried, 1)};
   double straight = 0, turning = 0;
@@ -67,7 +67,7 @@ TEST(Bound, OfTheDistanceIsReachedAndNeverPassed) {
   EXPECT_GT(turning, 0.8);
 }
 
-TEST(Bound, AddsWhatEachTermIsAtMost) {
+TEST(Bound, AddsTheMaximumOfEachTerm) {
   // By hand, a distance of 100 mm: 2 / sqrt 3 / 100^2 and 0.5e-4 of effects; then an arc of 50 mm.
   const Surroundings<double> around = {100, {0.1, 0.002, 0.5e-4}};
   EXPECT_NEAR(1.1547e-4 + 0.5e-4, thirdSlope(0.0, around), 1e-9);
@@ -76,7 +76,7 @@ TEST(Bound, AddsWhatEachTermIsAtMost) {
               thirdSlope(0.02, around), 1e-8);
 }
 
-TEST_P(BoundOf, ExactInverseIsNeverPassed) {
+TEST_P(BoundOf, TheExactInverseIsNeverExceeded) {
   const Tried tried = GetParam();
   const Exactly<double> exact = exactly<double>(tried);
   const Distances distances = {sprocketOf(tried, 0), sprocketOf(tried, 1)};
@@ -94,7 +94,7 @@ TEST_P(BoundOf, ExactInverseIsNeverPassed) {
   EXPECT_GT(most, 0.4);
 }
 
-TEST(Bound, LongestTimeAtConstantSpeedIsUsedUpByACubic) {
+TEST(Bound, LongestTimeAtConstantSpeedIsExactForACubic) {
   // f = third / 6 * s^3; the error of its quadratic is largest at (1 - 1/sqrt 3) / 2.
   for (double third : {1e-6, 1e-4, 0.1, 100.0})
     for (double speed : {0.01, 0.15, 3.0}) {
@@ -105,7 +105,7 @@ TEST(Bound, LongestTimeAtConstantSpeedIsUsedUpByACubic) {
     }
 }
 
-TEST(Bound, OfALengthThatBendsWhileSpeedGrowsIsReached) {
+TEST(Bound, IsReachedByALengthThatCurvesUnderAcceleration) {
   // L = s^2 / 2 has the second slope 1; with s = a t^2 / 2 it is a^2 t^4 / 8, whose third slope
   // 3 a^2 t is 3 * 1 * speed * a. For a short time at a high speed this is nearly a cubic.
   const double a = 0.01, t = 100, half = 0.5 * longestTime(0.0, 1.0, a * t, a);

@@ -22,7 +22,7 @@ Point<double> byHand(const Path<float>& path, bool at_end) {
 
 }  // namespace
 
-TEST(Direction, OfAnArcIsThatOfASmallStepOnItWhereverItLies) {
+TEST(Direction, OfAnArcIsThatOfASmallStep) {
   const Point<float> centre = {310, -170};
   for (const Turn turn : {Turn::kClockwise, Turn::kCounterclockwise})
     for (const double begin : {0.3, 1.9, 4.0})
@@ -46,7 +46,7 @@ TEST(Direction, OfAnArcIsThatOfASmallStepOnItWhereverItLies) {
         }
 }
 
-TEST(Direction, OfALineIsTheSameAllTheWayAndOfNoPathNone) {
+TEST(Direction, OfALineIsConstantAndOfNoPathNone) {
   const Path<float> path = line(Point<float>{100, 50}, {103, 46});
   for (const bool at_end : {false, true}) {
     EXPECT_FLOAT_EQ(0.6f, directionOf(path, at_end).x);
@@ -57,7 +57,7 @@ TEST(Direction, OfALineIsTheSameAllTheWayAndOfNoPathNone) {
   EXPECT_EQ(0, directionOf(none, false).y);
 }
 
-TEST(Corner, StraightOnHasNoLimitWhateverTheDeviation) {
+TEST(Corner, StraightOnHasNoLimitAtAnyDeviation) {
   const Direction along = {0.6f, 0.48f, 0.64f};
   for (const float deviation : {0.0f, 0.05f})
     EXPECT_EQ(kAnySpeedSquared, cornerSpeedSquared(along, along, 0.01f, deviation, 10))
@@ -66,7 +66,7 @@ TEST(Corner, StraightOnHasNoLimitWhateverTheDeviation) {
   EXPECT_EQ(0, cornerSpeedSquared(along, turned, 0.01f, 0, 10)) << "each corner is a stop";
 }
 
-TEST(Corner, IsTheSameWhicheverWayTheAxesLie) {
+TEST(Corner, DoesNotDependOnTheDirectionOfTheAxes) {
   // The same turn of 0.1, in each plane and both ways round.
   const float c = float(std::cos(0.1)), s = float(std::sin(0.1));
   const Direction pairs[][2] = {{{1, 0, 0}, {c, s, 0}},   {{1, 0, 0}, {c, -s, 0}},

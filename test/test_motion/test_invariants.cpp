@@ -118,7 +118,7 @@ class Asking {
 
 }  // namespace
 
-TEST(Stretch, BrakesWithinItsWayAlsoFromASpeedThatIsSlightlyTooHigh) {
+TEST(Stretch, BrakesInTimeFromASlightlyTooHighSpeed) {
   // 42 ticks of braking would lead 0.0006 mm beyond the end, and 41 ticks 0.0002 mm.
   const Bounds bounds = {0.690374553f, 0.0352992341f, 0.000781127019f, 0, 181, 181};
   const Stretch stretch = nextStretch(0.0332463309f, bounds);

@@ -58,7 +58,7 @@ TEST(Lift, TakesANewGoalAtAnyMoment) {
   EXPECT_EQ(lift.goal(), lift.at());
 }
 
-TEST(Lift, StandsWhereItIsDeclared) {
+TEST(Lift, StaysAtADeclaredHeight) {
   Lift lift;
   EXPECT_TRUE(lift.isAtRest());
   EXPECT_EQ(0, lift.at());

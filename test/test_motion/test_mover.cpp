@@ -79,7 +79,7 @@ TEST(Mover, NeverGainsOrLosesMoreThanItMay) {
   }
 }
 
-TEST(Mover, PullIsBoundedOnASmoothCurveOfShortMoves) {
+TEST(Mover, CentripetalAccelerationIsBoundedOnShortMoves) {
   // A circle of 1 mm in steps of 0.1 mm, for which junction deviation alone would allow any speed.
   Plain plain;
   for (int i = 1; i <= 400; ++i)
@@ -89,7 +89,7 @@ TEST(Mover, PullIsBoundedOnASmoothCurveOfShortMoves) {
   EXPECT_GT(largest(plain.speeds()), std::sqrt(0.8 * 100 * 1));
 }
 
-TEST(Mover, SmoothPolylineIsPassedAtFullFeed) {
+TEST(Mover, SmoothPolylineRunsAtFullFeed) {
   for (const double step : {0.1, 0.15, 0.5, 2.0}) {
     Plain plain;
     const double radius = 40, turns = 200 / radius;
@@ -186,7 +186,7 @@ TEST(Mover, AMillionShortMovesEndWhereTheyWereCommanded) {
   EXPECT_EQ(toCounts(plain.at.y), plain.now.right);
 }
 
-TEST(Mover, StreamThatComesLateIsTakenUpWhileItBrakes) {
+TEST(Mover, ALateStreamEndsTheBraking) {
   // A move at a time; the next comes just while the last brakes.
   Plain plain;
   for (int i = 1; i <= 40; ++i) {

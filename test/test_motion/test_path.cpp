@@ -60,7 +60,7 @@ TEST(Arc, ShortOnesAreAsLongAsTheirChordInFloat) {
   }
 }
 
-TEST(Arc, ThatEndsBeyondItsStartOnTheSameRayIsAFullTurn) {
+TEST(Arc, ThatEndsOnTheRayOfItsStartIsAFullTurn) {
   for (Turn turn : {Turn::kClockwise, Turn::kCounterclockwise})
     EXPECT_NEAR(20.02 * 6.283185307, arc(Spot{20, 0}, Spot{20.04, 0}, Spot{0, 0}, turn).length,
                 1e-5);
@@ -125,13 +125,13 @@ TEST(Path, ClearanceIsNeverMoreThanTheDistanceOfAnyPlaceOnIt) {
   EXPECT_LT(tightest, 1e-6);
 }
 
-TEST(Arc, ClearanceOfAShortPieceIsNotThatOfItsWholeCircle) {
+TEST(Arc, ClearanceOfAShortArcIsNotThatOfItsWholeCircle) {
   const Path<double> path = arc(Spot{0, 0}, Spot{10, 0.05}, Spot{0, 1000}, Turn::kCounterclockwise);
   EXPECT_EQ(Drawn::kYes, path.drawn);
   EXPECT_GT(clearance(path, Spot{1000, 1000}), 1300);  // on the circle, far from the piece
 }
 
-TEST(Arc, ClearanceKnowsThatTheRadiusMayGrow) {
+TEST(Arc, ClearanceAllowsForAGrowingRadius) {
   const Path<double> path = arc(Spot{0, 20}, Spot{0, 20.04}, Spot{0, 0}, Turn::kClockwise);
   EXPECT_NEAR(29.96, clearance(path, Spot{0, 50}), 1e-9);
 }
@@ -158,7 +158,7 @@ TEST(Arc, IsAsLongAsItsWayRoundAndOut) {
   expectAt({20.025, 0.015}, {placeOn(path, 0.5).x, placeOn(path, 0.5).y}, 1e-4);
 }
 
-TEST(Arc, SetsOutAndArrivesAsItWinds) {
+TEST(Arc, StartsAndEndsInTheDirectionOfItsTurn) {
   for (double radius : {20.0, 19.93, 20.0699, 20.0001}) {
     const Point<float> from = {20, 0}, to = {float(radius), 0.05f};
     const Path<float> path = arc(from, to, {0, 0}, Turn::kCounterclockwise);
@@ -174,7 +174,7 @@ TEST(Arc, SetsOutAndArrivesAsItWinds) {
   EXPECT_NEAR(-0.7071, double(directionOf(back, true).y), 0.004);
 }
 
-TEST(Arc, RoundWhichNobodyCanSayWhereItsCentreWasIsALine) {
+TEST(Arc, WithoutADefiniteCentreIsALine) {
   for (const Spot centre : {Spot{0, 0}, Spot{0.05, 0}, Spot{0.01, 0}}) {
     const Path<double> path = arc(Spot{0, 0}, Spot{0.05, 0}, centre, Turn::kClockwise);
     EXPECT_EQ(Drawn::kYes, path.drawn);
@@ -196,7 +196,7 @@ TEST(Arc, WhoseEndsWereRoundedPastEachOtherIsNoFullTurn) {
   EXPECT_NE(0, past(-0.013, kMillimetreDigit).sweep);
 }
 
-TEST(Arc, AFullCircleThatIsSmallerThanItsTextCanTellIsAPlace) {
+TEST(Arc, AFullCircleBelowTheRoundingOfItsTextIsAPoint) {
   const auto circle = [](double radius, float digit) {
     return arc(Spot{1, 1}, Spot{1, 1}, Spot{1 + radius, 1}, Turn::kClockwise, digit).drawn;
   };
@@ -211,7 +211,7 @@ TEST(Path, WithoutLengthIsRefused) {
   EXPECT_EQ(Drawn::kNoLength, line(Spot{3, 4}, Spot{3, 4}).drawn);
 }
 
-TEST(Path, OfWhatIsNoNumberIsRefused) {
+TEST(Path, OfNaNIsRefused) {
   for (double bad : {kNan, double(INFINITY), -double(INFINITY), 1e200}) {
     EXPECT_EQ(Drawn::kNoNumber, line(Spot{bad, 0}, Spot{1, 1}).drawn) << bad;
     EXPECT_EQ(Drawn::kNoNumber, line(Spot{0, 0}, Spot{1, bad}).drawn) << bad;

@@ -29,7 +29,7 @@ double stepAhead(const Plain& plain) {
 
 }  // namespace
 
-TEST(Yielding, TakesItsShareOfWhatWasAskedFor) {
+TEST(Yielding, TakesItsShareOfTheAskedSpeed) {
   Plain plain = cruising();
   plain.playback.yieldTo(128);
   EXPECT_NEAR(7.5, speedAfter(plain, 60), 0.03);
@@ -62,7 +62,7 @@ TEST(Share, OfNothingIsRest) {
   EXPECT_TRUE(plain.playback.isDone());
 }
 
-TEST(Share, BringsEachPathToItsEndAtWhateverShare) {
+TEST(Share, BringsEachPathToItsEndAtAnyShare) {
   for (uint16_t share = 1; share <= Playback::kAllOfIt; ++share)
     for (int length = 1; length <= 21; ++length) {
       Plain plain;

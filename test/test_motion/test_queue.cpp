@@ -159,7 +159,7 @@ TEST(Queue, LooksBackFromAStopAtTheEnd) {
   EXPECT_EQ(0, queued.queue.exitSquared());
 }
 
-TEST(Queue, LooksBackAgainWhereTheFeedIsBoosted) {
+TEST(Queue, LooksBackAgainWhenTheFeedIsBoosted) {
   Queued queued;
   queued.lineBy(10, 0, 0, 4);
   queued.lineBy(10, 0, 0, 4);
@@ -200,7 +200,7 @@ TEST(Queue, LastsAsLongAsItsTrapezoids) {
   EXPECT_FALSE(queued.queue.lastsLonger(11, {8, 4}));
 }
 
-TEST(Queue, IsFullAfterSixteenMovesAndRunsRoundItsRing) {
+TEST(Queue, IsFullAfterSixteenMovesAndWrapsAround) {
   Queued queued;
   for (int round = 1; round < 60; ++round) {
     while (queued.queue.hasRoom()) queued.lineBy(float(round), 0, 0);

@@ -70,7 +70,7 @@ const double kMostDigits = 1.35, kFloat = 2e-4;
 
 }  // namespace
 
-TEST_P(RoundedArcs, AllAreDrawnAndStayWithinWhatTheTextCanTell) {
+TEST_P(RoundedArcs, AllAreDrawnWithinTheRoundingOfTheirText) {
   for (unsigned seed = 1; seed <= 20; ++seed) {
     Curve curve(seed, M_PI);
     for (int i = 0; i < 100; ++i) {
@@ -83,7 +83,7 @@ TEST_P(RoundedArcs, AllAreDrawnAndStayWithinWhatTheTextCanTell) {
   }
 }
 
-TEST_P(RoundedArcs, OfMoreThanAHalfTurnToo) {
+TEST_P(RoundedArcs, OfMoreThanAHalfTurnAreDrawnToo) {
   for (unsigned seed = 1; seed <= 20; ++seed) {
     Curve curve(seed, 5.5);
     for (int i = 0; i < 100; ++i) {
@@ -100,7 +100,7 @@ TEST_P(RoundedArcs, OfMoreThanAHalfTurnToo) {
   }
 }
 
-TEST_P(RoundedArcs, AreRunWithoutAJumpWhereverTheyWind) {
+TEST_P(RoundedArcs, RunWithoutAJumpInAnyDirection) {
   const double most = double(kGentle.acceleration_xy) * kTick;  // [mm/s] each tick
   for (unsigned seed = 1; seed <= 4; ++seed) {
     Curve curve(seed, M_PI);
@@ -123,7 +123,7 @@ TEST_P(RoundedArcs, AreRunWithoutAJumpWhereverTheyWind) {
   }
 }
 
-TEST(Spirals, AreFollowedWithinWhatASegmentMayMiss) {
+TEST(Spirals, AreFollowedWithinTheLimitOfASegment) {
   Paths paths(8);
   int spirals = 0;
   for (int i = 0; i < 300; ++i) {

@@ -93,14 +93,14 @@ TEST(Fine, SumsDifferencesAndHalvesCarryBetweenTheirParts) {
     }
 }
 
-TEST(Counts, TellLengthsToTheNearest) {
+TEST(Counts, RoundToTheNearest) {
   EXPECT_EQ(65536, toCounts(1.0));
   EXPECT_EQ(-65536 * 6000, toCounts(-6000.0f));
   EXPECT_EQ(1, toCounts(0.6 / kCountsPerMm));
   EXPECT_DOUBLE_EQ(6000.5, toMm<double>(toCounts(6000.5)));
 }
 
-TEST(Counts, CannotTellWhatIsTooLongOrNoNumber) {
+TEST(Counts, RefuseWhatIsTooLongOrNaN) {
   const Point<double> anywhere = {0, 0};
   for (double bad : {8191.5, -9000.0, 1e300, double(INFINITY), nan("")}) {
     const auto left = [bad](Point<double>) { return Lengths<double>{bad, 1, true}; };

@@ -90,7 +90,7 @@ TEST_P(SetPointsOf, KeepTheBoundAtAnyFeedAndAcceleration) {
     }
 }
 
-TEST(SetPoints, TellTheStepThatComesSoOrTheLastThatIsKnown) {
+TEST(SetPoints, GiveTheStepAheadOrTheLastKnownOne) {
   SetPoints ring;
   const SetPoint *from = nullptr, *to = nullptr;
   int32_t pushed = 0, taken = 0;

@@ -79,7 +79,7 @@ TEST(Hold, RestsOnThePathAndResumesToTheSameEnd) {
   }
 }
 
-TEST(Hold, ResumedWhileStillBrakingGoesOnAtThatSpeed) {
+TEST(Hold, ResumedWhileBrakingGoesOnAtThatSpeed) {
   Plain plain = cruisingToCorner();
   plain.playback.hold();
   for (int i = 0; i < 8; ++i) plain.tick();
@@ -105,7 +105,7 @@ TEST(Boost, InARowOfShortMovesKeepsAccelerationAndEnd) {
   }
 }
 
-TEST(LateMainProgram, SetPointsWaitWhereTheyAreAndSetOutFromRest) {
+TEST(LateMainProgram, SetPointsWaitAndStartFromRest) {
   Plain plain = cruisingToCorner();
   int taken = 0;
   for (int i = 0; i < 30; ++i) taken += plain.tickAlone();

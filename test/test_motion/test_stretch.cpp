@@ -107,7 +107,7 @@ TEST(Stretch, AreFew) {
   EXPECT_LE(walked(4, 0.05f, 1, 0, 0.001f, 181).stretches, 9);
 }
 
-TEST(Stretch, KeepsItsMostTicks) {
+TEST(Stretch, KeepsItsLimitOfTicks) {
   for (const uint8_t most : {1, 2, 40}) {
     const Stretch gains = nextStretch(0, {1000, 100, 0.01f, 0, 99, most});
     EXPECT_EQ(most, gains.ticks);
@@ -118,7 +118,7 @@ TEST(Stretch, KeepsItsMostTicks) {
   }
 }
 
-TEST(Stretch, SlowsToATopThatWasLowered) {
+TEST(Stretch, SlowsToALoweredTopSpeed) {
   const float a = 0.01f, top = 0.03f;
   float speed = 0.15f;
   int ticks = 0;

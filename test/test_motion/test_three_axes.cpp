@@ -106,7 +106,7 @@ TEST(ThreeAxes, ALevelMoveAboveTheSheetIsAsFastAsOnIt) {
   EXPECT_NEAR(double(plain.asked.size() - lifting) * kTick, 2.15, 0.06) << "30 mm at 15 mm/s";
 }
 
-TEST(ThreeAxes, WhatComesAfterAForgottenMoveKeepsTheGainOfZ) {
+TEST(ThreeAxes, AMoveAfterAForgottenOneKeepsTheAccelerationOfZ) {
   Plain plain(kQuick);
   plain.lineTo(40, 0);
   for (int i = 0; i < 20; ++i) plain.tick();
@@ -141,7 +141,7 @@ TEST(ThreeAxes, LegsKeepWithinWhatTheTickCounts) {
   }
 }
 
-TEST(ThreeAxes, RunningDryIsCountedOnceEachTime) {
+TEST(ThreeAxes, RunningDryCountsOnce) {
   Plain plain;
   plain.lineTo(500, 0);
   for (int i = 0; i < 100; ++i) plain.tick();
@@ -159,7 +159,7 @@ TEST(ThreeAxes, RunningDryIsCountedOnceEachTime) {
   EXPECT_EQ(0, plain.mover.timesDry()) << "nothing was missing at rest";
 }
 
-TEST(ThreeAxes, AWayThatIsForgottenLeavesZWhereItStands) {
+TEST(ThreeAxes, AForgottenPathLeavesZWhereItStands) {
   Plain plain(kQuick);
   plain.lineTo(40, 0, 10);
   for (int i = 0; i < 100; ++i) plain.tick();

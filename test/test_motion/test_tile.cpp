@@ -104,7 +104,7 @@ TEST_P(TileOf, LengthsAreWithinTwoMicrometresOfTheExactChains) {
   EXPECT_LT(worst, 0.002);
 }
 
-TEST(Tile, MissesOfACubicWhatItsSizeAllowsFor) {
+TEST(Tile, MissesACubicByWhatItsSizeAllows) {
   for (const double third : {1e-6, 1e-4, 4e-4}) {
     const auto cubic = [&](Point<float> place) -> Lengths<float> {
       const double x = place.x, y = place.y;
@@ -158,7 +158,7 @@ TEST_P(TileOf, ShortMovesAskForOneInverseInManyTicks) {
   }
 }
 
-TEST(Tiles, AreNotLaidInAHurry) {
+TEST(Tiles, AreNotComputedInAHurry) {
   // Nine inverses at once would let seven set-points run dry.
   const Streamed enough = stream(triedMachines()[0], {300, 0}, 0.3f, kSheetArea, 10);
   EXPECT_GE(enough.asked_at_once, 9);
@@ -184,7 +184,7 @@ TEST(Tiles, AreNotLaidInAHurry) {
   EXPECT_EQ(11, asked);
 }
 
-TEST(Tiles, AreNotLaidWhileFewSetPointsWait) {
+TEST(Tiles, AreNotComputedWhileFewSetPointsWait) {
   const Exactly<float> inverse = exactly<float>(triedMachines()[0]);
   SetPoints ring;
   int asked[SetPoints::kMost + 1] = {};  // by the number that waited

@@ -83,7 +83,7 @@ TEST(Walk, TakesEachSetPointAsItIsAtFullSpeed) {
   EXPECT_EQ(0, walker.playback.beam());
 }
 
-TEST(Walk, BrakesByItsGainAndSetsOutByIt) {
+TEST(Walk, BrakesAndStartsByItsAcceleration) {
   for (const uint16_t gain : {30, 250, 999, 1000, 3000}) {
     Walker walker(evenLegs(200, gain));
     walker.ticks(3);
@@ -129,7 +129,7 @@ TEST(Walk, ChangesItsShareByTheGain) {
   }
 }
 
-TEST(Walk, BackAtFullSpeedGoesOnInTheMiddleOfALeg) {
+TEST(Walk, ReturnsToFullSpeedInTheMiddleOfALeg) {
   std::vector<Leg> legs;
   for (int i = 1; i <= 200; ++i) legs.push_back({{1024 * i, 0, 0}, 1024, 100, 0});
   Walker walker(legs);
@@ -147,7 +147,7 @@ TEST(Walk, BackAtFullSpeedGoesOnInTheMiddleOfALeg) {
   }
 }
 
-TEST(Walk, AtAShareIsWhereThePlanIsAtThatShareOfTheTime) {
+TEST(Walk, AtAShareFollowsThePlanAtThatShareOfTime) {
   for (const uint16_t share : {128, 64, 192}) {
     Walker walker(unevenLegs());
     walker.playback.goAt(share);
@@ -183,7 +183,7 @@ TEST(Walk, HeldAtTheEndOfALegGoesOnIntoTheNext) {
   EXPECT_EQ(270, walker.now.z);
 }
 
-TEST(Walk, ForgottenBeginsWithTheNextSetPoint) {
+TEST(Walk, ForgottenStartsWithTheNextSetPoint) {
   Walker walker(evenLegs(2, 30));
   walker.playback.goAt(128);
   walker.ticks(3);

@@ -4,7 +4,7 @@
 
 using namespace motion;
 
-TEST(Yield, KeepsAllUpToHalfTheLimitAndFallsEvenly) {
+TEST(Yield, IsFullUpToHalfTheLimitAndFallsEvenly) {
   Yield yield;
   yield.tune(2);
   EXPECT_EQ(256, yield.shareAt(0));
@@ -20,7 +20,7 @@ TEST(Yield, KeepsAllUpToHalfTheLimitAndFallsEvenly) {
   }
 }
 
-TEST(Yield, FollowsTheLimitAndIsOffWithoutOne) {
+TEST(Yield, FollowsTheLimitAndIsOffWithoutALimit) {
   Yield yield;
   yield.tune(10);
   EXPECT_EQ(256, yield.shareAt(toCounts(5.0f)));

@@ -41,7 +41,7 @@ Vector3d followed(const Machine& machine, const Across& across, double length) {
   return place;
 }
 
-TEST(Across, LinkByLinkTheChainReachesTheOtherSprocket) {
+TEST(Across, FollowedLinkByLinkReachesTheOtherSprocket) {
   Machine machine = frame();
   machine.left.inward = machine.right.inward = 0.01;
   machine.height_difference = 7;
@@ -58,7 +58,7 @@ TEST(Across, LinkByLinkTheChainReachesTheOtherSprocket) {
   }
 }
 
-TEST(Across, TheRightChainIsItsMirror) {
+TEST(Across, OnTheRightIsTheMirrorImage) {
   Machine machine = frame();
   machine.left.pitch = machine.right.pitch = 0.001;
   const Across left = leftAcross(machine, 2);
@@ -71,13 +71,13 @@ TEST(Across, TheRightChainIsItsMirror) {
   EXPECT_LT(left.pull.x(), leftAcross(frame(), 2).pull.x());
 }
 
-TEST(Across, WithoutWeightASlackChainHasNoTension) {
+TEST(Across, OfASlackWeightlessChainHasNoTension) {
   Machine machine = frame();
   machine.left.weight = 0;
   EXPECT_FALSE(leftAcross(machine, 5).solved);
 }
 
-TEST(Across, TheSearchEndsAlsoFarFromItsStart) {
+TEST(Across, IsFoundFarFromTheStartOfTheSearch) {
   const Machine machine = frame();
   for (const double more : {-12.0, -5.0, 0.1, 60.0, 300.0}) {
     const Across across = leftAcross(machine, more);

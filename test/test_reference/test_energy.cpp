@@ -156,7 +156,7 @@ void expectLowestEnergy(const Machine& machine, const Vector2d& bit, double with
   EXPECT_LT(off.norm(), within) << "at " << bit.transpose();
 }
 
-TEST(Energy, BeadsComeToRestWhereTheJudgeSays) {
+TEST(Energy, BeadsComeToRestWhereTheJudgeDoes) {
   expectLowestEnergy(defaultMachine(), {0, 0}, 1e-8);
   expectLowestEnergy(defaultMachine(), {0, 550}, 1e-8);
   expectLowestEnergy(defaultMachine(), {1150, -550}, 1e-8);

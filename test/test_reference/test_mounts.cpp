@@ -12,7 +12,7 @@ namespace {
 
 const double kQuarterTurn = 63.5 / 4;  // [mm]
 
-TEST(Mounts, OneThatGivesIsOneThatStandsElsewhere) {
+TEST(Mounts, OneThatGivesEqualsOneThatStandsElsewhere) {
   Machine giving = defaultMachine();
   giving.left.inward = giving.right.inward = 0.01;
   giving.left.downward = giving.right.downward = 0.03;

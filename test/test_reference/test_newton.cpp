@@ -16,12 +16,12 @@ TEST(Newton, HalvesStepsThatOvershoot) {
   EXPECT_NEAR(0, root.at[1], 1e-12);
 }
 
-TEST(Newton, SaysSoWhenThereIsNoRoot) {
+TEST(Newton, ReportsThatThereIsNoRoot) {
   const auto defect = [](const Vector& at) -> Vector { return {at[0] * at[0] + 1, at[1]}; };
   EXPECT_FALSE(reference::findRoot<2>(defect, Vector(3, 1)).found);
 }
 
-TEST(Newton, DoesNotTakeNoNumberForARoot) {
+TEST(Newton, DoesNotTakeNaNForARoot) {
   const auto defect = [](const Vector& at) -> Vector { return {std::sqrt(at[0]), at[1]}; };
   EXPECT_FALSE(reference::findRoot<2>(defect, Vector(-1, 0)).found);
 }

@@ -34,7 +34,7 @@ TEST(Settle, RefusesChainsThatDoNotMeet) {
   }
 }
 
-TEST(Settle, RefusesWhatIsNoNumber) {
+TEST(Settle, RefusesNaN) {
   const double none = std::numeric_limits<double>::quiet_NaN();
   const Machine machine = defaultMachine();
   EXPECT_FALSE(reference::settle(machine, {none, 1700}).solved);
@@ -51,7 +51,7 @@ TEST(Hang, RefusesPlacesWhereNothingCanHang) {
   EXPECT_FALSE(reference::hangAt(machine, {-machine.motor_gap / 2 + 50, height - 40}).solved);
 }
 
-TEST(Hang, RefusesAChainThatReachesOutwards) {
+TEST(Hang, RefusesAChainThatLeansOutwards) {
   Machine machine = defaultMachine();
   machine.push = {200, 0};
   EXPECT_TRUE(reference::hangAt(machine, {1400, 0}).solved);

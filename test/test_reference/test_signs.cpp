@@ -8,7 +8,7 @@ using reference::Machine;
 
 namespace {
 
-TEST(Signs, LongLinksNeedFewerOfThemBetweenSprocketAndRingOnly) {
+TEST(Signs, LongLinksReduceOnlyTheFreeChain) {
   Machine machine;
   machine.left.pitch = 0.002;
   for (const Vector2d& bit : gridOver(7, 5)) {
@@ -19,7 +19,7 @@ TEST(Signs, LongLinksNeedFewerOfThemBetweenSprocketAndRingOnly) {
   }
 }
 
-TEST(Signs, ChainAlreadyOutNeedNotBeCounted) {
+TEST(Signs, ChainThatWasOutAlreadyIsNotCounted) {
   Machine machine = defaultMachine();
   machine.right.zero = 6.35;
   const Vector2d bit(300, -100);

@@ -134,7 +134,7 @@ TEST(TwoBrackets, WithBothBracketsInOnePlaceItHangsLikeAPendulum) {
   }
 }
 
-TEST(TwoBrackets, SaysSoWhereNoSledCanHang) {
+TEST(TwoBrackets, ReportsThatNoSledCanHang) {
   EXPECT_FALSE(reference::hangTilted(Machine(), {}, {0, 1100}).solved);
   EXPECT_FALSE(reference::hangTilted(Machine(), {}, {1600, 0}).solved);
 }

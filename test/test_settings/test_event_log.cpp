@@ -42,7 +42,7 @@ TEST(EventLog, BeginsEmptyAndCountsEachKind) {
   EXPECT_EQ(Event::kSupplyLow, log.last());
 }
 
-TEST(EventLog, HasTheOldCountsOrTheNewWhereverPowerFails) {
+TEST(EventLog, HasTheOldOrTheNewCountsWhereverPowerFails) {
   Eeprom before = logged();
   const auto values = valuesOf(Board(before));
   bool seen_old = false, seen_new = false;
@@ -64,7 +64,7 @@ TEST(EventLog, HasTheOldCountsOrTheNewWhereverPowerFails) {
   std::printf("%d power cuts in the log\n", cuts);
 }
 
-TEST(EventLog, TakesAnEventThatComesWhileAnotherIsWritten) {
+TEST(EventLog, AcceptsAnEventWhileAnotherIsWritten) {
   for (int steps = 0; steps < 40; ++steps) {
     Eeprom eeprom = logged();
     {

@@ -17,7 +17,7 @@ Eeprom used() {
 
 }  // namespace
 
-TEST(Memory, IsWrittenOneByteAStepAndNeverWaits) {
+TEST(Memory, WritesOneByteAStepAndNeverWaits) {
   Eeprom eeprom;
   eeprom.busy_calls = 40;
   Board board(eeprom);
@@ -33,7 +33,7 @@ TEST(Memory, IsWrittenOneByteAStepAndNeverWaits) {
   EXPECT_GT(eeprom.writes, 400u);
 }
 
-TEST(Memory, MotionWaitsForItsMarkOnlyNotForTheSettings) {
+TEST(Memory, MotionWaitsOnlyForItsMark) {
   Eeprom eeprom = used();
   Board board(eeprom);
   settle(board.memory);
@@ -105,7 +105,7 @@ TEST(Reset, OfEverythingLeavesDefaults) {
     EXPECT_EQ(after.table.at(i).usual, after.values.at(i));
 }
 
-TEST(Reset, CutAnywhereNeverBringsAForgottenPositionBackWithNewSettings) {
+TEST(Reset, CutAnywhereNeverRevivesAForgottenPosition) {
   const int cuts = cutEverywhere(
       used(), [](Board& board) { board.memory.reset(Reset::kEverything); },
       [](Board& board, int) {
@@ -117,7 +117,7 @@ TEST(Reset, CutAnywhereNeverBringsAForgottenPositionBackWithNewSettings) {
   EXPECT_GT(cuts, 200);
 }
 
-TEST(Scale, ChangesOfItAreSeen) {
+TEST(Scale, ChangesAreSeen) {
   for (int number : {12, 13, 19, 20}) {
     Eeprom eeprom = used();
     {

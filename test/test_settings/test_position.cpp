@@ -55,7 +55,7 @@ TEST(Position, IsFoundAsItWasLeft) {
   }
 }
 
-TEST(Position, IsFoundAlsoWhereItsNumberStartsAgain) {
+TEST(Position, IsFoundWhenItsNumberWrapsAround) {
   Eeprom eeprom;
   Ring ring(eeprom, 5);
   for (int i = 0; i < 65600; ++i) {
@@ -93,7 +93,7 @@ TEST(Position, ADoubtKeepsItsFirstReason) {
   }
 }
 
-TEST(Position, ADoubtInMotionIsKeptAndInARecordHalfWritten) {
+TEST(Position, ADoubtIsKeptInMotionAndInAHalfWrittenRecord) {
   for (int steps = 0; steps < 40; ++steps) {
     Eeprom eeprom = travelled(3);
     Ring ring(eeprom);
@@ -107,7 +107,7 @@ TEST(Position, ADoubtInMotionIsKeptAndInARecordHalfWritten) {
   }
 }
 
-TEST(Position, NothingCanBeDoubtedOfAVirginBoard) {
+TEST(Position, OfANewBoardCannotBeDoubted) {
   Eeprom eeprom;
   Ring ring(eeprom);
   ring.slots.doubt(Doubt::kCounts);
@@ -116,7 +116,7 @@ TEST(Position, NothingCanBeDoubtedOfAVirginBoard) {
   EXPECT_EQ(Known::kNothing, Ring(eeprom).known);
 }
 
-TEST(Position, ForgettingIsFinishedWhenMotionBegins) {
+TEST(Position, IsForgottenBeforeMotionBegins) {
   for (int steps = 0; steps < 40; ++steps) {
     Eeprom eeprom = travelled(70);
     Ring ring(eeprom);
@@ -166,7 +166,7 @@ TEST(Position, EveryCutLeavesTheOldOneInMotionOrTheNewOneAtRest) {
   EXPECT_GT(cuts, 2500);
 }
 
-TEST(Position, AtRestIsNeverClaimedOfAPlaceThatWasLeft) {
+TEST(Position, IsNeverClaimedAtRestAfterItWasLeft) {
   // Anything may happen in any order, at any step of the writing; the machine moves whenever it
   // may. A record that says "at rest" must hold the machine's position.
   std::mt19937 random(32);
@@ -220,7 +220,7 @@ TEST(Position, WearsNoCellOutWithin30YearsOf300RestsADay) {
   EXPECT_GT(rests_until_worn / 300 / 365, 29.6);
 }
 
-TEST(Position, CostsNoWritingWhereNothingChanged) {
+TEST(Position, WritesNothingIfNothingChanged) {
   Eeprom eeprom = travelled(3);
   Ring ring(eeprom);
   const uint32_t before = eeprom.writes;
@@ -234,7 +234,7 @@ TEST(Position, CostsNoWritingWhereNothingChanged) {
   EXPECT_EQ(before + 1, eeprom.writes);
 }
 
-TEST(Position, IsKeptAgainWhileItsMarkIsOnTheWay) {
+TEST(Position, IsKeptAgainWhileItsMarkIsWritten) {
   // G10 Z0 where z is 0: the place that is kept is the place of the record that is being marked.
   for (int steps = 0; steps < 4; ++steps) {
     for (bool doubted : {false, true}) {

@@ -24,7 +24,7 @@ const Change kChanges[] = {
 
 }  // namespace
 
-TEST(PowerCut, LeavesTheOldSettingsOrTheNewWhereverItStrikes) {
+TEST(PowerCut, LeavesTheOldOrTheNewSettings) {
   const Eeprom before = usedEeprom();
   int cuts = 0;
   for (const Change& change : kChanges) {
@@ -72,7 +72,7 @@ TEST(PowerCut, InTheFirstSaveLeavesDefaultsOrTheSettings) {
   EXPECT_GT(cuts, 2000);
 }
 
-TEST(PowerCut, DuringTheRepairAfterACutLosesNothingEither) {
+TEST(PowerCut, DuringTheRepairLosesNothing) {
   // The second cut comes while the start writes.
   const Eeprom before = usedEeprom();
   std::mt19937 random(22);
@@ -98,7 +98,7 @@ TEST(PowerCut, DuringTheRepairAfterACutLosesNothingEither) {
   EXPECT_GT(cuts, 500);
 }
 
-TEST(PowerCut, BetweenChangesThatComeFasterThanTheyAreWrittenKeepsOneState) {
+TEST(PowerCut, DuringQuickChangesKeepsOneState) {
   // Settings arrive while others are being written, as in a client's sync.
   const Eeprom before = usedEeprom();
   std::mt19937 random(23);
@@ -125,7 +125,7 @@ TEST(PowerCut, BetweenChangesThatComeFasterThanTheyAreWrittenKeepsOneState) {
   }
 }
 
-TEST(Copies, EitherOneHoldsEverything) {
+TEST(Copies, EachHoldsEverything) {
   Eeprom eeprom = usedEeprom();
   Board board(eeprom);
   board.memory.set(3, 468.4f);
@@ -144,7 +144,7 @@ TEST(Copies, EitherOneHoldsEverything) {
     }
 }
 
-TEST(Copies, ACellThatKeepsNothingIsNoticedAndTheOtherCopyServes) {
+TEST(Copies, AWornCellIsNoticedAndTheOtherCopyServes) {
   Eeprom eeprom = usedEeprom();
   eeprom.dead[Memory::kFirstCopy + 18] = true;
   {
@@ -176,7 +176,7 @@ TEST(Copies, WriteOnlyWhatChanges) {
   EXPECT_EQ(once, eeprom.writes) << "the same value again";
 }
 
-TEST(Copies, AValueBeyondTodaysLimitsBecomesItsDefaultAndIsTold) {
+TEST(Copies, AValueBeyondTodaysLimitsBecomesItsDefaultAndIsReported) {
   Eeprom eeprom = usedEeprom();
   {
     Board board(eeprom);
@@ -236,7 +236,7 @@ class TableWithoutPlaces : public FlashTable {
 
 }  // namespace
 
-TEST(Copies, OfTheTimeBeforePlacesAreRead) {
+TEST(Copies, WithoutPlacesAreRead) {
   Eeprom eeprom;
   {
     settings_host::Board<TableWithoutPlaces> board(eeprom);
@@ -259,7 +259,7 @@ TEST(Copies, OfTheTimeBeforePlacesAreRead) {
   EXPECT_EQ(7, again.values.at(kSettingCount - 1));
 }
 
-TEST(Places, AreSetByGCodeOnlyAndLieWhereTheirNumbersSay) {
+TEST(Places, AreSetOnlyByGCode) {
   FlashTable table;
   EXPECT_EQ(kFirstPlaceSetting, indexOf(table, 230));
   EXPECT_EQ(kSettingCount - 1, indexOf(table, 253));

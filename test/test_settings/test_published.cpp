@@ -48,7 +48,7 @@ TEST(Published, BothLayoutsOfVersionFiveAreTakenOverWithTheirCounts) {
   }
 }
 
-TEST(Published, IsRetiredSoThatItsOldDataNeverComesBack) {
+TEST(Published, IsInvalidatedSoThatOldDataNeverComesBack) {
   for (bool z_limits : {false, true}) {
     Eeprom eeprom = publishedImage(z_limits);
     Board board(eeprom);
@@ -60,7 +60,7 @@ TEST(Published, IsRetiredSoThatItsOldDataNeverComesBack) {
   }
 }
 
-TEST(Published, EveryCutWhileTakingOverLeavesItOrUsWithEverything) {
+TEST(Published, EveryCutDuringTheImportLeavesOneSideWhole) {
   int cuts = 0;
   for (bool z_limits : {false, true})
     cuts += cutEverywhere(
@@ -100,7 +100,7 @@ TEST(Published, ItsCountsAreNeverValidOnceWeHaveMoved) {
   EXPECT_EQ(Known::kMoving, Board(eeprom).started.known) << "power lost in the first motion";
 }
 
-TEST(Published, FlashedAgainAndUsedIsTakenOverAgain) {
+TEST(Published, UsedAgainIsTakenOverAgain) {
   Eeprom eeprom = publishedImage(true);
   {
     Board board(eeprom);
@@ -191,7 +191,7 @@ TEST(Published, PositionsFromBeforeOneAreRefused) {
   EXPECT_EQ(Known::kNothing, board.started.known);
 }
 
-TEST(Published, OneImpossibleValueAndNothingIsTaken) {
+TEST(Published, WithAnImpossibleValueIsNotTakenOver) {
   for (auto [number, value] :
        {std::pair<int, float>{8, NAN}, {2, -5}, {13, 0}, {21, -1}, {12, INFINITY}}) {
     Eeprom eeprom = publishedImage(true);
@@ -223,7 +223,7 @@ TEST(Published, NumbersItDidNotCheckAreReadAsItUsedThem) {
   EXPECT_EQ(-10000, board.values.at(kZLowerLimit));
 }
 
-TEST(Published, NeverFindsAnythingInWhatWeWrite) {
+TEST(Published, IsNeverFoundInOurData) {
   std::mt19937 random(41);
   Eeprom eeprom;
   Board board(eeprom);

@@ -38,7 +38,7 @@ float valueOf(const Held& held, uint8_t number) {
 
 }  // namespace
 
-TEST(Table, NumbersRiseAndKeepOffThoseOfOthers) {
+TEST(Table, NumbersRiseAndAvoidThoseOfOthers) {
   FlashTable table;
   int before = -1;
   for (uint8_t i = 0; i < table.count(); ++i) {
@@ -105,7 +105,7 @@ TEST(Table, EffectLimitsAreTheirPlausibleRangeWidened) {
   }
 }
 
-TEST(Values, RefuseWithOneClearSentenceAndStayAsTheyWere) {
+TEST(Values, AreRefusedWithAClearSentenceAndStayTheSame) {
   Held held;
   EXPECT_EQ("$38 must be from 1 to 2, a whole number", refusalOf(held, 38, 1.5f));
   EXPECT_EQ("$38 must be from 1 to 2, a whole number", refusalOf(held, 38, 3));
@@ -136,7 +136,7 @@ TEST(Values, ElasticityAndSledWeightOfWebControlMeanOurs) {
   }
 }
 
-TEST(Dump, LinesSayNumberValueAndComment) {
+TEST(Dump, LinesHaveNumberValueAndComment) {
   Held held;
   EXPECT_EQ("$0=2438.4 (sheet_width, mm)", line(held.values, kSheetWidth));
   EXPECT_EQ("$12=8113.73 (encoder_counts, counts/turn)", line(held.values, kEncoderCounts));

@@ -74,10 +74,9 @@ nb::dict placeTexts(uint8_t index) {
   const std::string axis(1, "xyz"[index % kPlaceAxes]);
   const bool is_goal = place >= kKeptSystems;
   const std::string code = std::to_string(is_goal ? 28 + 2 * (place - kKeptSystems) : 54 + place);
-  const std::string sentence =
-      is_goal ? "where G" + code + " goes along " + axis + ", set by G" + code +
-                    ".1; 20000: nowhere yet"
-              : "where " + axis + " of G" + code + " begins, set by G10 L2 and L20";
+  const char* const sentence =
+      is_goal ? "where G28 and G30 go, set by G28.1 and G30.1; 20000: nowhere yet"
+              : "origin of G54 to G59, set by G10 L2 and L20";
   return textsOf("g" + code + "_" + axis, "mm", "", sentence, "new");
 }
 

@@ -53,7 +53,7 @@ struct Reached {
   Give<Real> give;
 };
 
-/// Whether a place `bit` [mm] is usable. Slow on the board (see CHANGELOG.md).
+/// Whether a place `bit` [mm] is usable. Slow on the board.
 template <class Real>
 Reached<Real> reach(const Machine<Real>& machine, Point<Real> bit, const ReachLimits<Real>& limits);
 

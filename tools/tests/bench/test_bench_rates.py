@@ -32,7 +32,7 @@ def test_nine_marks_still_name_most():
 
 @pytest.mark.slow
 def test_the_diagnosis_is_right_on_boards_of_each_kind():
-    """Bounds are looser than docs/bench.md by the luck of few boards."""
+    """Bounds are looser than docs/results.md by the luck of few boards."""
     none, one, two = (rates(f"known/{kind}", range(8)) for kind in ("none", "one", "two"))
     assert none.named == 0 and none.after < 0.15
     assert one.exact >= 0.85 and one.holds == 1 and one.after < 1.3 * one.fitted

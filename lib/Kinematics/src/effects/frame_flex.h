@@ -13,7 +13,7 @@ namespace kinematics {
 /// the moved sprockets. The moves change the level pull, which is load * run / drop: a move inward
 /// takes its share of half the gap, a move down its share of the drop, load * half gap / level
 /// pull, and the two shares add up. The formula takes this change from the middle of the sheet,
-/// where a level move counts most (see docs/decisions/0006-flex-once.md).
+/// where a level move counts most (see docs/kinematics.md).
 template <class Real>
 struct FrameFlex : Effect<Real> {
   enum { kInward, kDownward, kParamCount };
