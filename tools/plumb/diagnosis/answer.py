@@ -12,7 +12,6 @@ from pydantic import computed_field
 
 from plumb.diagnosis.expected_error import LeftOpen
 from plumb.diagnosis.explanation import Explanation
-from plumb.diagnosis.linear import Spot
 from plumb.diagnosis.nearest import nearest
 from plumb.diagnosis.noise import ORIGINS, Noise, left_by_noise, misfit_chance
 from plumb.diagnosis.outliers import Outlier
@@ -20,6 +19,7 @@ from plumb.diagnosis.posterior import Account, Listed, Posterior
 from plumb.diagnosis.priors import LIKELIER
 from plumb.diagnosis.readings import CleanReadings
 from plumb.diagnosis.sizes import Room, Size
+from plumb.diagnosis.spots import Spot
 from plumb.fit.inputs import Stated
 from plumb.fit.problem import Checked
 from plumb.model.catalogue import place_of

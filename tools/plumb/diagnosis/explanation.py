@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from itertools import product
 
 import numpy as np
 import scipy
@@ -239,48 +238,28 @@ def gaussian_process_columns(
     widths: its length scales, in halves of what the marks span. least [mm^2]: what the columns
     may leave out of its variance at any place.
     """
-    places = _places(frame)
-    half = _half_span(places)
+    places = places_of(frame)
+    half = half_span(places)
     apart = np.sum(((places[:, np.newaxis] - places[np.newaxis]) / half) ** 2, axis=2)
     for width in widths:
         root = _root(np.exp(-apart / (2 * width**2)), least)
-        yield _measured(root, places, frame.board.rows)
+        yield measured_columns(root, places, frame.board.rows)
 
 
-def spot_columns(
-    frame: Explanation, widths: Sequence[float], grid: tuple[int, int], *, least: float
-) -> Iterator[tuple[Array, Array]]:
-    """Yield the middle [mm] of each spot on a grid all over the marks, and what it moves of the
-    measured numbers (n, 2) [mm], 1 mm to the right in its middle and 1 mm upwards.
-
-    A spot falls off as a Gauss bell does; widths: in halves of what the marks span. One that
-    moves no place by `least` [mm] is left out.
-    """
-    places = _places(frame)
-    half, center = _half_span(places), (places.max(axis=0) + places.min(axis=0)) / 2
-    across, up = (np.linspace(-1, 1, count) for count in grid)
-    for width, x, y in product(widths, across, up):
-        middle = center + half * (x, y)
-        apart = np.sum(((places - middle) / half) ** 2, axis=1)
-        moved = np.exp(-apart / (2 * width**2))
-        if moved.max() > least:
-            yield middle, _measured(moved[:, np.newaxis], places, frame.board.rows)
-
-
-def _places(frame: Explanation) -> Array:
+def places_of(frame: Explanation) -> Array:
     """Return where each visit is by a fit (visits, 2) [mm]."""
     sighting, _ = frame.board.problem.predict(frame.unknowns)
     where: Array = sighting.taped.where
     return where
 
 
-def _half_span(places: Array) -> Array:
+def half_span(places: Array) -> Array:
     """Halves (2,) [mm] of what places span."""
     half: Array = np.maximum(np.ptp(places, axis=0) / 2, 1.0)
     return half
 
 
-def _measured(moved: Array, places: Array, rows: Observations) -> Array:
+def measured_columns(moved: Array, places: Array, rows: Observations) -> Array:
     """Columns (n, 2 c) of the measured numbers; each column of `moved` (visits, c) [mm] acts once
     to the right and once upwards."""
     along = places[rows.distance_rows]

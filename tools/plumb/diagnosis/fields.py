@@ -14,15 +14,10 @@ import numpy as np
 from plumb.diagnosis.every_machine import Clean, clean_of, pitches
 from plumb.diagnosis.evidence import Accounts, Effects, Noises, weights_of
 from plumb.diagnosis.explanation import Explanation
-from plumb.diagnosis.linear import (
-    Disturbance,
-    LinearBoard,
-    Metric,
-    Spot,
-    likely_spots,
-)
+from plumb.diagnosis.linear import Disturbance, LinearBoard, Metric
 from plumb.diagnosis.priors import FIELD, LIKELIER, TOGETHER
 from plumb.diagnosis.refit import about, explain_account
+from plumb.diagnosis.spots import Spot, likely_spots
 from plumb.model.plain import ascending, greatest
 
 Array = np.ndarray
@@ -46,8 +41,9 @@ class Fields:
         frame: Explanation, board: LinearBoard, noises: Noises, smooth: Sequence[Disturbance]
     ) -> Fields:
         """Return these smooth fields, and the spots that are worth a look."""
-        spots, share = likely_spots(frame, board, noises.sigmas)
-        chances = [FIELD / 2 / len(smooth)] * len(smooth) + [FIELD / 2 * share] * len(spots)
+        spots = likely_spots(frame, board, noises.sigmas)
+        chances = [FIELD / 2 / len(smooth)] * len(smooth)
+        chances += [FIELD / 2 * spot.share for spot in spots]
         others = (*smooth, *(spot.other for spot in spots))
         return Fields(others, np.log(chances), tuple(spots))
 

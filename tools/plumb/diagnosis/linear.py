@@ -16,17 +16,11 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from plumb.diagnosis.explanation import (
-    Board,
-    Explanation,
-    gaussian_process_columns,
-    spot_columns,
-)
+from plumb.diagnosis.explanation import Board, Explanation, gaussian_process_columns
 from plumb.diagnosis.priors import (
     FIELD_SPREADS,
     FIELD_WIDTHS,
     ROUND_SPREAD,
-    SPOT_WIDTHS,
     SizePriors,
     size_priors,
     turned,
@@ -35,10 +29,6 @@ from plumb.model.catalogue import ZEROING_NAMES
 
 Array = np.ndarray
 ROUNDING = 1e-9  # [mm] less than that moves nothing
-SPOT_GRID = (9, 5)  # middles of spots across and up
-SPOT_SEEN = 0.5  # of a spot's size: one that moves no reading by that is left out
-MOST_SPOTS = 10
-FAR_BELOW = 8.0  # nats below the best spot: what is less likely is not looked at
 LEFT_OUT = 1e-3  # share of the noise's variance to which a field is described
 
 
@@ -117,56 +107,6 @@ def smooth_fields(frame: Explanation, sigma: float) -> list[Disturbance]:
         for unit in [Disturbance.of(columns)]
         for spread in FIELD_SPREADS
     ]
-
-
-@dataclass(frozen=True, eq=False)
-class Spot:
-    """A place of the sheet about which the machine does what no effect draws."""
-
-    middle: Array  # (2,) [mm]
-    other: Disturbance
-
-
-def likely_spots(frame: Explanation, board: LinearBoard, sigmas: Array) -> tuple[list[Spot], float]:
-    """Return the spots that are worth a look with some noise (m,) [mm], if all effects act at
-    once; and what share of all spots each is.
-    """
-    grid = list(spot_columns(frame, SPOT_WIDTHS, SPOT_GRID, least=SPOT_SEEN))
-    beyond = len(board.read) - board.measured
-    columns = np.stack([np.vstack([each, np.zeros((beyond, 2))]) for _, each in grid])
-    score = np.max([_gains(board, sigma, columns) for sigma in sigmas], axis=0)
-    order = np.argsort(-score, axis=None)[:MOST_SPOTS]
-    spots = []
-    for place, spread in zip(*np.unravel_index(order, score.shape), strict=True):
-        if score[place, spread] > score.max() - FAR_BELOW:
-            middle, each = grid[place]
-            other = Disturbance.of(each).times(FIELD_SPREADS[spread])
-            spots.append(Spot(middle, other))
-    return spots, 1 / score.size
-
-
-def _gains(board: LinearBoard, sigma: float, spots: Array) -> Array:
-    """Return the log evidence that each of some spots (k, n, 2) [mm] adds, for each spread
-    (k, s), if all effects act: ln N(y; 0, C + s^2 U U') - ln N(y; 0, C).
-    """
-    spreads = np.sqrt(board.sizes.usual**2 + board.sizes.largest**2)
-    drawn = np.hstack([board.frame, board.effects * spreads])
-    weight = np.r_[np.full(board.measured, sigma**-2), np.ones(len(drawn) - board.measured)]
-    weighted = weight[:, np.newaxis] * drawn
-    inner = np.eye(drawn.shape[1]) + drawn.T @ weighted
-    root = np.linalg.solve(np.linalg.cholesky(inner), weighted.T)
-    seen = np.einsum("rn,kni->kri", root, spots, optimize=True)
-    square = np.einsum("kni,n,knj->kij", spots, weight, spots, optimize=True)
-    square -= np.einsum("kri,krj->kij", seen, seen, optimize=True)
-    read = board.read[:, 0]
-    pull = np.einsum("kni,n->ki", spots, weight * read - root.T @ (root @ read), optimize=True)
-    gains = []
-    for spread in FIELD_SPREADS:
-        whole = square + np.eye(2) * spread**-2
-        taken = np.linalg.solve(whole, pull[:, :, np.newaxis])[:, :, 0]
-        size = np.linalg.slogdet(whole)[1] + 4 * np.log(spread)
-        gains.append((np.sum(pull * taken, axis=1) - size) / 2)
-    return np.stack(gains, axis=1)
 
 
 @dataclass(frozen=True, eq=False)
