@@ -8,9 +8,11 @@ the files, the folder and the environment of whoever asked.
 from __future__ import annotations
 
 import contextlib
+import ctypes
 import json
 import os
 import select
+import signal
 import socket
 import subprocess
 import sys
@@ -69,12 +71,19 @@ def serve(address: str) -> None:
         while door in select.select([door, sys.stdin], [], [])[0]:
             line, _ = door.accept()
             if os.fork() == 0:
+                end_with_parent()
                 door.close()
                 answer(line)
             line.close()
             with contextlib.suppress(ChildProcessError):
                 while os.waitpid(-1, os.WNOHANG)[0]:
                     pass
+
+
+def end_with_parent() -> None:
+    """Have the kernel end this program when its parent ends: nobody waits for its answer then."""
+    parent_death_signal = 1  # PR_SET_PDEATHSIG of Linux
+    ctypes.CDLL(None).prctl(parent_death_signal, signal.SIGKILL)
 
 
 def answer(line: socket.socket) -> None:
