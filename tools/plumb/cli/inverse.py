@@ -10,7 +10,7 @@ from typing import Annotated
 
 import numpy as np
 
-from plumb.cli.arguments import add_controller, add_json, add_settings, add_units, file, place
+from plumb.cli.arguments import add_shared, file, place
 from plumb.cli.screen import print_json, table
 from plumb.fit.inputs import settings_in
 from plumb.model.predict import (
@@ -99,7 +99,7 @@ EXIT = "Exit: 0 done; 1 some place is out of reach; 2 an input cannot be used."
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the arguments of `plumb inverse`."""
-    add_settings(parser)
+    add_shared(parser, "settings")
     parser.add_argument(
         "places",
         metavar="X,Y",
@@ -114,9 +114,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="CSV: x,y per line, mm from the middle of the sheet, y up; a header is allowed",
     )
     parser.add_argument("--float32", action="store_true", help="compute as the board does")
-    add_controller(parser)
-    add_units(parser)
-    add_json(parser)
+    add_shared(parser, "--controller", "--units", "--json")
 
 
 # What `plumb inverse` and `plumb forward` say to people: counts and tables of places.

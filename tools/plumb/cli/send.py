@@ -12,7 +12,7 @@ from pathlib import Path
 from threading import Event
 from typing import Annotated
 
-from plumb.cli.arguments import add_json, add_port
+from plumb.cli.arguments import add_shared
 from plumb.cli.followed import NOWHERE, Followed, time_left
 from plumb.cli.output import say_failure
 from plumb.cli.screen import Prompt, free_name, next_step, print_json, sentences
@@ -374,7 +374,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "more", metavar="LINE", nargs="*", help="more lines, before the board is reset again"
     )
-    add_port(parser)
+    add_shared(parser, "--port")
     parser.add_argument(
         "--undo",
         action="store_true",
@@ -386,4 +386,4 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="send marks, or numbers, though the machine holds others than those that they were "
         "made for",
     )
-    add_json(parser)
+    add_shared(parser, "--json")

@@ -7,7 +7,6 @@ or as a `machine.toml`.
 from __future__ import annotations
 
 import json
-import math
 import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
@@ -19,7 +18,7 @@ from typing import Any
 from plumb.settings.ini import (
     Key,
     changed_ini,
-    number_for_firmware,
+    new_value,
     published_settings,
     read_settings_ini,
     same_number,
@@ -103,16 +102,12 @@ def changed_webcontrol(
     text = read_text(original_path)
     document = _loaded(text, str(original_path))
     for (section, key), value in changes.items():
-        if not isinstance(value, str) and not math.isfinite(value):
-            raise InputError(
-                original_path, f"{value} is not a usable number", place=f"{section}, {key}"
-            )
+        new = new_value(value, original_path, place=f"{section}, {key}")
         same = [
             option
             for place, option in _options(document)
             if place == section and str(option["key"]).lower() == key.lower()
         ]
-        new = value if isinstance(value, str) else number_for_firmware(value)
         if not same:
             if section not in document:
                 raise InputError(original_path, f"has no section {section}")

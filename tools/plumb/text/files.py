@@ -16,6 +16,7 @@ import tempfile
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager, suppress
 from contextvars import ContextVar
+from itertools import count
 from os import PathLike
 from pathlib import Path
 from typing import Any
@@ -159,6 +160,12 @@ def alone_in(folder: str | PathLike[str]) -> Iterator[None]:
         yield
     finally:
         os.close(handle)
+
+
+def numbered(stem: str) -> Iterator[str]:
+    """Yield a name and its followers, as `machine`, `machine-2` ..."""
+    yield stem
+    yield from (f"{stem}-{number}" for number in count(2))
 
 
 def write_whole(path: str | PathLike[str], content: bytes) -> None:

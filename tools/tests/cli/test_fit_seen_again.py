@@ -103,9 +103,9 @@ def test_marks_of_unknown_settings_are_asked_about(fitted, ask, run):
     ("old", "new", "hint"),
     [
         (r"^rms = .*", "", "[fit]: rms is missing"),
-        (r"^sheet = .*", "sheet = [1, 2]", "[[board]]: an array of 3 numbers"),
+        (r"^sheet = .*", "sheet = [1, 2]", "[[board]] number 1 sheet: an array of 3 numbers"),
         (r"^\[board.cut_with.frame\]", "[board.cut_with.fram]", "unknown name 'fram'"),
-        (r"^\[\[board\]\]", "[board]", "board is not a list of tables"),
+        (r"^\[\[board\]\]", "[board]", "[board]: needs double brackets; write [[board]]"),
     ],
 )
 def test_a_damaged_record_is_refused_with_its_place(old, new, hint, fitted, run):

@@ -31,6 +31,7 @@ from plumb.marks.form import read_form
 from plumb.marks.plausible import from_edges
 from plumb.model.predict import known_effects
 from plumb.settings.machine import MachineSettings
+from plumb.text.answers import like
 from plumb.text.errors import InputError
 from plumb.text.values import shown_in
 from plumb.vm.practice import score, secret_in
@@ -150,13 +151,7 @@ def laid_down(project: Project, file: UploadFile, ending: str) -> Iterator[Path]
 
 def machine_of(settings: MachineSettings, file: str) -> Machine:
     """Return a machine as the page shows it."""
-    return Machine(
-        file=file,
-        controller=settings.controller,
-        sheet=settings.sheet,
-        frame=dict(settings.frame),
-        effects={name: dict(numbers) for name, numbers in settings.effects.items()},
-    )
+    return like(Machine, settings, file=file)
 
 
 # Readings that disagree, asked for after each that is typed.
@@ -220,10 +215,4 @@ class Revealed(BaseModel):
 @router.post("/practice/reveal")
 def reveal(project: TheProject) -> Revealed:
     """Reveal the secret of the folder."""
-    result = score(secret_in(project.folder), opened(project))
-    return Revealed(
-        hidden=result.hidden,
-        sentence=result.sentence,
-        before_mm=result.before_mm,
-        after_mm=result.after_mm,
-    )
+    return like(Revealed, score(secret_in(project.folder), opened(project)))
