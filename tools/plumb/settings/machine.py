@@ -12,11 +12,13 @@ from os import PathLike
 from typing import TYPE_CHECKING, Annotated, Any, Literal, NamedTuple, get_args
 
 import numpy as np
+from pydantic import model_validator
+from pydantic.dataclasses import dataclass as pydantic_dataclass
 
 from plumb import _core
 from plumb.text.answers import meant
 from plumb.text.errors import InputError
-from plumb.text.tables import Number, Table
+from plumb.text.tables import Number, Table, refuse_other_keys
 
 if TYPE_CHECKING:
     from plumb.settings.toml import FitRecord
@@ -47,7 +49,8 @@ class Frame(Table):
 FRAME_FIELDS = tuple(Frame.model_fields)
 
 
-class PublishedSettings(Table):
+@pydantic_dataclass(frozen=True)
+class PublishedSettings:
     """Numbers that only the formulas of the published firmware need, in its units."""
 
     chain_sag_correction: Annotated[Number, meant("$37, 1e-12/mm^2")] = 0.0
@@ -61,6 +64,11 @@ class PublishedSettings(Table):
     chain_length: Annotated[Number, meant("$10, mm")] = 3360.0
     # Read, but used neither by stock nor by holey.
     top_beam_tilt: Annotated[Number, meant("degrees")] = 0.0
+
+    @model_validator(mode="before")
+    @classmethod
+    def _refuse_other_keys(cls, said: Any) -> Any:
+        return refuse_other_keys(cls, said)
 
     @property
     def catenary(self) -> tuple[float, float] | None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import tomllib
 from collections.abc import Collection, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import asdict, dataclass, replace
 from functools import partial
 from os import PathLike
 from typing import Annotated, Any
@@ -212,7 +212,7 @@ INTRODUCTION = """\
 # How these numbers were fitted, in mm and rad; no part of the machine. The lab compares the same
 # marks with it, and knows with which settings they were cut.
 """
-TABLES: Mapping[str, type[Table]] = {
+TABLES: Mapping[str, Any] = {
     "sheet": SheetTable,
     "frame": Frame,
     "published": PublishedSettings,
@@ -222,7 +222,7 @@ TABLES: Mapping[str, type[Table]] = {
 NOTES = {
     f"{table}.{key}": field.description
     for table, kind in TABLES.items()
-    for key, field in kind.model_fields.items()
+    for key, field in kind.__pydantic_fields__.items()
 }
 
 
@@ -244,15 +244,14 @@ def machine_toml(settings: MachineSettings, *, comment: str = "") -> str:
 
 
 def _machine_tables(settings: MachineSettings) -> dict[str, Any]:
-    published = settings.published
-    is_usual = published == PublishedSettings()
+    published = asdict(settings.published) if settings.published != PublishedSettings() else {}
     tables = {
         "controller": settings.controller,
         "feed": settings.feed,
         "sheet": {"width": settings.sheet_width, "height": settings.sheet_height},
         "frame": settings.frame,
         "effects": settings.effects,
-        "published": {} if is_usual else published.model_dump(exclude_none=True),
+        "published": {key: value for key, value in published.items() if value is not None},
     }
     return {name: said for name, said in tables.items() if said != {}}
 

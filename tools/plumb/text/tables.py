@@ -21,6 +21,20 @@ Path = tuple[int | str, ...]  # of a value: the names of tables and keys, and nu
 Number = Annotated[float, BeforeValidator(number)]
 
 
+def refuse_other_keys(kind: Any, said: Any) -> Any:
+    """Return a table as it is, if all its keys are fields, and none is missing."""
+    fields = kind.__pydantic_fields__ if isinstance(said, Mapping) else {}
+    if fields:
+        refuse_unknown(said, fields)
+    for key, field in fields.items():
+        if field.is_required() and key not in said:
+            words = get_args(field.annotation) if get_origin(field.annotation) is Literal else ()
+            choice = " or ".join(f'{key} = "{word}"' for word in words)
+            meaning = f" ({field.description})" if field.description else ""
+            raise ValueError(f"{key} is missing; write {choice or f'{key} = ...{meaning}'}")
+    return said
+
+
 class Table(BaseModel):
     """A table of a file, whose keys are the fields; `meant` says what a number is, and its unit."""
 
@@ -29,17 +43,7 @@ class Table(BaseModel):
     @model_validator(mode="before")
     @classmethod
     def _refuse_other_keys(cls, said: Any) -> Any:
-        if isinstance(said, Mapping):
-            refuse_unknown(said, cls.model_fields)
-        for key, field in cls.model_fields.items():
-            if isinstance(said, Mapping) and field.is_required() and key not in said:
-                words = (
-                    get_args(field.annotation) if get_origin(field.annotation) is Literal else ()
-                )
-                choice = " or ".join(f'{key} = "{word}"' for word in words)
-                meaning = f" ({field.description})" if field.description else ""
-                raise ValueError(f"{key} is missing; write {choice or f'{key} = ...{meaning}'}")
-        return said
+        return refuse_other_keys(cls, said)
 
 
 def part() -> Any:

@@ -25,11 +25,7 @@ def both(numbers):
         feed="top" if numbers.get(38, 1) == 1 else "bottom",
         sprocket_radius=numbers.get(13, 63.5) / (2 * np.pi),
         controller="stock",
-        published=PublishedSettings(
-            chain_sag_correction=numbers.get(37, 0),
-            left_tolerance=numbers.get(40, 0),
-            right_tolerance=numbers.get(41, 0),
-        ),
+        published=PublishedSettings(numbers.get(37, 0), numbers.get(40, 0), numbers.get(41, 0)),
     )
     ours, outcome = lengths(machine_of({7: 2, **numbers}, sheet=SHEET), POINTS)
     assert (outcome == FOUND).all()
@@ -67,13 +63,7 @@ def test_sag_is_that_of_the_published_firmware(numbers, correction, feed):
 
 def test_positive_tolerance_means_a_longer_chain():
     """As in the lab: fewer links reach the same distance."""
-    published = replace(
-        BELIEVED,
-        controller="stock",
-        published=PublishedSettings(
-            chain_sag_correction=10, left_tolerance=0.2, right_tolerance=0.1
-        ),
-    )
+    published = replace(BELIEVED, controller="stock", published=PublishedSettings(10, 0.2, 0.1))
     lab = published.as_plumb_model()
     board = machine_of({8: 139.1, 37: 10, 40: 0.2, 41: 0.1}, sheet=SHEET)
     for side in ("left", "right"):

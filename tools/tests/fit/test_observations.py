@@ -14,11 +14,7 @@ A = Mark("A", (0.0, 0.0), (1.0, 2.0))
 B = Mark("B", (500.0, 100.0))
 C = Mark("C", (-500.0, 100.0), (-501.0, 99.0), sled_weight=120.0, chains=(1500.0, 1600.0))
 BOARD = Measurements((A, B, C), (Distance(("C", "A"), 510.0), Distance(("A", "B"), 509.0)))
-STOCK = replace(
-    BELIEVED,
-    controller="stock",
-    published=PublishedSettings(chain_sag_correction=8.2, left_tolerance=0.1, right_tolerance=0.2),
-)
+STOCK = replace(BELIEVED, controller="stock", published=PublishedSettings(8.2, 0.1, 0.2))
 
 
 def test_rows_are_visits_and_distances_join_them():
@@ -50,10 +46,7 @@ def test_the_option_outweighs_the_marks_and_they_the_settings():
 
 def test_published_settings_mean_what_their_controller_made_of_them():
     holey = replace(
-        STOCK,
-        published=PublishedSettings(
-            chain_sag_correction=8.2, chain_elasticity=5e-6, holey_sled_weight=110.0
-        ),
+        STOCK, published=PublishedSettings(8.2, chain_elasticity=5e-6, holey_sled_weight=110.0)
     )
     model, rows = model_and_observations(holey, BOARD, controller="holey")
     assert model.effect("chain_stretch", "compliance") == 5e-6

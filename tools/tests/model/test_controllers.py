@@ -59,13 +59,7 @@ def stock_by_hand(settings, x, y):
 
 
 @pytest.mark.parametrize("feed", ["top", "bottom"])
-@pytest.mark.parametrize(
-    "published",
-    [
-        PublishedSettings(),
-        PublishedSettings(chain_sag_correction=27.4, left_tolerance=0.348, right_tolerance=-0.08),
-    ],
-)
+@pytest.mark.parametrize("published", [PublishedSettings(), PublishedSettings(27.4, 0.348, -0.08)])
 def test_stock_agrees_with_a_derivation_by_vectors(feed, published):
     settings = replace(OWNER, feed=feed, published=published)
     lengths = chain_lengths(settings, POINTS)
@@ -78,7 +72,7 @@ def test_stock_agrees_with_a_derivation_by_vectors(feed, published):
 def test_published_sag_figures(gap, added):
     """An owner's printed 2.6 and 3.8 mm: correction 27.4, far chain at the lower mark."""
     plain = replace(OWNER, motor_gap=gap)
-    sagging = replace(plain, published=PublishedSettings(chain_sag_correction=27.4))
+    sagging = replace(plain, published=PublishedSettings(27.4))
     mark = [(965.2, -355.6)]
     difference = chain_lengths(sagging, mark) - chain_lengths(plain, mark)
     assert difference[0, 0] == pytest.approx(added, abs=0.001)
@@ -87,13 +81,7 @@ def test_published_sag_figures(gap, added):
 HOLEY = replace(
     OWNER,
     controller="holey",
-    published=PublishedSettings(
-        chain_sag_correction=33.0,
-        left_tolerance=0.1,
-        right_tolerance=0.25,
-        chain_elasticity=8.1e-6,
-        holey_sled_weight=113.68,
-    ),
+    published=PublishedSettings(33.0, 0.1, 0.25, chain_elasticity=8.1e-6, holey_sled_weight=113.68),
 )
 
 

@@ -21,10 +21,7 @@ STOCK = MachineSettings(
 
 def test_stock_corrections_become_effects():
     stock = replace(
-        STOCK,
-        published=PublishedSettings(
-            chain_sag_correction=27.4, left_tolerance=0.1, right_tolerance=0.3
-        ),
+        STOCK, published=PublishedSettings(27.4, left_tolerance=0.1, right_tolerance=0.3)
     )
     model = stock.as_plumb_model()
     assert model.effects["chain_sag"]["weight_ratio_squared"] == pytest.approx(27.4e-12)
@@ -36,12 +33,7 @@ def test_stock_corrections_become_effects():
 
 @pytest.mark.parametrize(("left", "right"), [(0.2, 0.2), (0.3, -0.1)])
 def test_the_radius_keeps_the_lengths(left, right):
-    stock = replace(
-        STOCK,
-        published=PublishedSettings(
-            chain_sag_correction=0.0, left_tolerance=left, right_tolerance=right
-        ),
-    )
+    stock = replace(STOCK, published=PublishedSettings(0.0, left, right))
     model = stock.as_plumb_model()
     points = np.array([[0.0, 0.0], [900.0, -500.0], [-900.0, 500.0]])
     plain = replace(STOCK, rotation_radius=0.0)
@@ -64,9 +56,7 @@ def test_holey_settings_become_effects():
     holey = replace(
         STOCK,
         controller="holey",
-        published=PublishedSettings(
-            chain_sag_correction=33.0, chain_elasticity=5.1685e-6, holey_sled_weight=113.68
-        ),
+        published=PublishedSettings(33.0, chain_elasticity=5.1685e-6, holey_sled_weight=113.68),
     )
     model = holey.as_plumb_model()
     assert model.sled_weight == 113.68

@@ -47,13 +47,7 @@ def test_corrections_and_the_keys_of_webcontrol(tmp_path):
     path.write_bytes(b"\xef\xbb\xbf" + text.replace("\n", "\r\n").encode())
     settings = read_settings(path)
     assert settings.published == PublishedSettings(
-        chain_sag_correction=27.394023,
-        left_tolerance=0.3479,
-        right_tolerance=-0.08,
-        chain_elasticity=5.1685e-6,
-        holey_sled_weight=113.68,
-        chain_length=3360.0,
-        top_beam_tilt=0.07,
+        27.394023, 0.3479, -0.08, 5.1685e-6, 113.68, 3360.0, 0.07
     )
     assert (settings.sled_weight, settings.feed) == (113.68, "bottom")
 
@@ -66,11 +60,7 @@ def test_a_sled_weight_of_zero_is_a_switch_and_no_weight(tmp_path):
 @pytest.mark.parametrize(
     ("old", "new", "hint"),
     [
-        (
-            f"{key} = ",
-            f"x{key[1:]}zz = ",
-            f"(?i){key} is missing in .{section} Settings.|did you mean {key}",
-        )
+        (f"{key} = ", f"{key[:3]} = ", f"(?i){key} is missing in .{section} Settings.")
         for section, key in (
             ("Maslow", "motorspacingx"),
             ("Maslow", "bedwidth"),
@@ -97,28 +87,16 @@ def test_a_sled_weight_of_zero_is_a_switch_and_no_weight(tmp_path):
         ("chainpitch = 6.35", "chainpitch = 0.25", "chainPitch .*inches"),
         ("leftchaintolerance = 0", "leftchaintolerance = 50", "leftchaintolerance: 50 percent"),
         ("leftchaintolerance = 0", "leftchaintolerence = 0.3", "did you mean leftChainTolerance"),
-        (
-            "rotationradius = 139.1",
-            "rotatonradius = 139.1",
-            "line 40, .* did you mean rotationRadius",
-        ),
+        ("rotationradius = 139.1", "rotatonradius = 139.1", "line 40, .*mean rotationRadius"),
         ("chainsagcorrection = 0", "chainsagcorrection = 1e9", "chainsagcorrection: 1e.09"),
         ("sledcg = 79", "sledcg = 79\nsledweight = 22", "sledweight: 22 N .*pounds"),
-        (
-            "chainoversprocket = Top",
-            "chainoversprocket = 1",
-            "'1' is not known; write one of top, bottom",
-        ),
+        ("chainoversprocket = Top", "chainoversprocket = 1", "'1' .*write one of top, bottom"),
         (
             "kinematicstype = Triangular",
             "kinematicstype = Quadrilateral",
             "two brackets, which the lab does not know",
         ),
-        (
-            "kinematicstype = Triangular",
-            "kinematicstype = Tri",
-            "'tri' is not known; write one of triangular",
-        ),
+        ("kinematicstype = Triangular", "kinematicstype = Tri", "write one of triangular"),
         ("[Maslow Settings]\n", "", "line 4: a value comes before the first .section."),
     ],
 )

@@ -36,23 +36,12 @@ SETTINGS = MachineSettings(
         replace(
             SETTINGS,
             controller="stock",
-            published=PublishedSettings(
-                chain_sag_correction=27.4,
-                left_tolerance=0.1,
-                right_tolerance=0.2,
-                top_beam_tilt=0.07,
-            ),
+            published=PublishedSettings(27.4, 0.1, 0.2, top_beam_tilt=0.07),
         ),
         replace(
             SETTINGS,
             controller="holey",
-            published=PublishedSettings(
-                chain_sag_correction=0.0,
-                left_tolerance=0.1,
-                right_tolerance=0.2,
-                chain_elasticity=5.17e-6,
-                holey_sled_weight=97.9,
-            ),
+            published=PublishedSettings(0.0, 0.1, 0.2, 5.17e-6, 97.9),
         ),
     ],
 )
@@ -101,11 +90,7 @@ def test_what_need_not_be_said_has_defaults(tmp_path):
         ("[effects.chain_sag]", "[effects.chain_sagg]", "'chain_sagg'; did you mean chain_sag"),
         ("left = ", "lefd = ", "effects.chain_pitch.: unknown name 'lefd'; did you mean left"),
         ("left = 0.1002", "left = inf #", "effects.chain_pitch. left: inf"),
-        (
-            "[effects.chain_sag]",
-            "[effects]\nsag = 3\n[effects.chain_sag]",
-            "effects. sag: is not a table; write a line .effects.sag",
-        ),
+        ("[effects.chain_sag]", "[effects]\nsag = 3\n[effects.chain_sag]", "sag: is not a table"),
         ("[sheet]", "[[mark]]\n[sheet]", "holds marks"),
         ("[frame]", "[[frame]]", "frame: is not a table"),
     ],
