@@ -23,12 +23,12 @@ from plumb.grid import (
     spans_of,
     touches_of,
 )
-from plumb.grid.cut_with import cut_with_lines, with_form
 from plumb.grid.options import APPROACH, NUMBERS, UNITS, demand, pairs
 from plumb.model.plain import noun_of, plain_before
 from plumb.model.reach import plain_machine, refuse_way, with_soft_chains
 from plumb.pictures.grid_paper import grid_paper
 from plumb.plan.preview import POWER, Outline, Preview, as_read, preview
+from plumb.settings.cut_with import cut_with_lines, with_form
 from plumb.settings.machine import MachineSettings
 from plumb.text.answers import meant
 from plumb.text.errors import InputError

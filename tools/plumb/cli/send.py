@@ -19,7 +19,6 @@ from plumb.cli.screen import Prompt, free_name, next_step, print_json, sentences
 from plumb.diary.file import PROGRAM, keep, program_entry, write_and_keep
 from plumb.firmware.settings import refuse_other_numbers, refuse_other_origin
 from plumb.firmware.telemetry import telemetry_in, warnings
-from plumb.grid.cut_with import form_of
 from plumb.job.dry_run import program_in, refuse_other_files
 from plumb.line.memory import WrittenNumbers, kept_before, lines_for, read_numbers
 from plumb.line.port import LostError, SerialPort, port_for
@@ -28,6 +27,7 @@ from plumb.line.reached import SureLines
 from plumb.line.sender import PAUSED, RefusedError, Sender, StoppedError, cleaned
 from plumb.marks.form import read_form
 from plumb.model.predict import known_effects
+from plumb.settings.cut_with import form_of
 from plumb.settings.files import read_settings
 from plumb.settings.machine import MachineSettings
 from plumb.text.answers import meant

@@ -24,9 +24,8 @@ from plumb.firmware.settings import (
 from plumb.settings.files import changed_client_file, parse_client_file
 from plumb.settings.ini import SOURCES, Key, groundcontrol_changes, number_for_firmware
 from plumb.settings.machine import MachineSettings
-from plumb.text.errors import InputError, naming, to_do
-from plumb.text.ini import IniEntry, IniText
-from plumb.text.values import number_in
+from plumb.text.errors import InputError, to_do
+from plumb.text.ini import IniText
 
 # What clients work out before they send it.
 KINEMATICS, CHAIN_PER_TURN, FEED = 7, 13, 38
@@ -106,17 +105,26 @@ def gcode(numbers: tuple[SentSetting, ...]) -> bytes:
 
 def client_numbers(ini: IniText) -> dict[int, float]:
     """Return what a client sends of this file that says where the sled hangs, by $-number."""
+
+    def said(name: str) -> str:
+        section, key = SOURCES[name]
+        return ini.needed(key, section=section).value.lower()
+
+    teeth, pitch = (
+        ini.number(key, section=section)
+        for section, key in (SOURCES["gear_teeth"], SOURCES["link_pitch"])
+    )
     numbers = {
-        KINEMATICS: 1.0 if _said(ini, "kinematics").value.lower() == "quadrilateral" else 2.0,
-        CHAIN_PER_TURN: _number(_said(ini, "gear_teeth"), ini)
-        * _number(_said(ini, "link_pitch"), ini),
-        FEED: 1.0 if _said(ini, "feed").value.lower() == "top" else 2.0,
+        KINEMATICS: 1.0 if said("kinematics") == "quadrilateral" else 2.0,
+        CHAIN_PER_TURN: teeth * pitch,
+        FEED: 1.0 if said("feed") == "top" else 2.0,
     }
     for setting in every_setting():
         section, _, key = setting.key.partition(": ")
-        entry = ini.find(key, section=f"{section} Settings") if key else None
-        if entry and "geometry" in setting.touches and setting.number not in numbers:
-            numbers[setting.number] = _number(entry, ini)
+        named = f"{section} Settings"
+        is_said = key and ini.find(key, section=named)
+        if is_said and "geometry" in setting.touches and setting.number not in numbers:
+            numbers[setting.number] = ini.number(key, section=named)
     return numbers
 
 
@@ -175,16 +183,3 @@ def _put_in_place(client: str, name: str) -> str:
     if client == "webcontrol":
         return f"stop WebControl, put {name} in place of its webcontrol.json, and start it again"
     return f"close GroundControl, put {name} in place of its groundcontrol.ini, and connect"
-
-
-def _said(ini: IniText, name: str) -> IniEntry:
-    section, key = SOURCES[name]
-    entry = ini.find(key, section=section)
-    if entry is None:
-        raise InputError(ini.source, f"{key} is missing in [{section}]")
-    return entry
-
-
-def _number(entry: IniEntry, ini: IniText) -> float:
-    with naming(ini.source, entry.place):
-        return number_in(entry.value)

@@ -12,7 +12,6 @@ from plumb import api
 from plumb.fit.inputs import settings_in
 from plumb.fit.problem import PRIORS, Checked
 from plumb.grid import PRESETS, Grid, PlainMachine, marks_list, spans_of, touches_of
-from plumb.grid.cut_with import cut_with_lines, digest_of, with_form
 from plumb.grid.pattern import Touch
 from plumb.lab.known import refuse_absurd_known, stated
 from plumb.lab.project import Choices, Layout, Project
@@ -22,6 +21,7 @@ from plumb.marks.read import Mark, read_marks
 from plumb.model.predict import known_effects
 from plumb.model.reach import plain_machine, refuse_way, with_soft_chains
 from plumb.plan.options import MARK, READING, ROUND
+from plumb.settings.cut_with import cut_with_lines, digest_of, with_form
 from plumb.settings.machine import MachineSettings
 from plumb.text.errors import InputError
 from plumb.text.files import is_ours, numbered

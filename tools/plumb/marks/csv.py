@@ -18,7 +18,7 @@ from plumb.text.errors import InputError, naming
 from plumb.text.files import read_text
 from plumb.text.ini import IniText, read_ini
 from plumb.text.tables import Path, read_table
-from plumb.text.values import INCH, length_in, number_in, refuse_unknown
+from plumb.text.values import INCH, length_in, refuse_unknown
 
 # The columns of each key that a table [[mark]] of a marks.toml has.
 COLUMNS = {
@@ -176,13 +176,7 @@ def read_marks_ini(path: str | PathLike[str], *, sheet: Sheet) -> Measurements:
 
 def _count(ini: IniText) -> int:
     """Return how many positions the file says it has, if it has exactly those."""
-    entry = ini.find("numpositions", section="global")
-    if entry is None:
-        raise InputError(
-            ini.source,
-            "numpositions is missing",
-            remedy="add [global] numpositions = how many marks there are",
-        )
+    entry = ini.needed("numpositions", section="global")
     if not entry.value.isascii() or not entry.value.isdigit() or int(entry.value) == 0:
         raise InputError(
             ini.source,
@@ -205,16 +199,5 @@ def _count(ini: IniText) -> int:
 
 def _point(ini: IniText, section: str, prefix: str, index: int) -> Point:
     """Return a point of the file, as written [mm]."""
-    values = []
-    for axis in ("x", "y"):
-        key = f"{prefix}{axis}{index}"
-        entry = ini.find(key, section=section)
-        if entry is None:
-            raise InputError(
-                ini.source,
-                f"{key} is missing in [{section}]",
-                remedy="add it, or correct numpositions",
-            )
-        with naming(ini.source, entry.place):
-            values.append(number_in(entry.value))
-    return values[0], values[1]
+    x, y = (ini.number(f"{prefix}{axis}{index}", section=section) for axis in ("x", "y"))
+    return x, y

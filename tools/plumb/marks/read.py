@@ -85,11 +85,7 @@ def _form_of(path: str | PathLike[str]) -> str:
     text = read_bytes(path).decode("utf-8-sig", "replace").lower()
     lines = [line.strip() for line in text.splitlines()]
     lines = [line for line in lines if line and line[0] not in "#;"]
-    if any(line.startswith("[maslow settings]") for line in lines):
-        raise InputError(
-            path, "holds settings, not marks", remedy="give SETTINGS first, then MARKS"
-        )
-    if any(re.match(r"\[(sheet|effects\..*)\]", line) for line in lines):
+    if any(re.match(r"\[(maslow settings|sheet|effects\..*)\]", line) for line in lines):
         raise InputError(
             path, "holds settings, not marks", remedy="give SETTINGS first, then MARKS"
         )

@@ -11,9 +11,9 @@ from typing import Annotated, Any, Literal
 
 from pydantic import AfterValidator, BeforeValidator, StrictBool, ValidationInfo, model_validator
 
-from plumb.grid.cut_with import settings_as_they_were
 from plumb.marks.model import Distance, Mark, Measurements, Point, Round, Typed
 from plumb.marks.plausible import Sheet, to_machine
+from plumb.settings.cut_with import settings_as_they_were
 from plumb.settings.files import read_settings
 from plumb.settings.machine import Controller
 from plumb.text.answers import meant

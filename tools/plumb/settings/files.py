@@ -70,9 +70,9 @@ def changed_client_file(original_path: str, changes: Mapping[Key, float | str]) 
 
 def parse_client_file(content: bytes, *, source: str) -> IniText:
     """Return the entries of a client's file."""
-    if source.lower().endswith(WEBCONTROL_ENDING):
-        return parse_webcontrol(content.decode("utf-8"), source=source)
-    return parse_ini(content.decode("utf-8", "surrogateescape"), source=source)
+    text = content.decode("utf-8-sig", "surrogateescape")
+    is_json = text.lstrip().startswith("{")
+    return (parse_webcontrol if is_json else parse_ini)(text, source=source)
 
 
 # `webcontrol.json`: the settings of WebControl, by the sections and keys of a groundcontrol.ini.

@@ -135,14 +135,12 @@ def _entries(ini: IniText) -> dict[str, IniEntry]:
     entries = {}
     for name, (section, key) in SOURCES.items():
         entry = ini.find(key, section=section)
-        if entry:
-            entries[name] = entry
-        elif near := _misspelt(ini, key):
+        near = None if entry else _misspelt(ini, key)
+        if near:
             what = f"unknown key; did you mean {key}?"
             raise InputError(ini.source, what, place=near, remedy="correct it or remove the line")
-        elif Published.model_fields[name].is_required():
-            what, remedy = f"{key} is missing in [{section}]", f"add {key} = ... below [{section}]"
-            raise InputError(ini.source, what, remedy=remedy)
+        if entry or Published.model_fields[name].is_required():
+            entries[name] = ini.needed(key, section=section)
     return entries
 
 

@@ -160,19 +160,15 @@ def machine_in(
     if file.fit is None:
         return machine
     boards = tuple(
-        FittedBoard(
-            marks=board.marks,
-            digest=board.digest,
-            cut_with=replace(
-                _machine(board.cut_with, source, known, place="board.cut_with."),
-                file=SettingsFile(board.cut_with.file, board.cut_with.sha256),
-            ),
-            sheet=board.sheet,
-            zeros=board.zeros,
-        )
+        FittedBoard(**{**dict(board), "cut_with": _cut_with(board.cut_with, source, known)})
         for board in file.board
     )
     return replace(machine, fitted=FitRecord(**dict(file.fit), boards=boards))
+
+
+def _cut_with(table: CutWith, source: str | PathLike[str], known: Known) -> MachineSettings:
+    machine = _machine(table, source, known, place="board.cut_with.")
+    return replace(machine, file=SettingsFile(table.file, table.sha256))
 
 
 def _machine(
@@ -259,10 +255,7 @@ def _machine_tables(settings: MachineSettings) -> dict[str, Any]:
 def _record_tables(record: FitRecord) -> dict[str, Any]:
     boards: list[dict[str, Any]] = [
         {
-            "marks": board.marks,
-            "digest": board.digest,
-            "sheet": list(board.sheet),
-            "zeros": list(board.zeros),
+            **vars(board),
             "cut_with": {
                 **_file_of(board.cut_with),
                 **_machine_tables(board.cut_with),

@@ -10,8 +10,9 @@ import re
 from dataclasses import dataclass
 from os import PathLike
 
-from plumb.text.errors import InputError
+from plumb.text.errors import InputError, naming
 from plumb.text.files import text_bytes
+from plumb.text.values import number_in
 
 _ENTRY = re.compile(r"(?P<head>\s*(?P<key>[^=:\s][^=:]*?)\s*[=:][ \t]*)(?P<value>.*?)(?P<tail>\s*)")
 _SECTION = re.compile(r"\s*\[(?P<name>[^]]+)\]\s*([#;].*)?")
@@ -64,6 +65,20 @@ class IniText:
                 remedy=f"keep the entry in [{section}]",
             )
         return same[0] if same else None
+
+    def needed(self, key: str, *, section: str) -> IniEntry:
+        """Return the entry of that key, or raise InputError."""
+        entry = self.find(key, section=section)
+        if entry is None:
+            remedy = f"add {key} = ... below [{section}]"
+            raise InputError(self.source, f"{key} is missing in [{section}]", remedy=remedy)
+        return entry
+
+    def number(self, key: str, *, section: str) -> float:
+        """Return the number of that key, or raise InputError."""
+        entry = self.needed(key, section=section)
+        with naming(self.source, entry.place):
+            return number_in(entry.value)
 
 
 def read_ini(path: str | PathLike[str]) -> IniText:

@@ -11,6 +11,7 @@ from plumb.diary.file import FIT, Diary, noted, read_diary
 from plumb.diary.history import Course, DiaryFit, history_of
 from plumb.lab.routes.project import TheProject
 from plumb.model.plain import plain_change, plainly
+from plumb.text.answers import like
 from plumb.text.values import shown_in
 
 router = APIRouter(tags=["diary"])
@@ -84,11 +85,9 @@ def _course(course: Course) -> NumberCourse:
         noun=words.noun,
         unit=words.unit,
         points=[
-            CoursePoint(
-                at=point.at,
-                value=point.value,
-                low=point.low,
-                high=point.high,
+            like(
+                CoursePoint,
+                point,
                 said=plain_change(
                     course.name, point.value, point.value, point.low, point.high
                 ).after,

@@ -306,10 +306,4 @@ def _extremes(survey: Survey) -> Iterable[ExtremeAnswer]:
     ]
     for title, extreme, unit in each:
         if extreme:
-            yield ExtremeAnswer(
-                title=title,
-                place=extreme.place,
-                value=extreme.value,
-                unit=unit,
-                side=extreme.side,
-            )
+            yield like(ExtremeAnswer, extreme, title=title, unit=unit)
