@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import Any, Literal
+from typing import Literal
 
 from typing_extensions import TypedDict
 
@@ -24,6 +24,18 @@ Curve = Literal["straight", "square", "tangent squared"]  # of the tangent: degr
 Unit = Literal["mm", "kg", "g", "degrees"]
 
 
+class ReadingWords(TypedDict):
+    """Reading on a rule or a scale, from which a parameter follows."""
+
+    title: str
+    unit: Unit
+    usual: float
+    factor: float
+    digits: int
+    zero: float
+    curve: Curve
+
+
 class ParameterWords(TypedDict):
     """Words for people about a parameter of an effect."""
 
@@ -36,7 +48,7 @@ class ParameterWords(TypedDict):
     summary: str
     sigma: float
     plain: PlainWords | None
-    reading: dict[str, Any] | None  # the fields of RuleReading
+    reading: ReadingWords | None
     published: tuple[int, float] | None
 
 
