@@ -34,7 +34,7 @@ from plumb.settings.machine import MachineSettings
 from plumb.text.answers import like
 from plumb.text.errors import InputError
 from plumb.text.values import shown_in
-from plumb.vm.practice import score, secret_in
+from plumb.vm.practice import Score, score, secret_in
 
 router = APIRouter(tags=["project"])
 # A settings' file gets a name of ours, whatever its owner calls it.
@@ -203,16 +203,7 @@ def _from_edges(doubt: Doubted, sheet: tuple[float, float], corner: str) -> Doub
 # Practice: what the folder's virtual machine hides, and what the opened settings are worth.
 
 
-class Revealed(BaseModel):
-    """The hidden effect; error of the sled all over the sheet [mm RMS]."""
-
-    hidden: str
-    sentence: str
-    before_mm: float
-    after_mm: float | None  # by the opened settings; None where a place is out of their reach
-
-
 @router.post("/practice/reveal")
-def reveal(project: TheProject) -> Revealed:
+def reveal(project: TheProject) -> Score:
     """Reveal the secret of the folder."""
-    return like(Revealed, score(secret_in(project.folder), opened(project)))
+    return score(secret_in(project.folder), opened(project))
