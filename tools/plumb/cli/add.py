@@ -329,15 +329,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         action="store_true",
         help="also fit a smooth map of the errors that no effect explains; it is no physics",
     )
-    add_shared(parser, "--without", ("-o --output", "write the fitted machine to this file"))
+    add_shared(parser, "--without", output="write the fitted machine to this file")
     add_client(parser)
     add_firmware(parser)
     add_stated(parser, sigma="tape_sigma_mm of MARKS and their scatter")
-    add_shared(
-        parser,
-        ("--picture", "draw how the error falls"),
-        ("--details", "how the error falls, and all that is to be known of the numbers"),
-        "--force",
-        "--units",
-        "--json",
-    )
+    add_shared(parser, picture="draw how the error falls")
+    add_shared(parser, details="how the error falls, and all that is to be known of the numbers")
+    add_shared(parser, "--force", "--units", "--json")

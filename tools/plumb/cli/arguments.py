@@ -147,10 +147,11 @@ BOARD = ("settings", "marks", "--cut-with", "--controller")  # and how these wer
 PROGRAM = ("job", "settings", "--start", "--set")
 
 
-def add_shared(parser: argparse.ArgumentParser, *names: str | tuple[str, str]) -> None:
+def add_shared(parser: argparse.ArgumentParser, *names: str, **said: str) -> None:
     """Add shared arguments; with some goes what the command says of them."""
-    for each in names:
-        name, said = (each, "") if isinstance(each, str) else each
-        argument = SHARED[name]
-        named = {**argument, "help": argument["help"].replace("{}", said)}
-        parser.add_argument(*name.split(), **named)
+    words = {next(each for each in SHARED if each.endswith(f"--{name}")): name for name in said}
+    for name in (*names, *words):
+        argument = dict(SHARED[name])
+        if name in words:
+            argument["help"] = argument["help"].format(said[words[name]])
+        parser.add_argument(*name.split(), **argument)

@@ -160,25 +160,17 @@ EXIT = (
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the arguments of `plumb calibrate`."""
+    add_shared(parser, *BOARD, "--without")
     add_shared(
         parser,
-        *BOARD,
-        "--without",
-        (
-            "-o --output",
-            "the new machine.toml [machine.toml, or machine-2.toml and so on if that exists]",
-        ),
+        output="the new machine.toml [machine.toml, or machine-2.toml and so on if that exists]",
     )
     add_client(parser)
     add_firmware(parser)
     add_stated(parser, sigma="as plumb diagnose takes it")
-    add_shared(
-        parser,
-        "--units",
-        ("--details", "what the marks say, and what was fitted"),
-        "--force",
-        "--json",
-    )
+    add_shared(parser, "--units")
+    add_shared(parser, details="what the marks say, and what was fitted")
+    add_shared(parser, "--force", "--json")
 
 
 # What `plumb calibrate` says to people: the size of the error, a verdict, and what to do.

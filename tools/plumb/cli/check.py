@@ -224,7 +224,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         ("--thickness", "how thick the sheet is", "what JOB says, else 19.05"),
     ):
         parser.add_argument(option, metavar="MM", type=length, help=f"{of} [{usual}]")
-    add_shared(parser, ("--picture", "draw the job on its sheet, shaded by depth"))
+    add_shared(parser, picture="draw the job on its sheet, shaded by depth")
     parser.add_argument(
         "--outline",
         metavar="FILE",

@@ -234,12 +234,7 @@ EXIT = "Exit: 0 done; 2 an input cannot be used."
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the arguments of `plumb compare`."""
-    add_shared(
-        parser,
-        *BOARD,
-        "--units",
-        ("--picture", "draw the errors"),
-        ("--details", "every mark, the chains, and how the sheet would have to move"),
-        "--force",
-        "--json",
-    )
+    add_shared(parser, *BOARD, "--units")
+    add_shared(parser, picture="draw the errors")
+    add_shared(parser, details="every mark, the chains, and how the sheet would have to move")
+    add_shared(parser, "--force", "--json")

@@ -218,9 +218,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the arguments of `plumb diagnose`."""
     add_shared(parser, *BOARD)
     add_stated(parser, sigma="tape_sigma_mm of MARKS and their scatter")
-    add_shared(
-        parser,
-        "--units",
-        ("--details", "all accounts with their sizes, and what these marks cannot show"),
-        "--json",
-    )
+    add_shared(parser, "--units")
+    add_shared(parser, details="all accounts with their sizes, and what these marks cannot show")
+    add_shared(parser, "--json")

@@ -254,12 +254,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     group.add_argument("--new-sheet", action="store_true", help=another)
     paper = "also write a sheet to print: the holes with their numbers, and boxes to fill in"
     group.add_argument("--paper", metavar="FILE.pdf", help=paper)
-    add_shared(
-        parser,
-        "--force",
-        ("--details", "what such marks could tell; without files, that alone"),
-        "--json",
-    )
+    add_shared(parser, "--force")
+    add_shared(parser, details="what such marks could tell; without files, that alone")
+    add_shared(parser, "--json")
 
 
 def _add_number(group: argparse._ArgumentGroup, name: str) -> None:

@@ -110,7 +110,7 @@ class Measured(NamedTuple):
 
 def add_stated(parser: argparse.ArgumentParser, *, sigma: str) -> None:
     """Add the options --prior, --sigma and --checked; `sigma` says what holds without it."""
-    add_shared(parser, "--prior", ("--sigma", sigma))
+    add_shared(parser, "--prior", sigma=sigma)
     parser.add_argument(
         "--checked",
         metavar="NAME=VALUE+-SIGMA",

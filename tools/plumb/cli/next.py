@@ -315,7 +315,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="the number of the proposal for --picture, --marks and --output [the best that has "
         "them]",
     )
-    add_shared(parser, ("--picture", "draw the proposal on the sheet"))
+    add_shared(parser, picture="draw the proposal on the sheet")
     parser.add_argument(
         "--marks", dest="template", metavar="FILE", help="write a marks.toml to fill in"
     )
@@ -328,10 +328,5 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="the settings that the machine has now, if they are not those of MARKS; the form "
         "names them",
     )
-    add_shared(
-        parser,
-        ("--details", "all proposals, and how their order comes about"),
-        "--force",
-        "--units",
-        "--json",
-    )
+    add_shared(parser, details="all proposals, and how their order comes about")
+    add_shared(parser, "--force", "--units", "--json")

@@ -178,7 +178,7 @@ EXIT = "Exit: 0 done; 2 an input cannot be used."
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the arguments of `plumb reach`."""
     usual = _core.reach_limits()
-    add_shared(parser, "settings", ("-o --output", "draw the map: .png, .svg or .pdf"))
+    add_shared(parser, "settings", output="draw the map: .png, .svg or .pdf")
     for name, (measure, meaning) in OPTIONS.items():
         parser.add_argument(
             "--" + name.replace("_", "-"),

@@ -120,10 +120,6 @@ EXIT = "Exit: 0 done; 2 no machine answers, or the file cannot be written."
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the arguments of `plumb read`."""
-    add_shared(
-        parser,
-        "--port",
-        ("-o --output", "write the numbers to this file, as a machine.toml"),
-        "--force",
-        "--json",
-    )
+    add_shared(parser, "--port")
+    add_shared(parser, output="write the numbers to this file, as a machine.toml")
+    add_shared(parser, "--force", "--json")

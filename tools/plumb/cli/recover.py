@@ -72,14 +72,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         action="store_true",
         help="the holes are in the frame or its board, not in a sheet that can move",
     )
-    add_shared(
-        parser,
-        ("--sigma", "0.5; with --taped what the fit of SETTINGS left, if that is more"),
-        ("-o --output", "write the program to this file"),
-        "--force",
-        "--units",
-        "--json",
-    )
+    add_shared(parser, sigma="0.5; with --taped what the fit of SETTINGS left, if that is more")
+    add_shared(parser, output="write the program to this file")
+    add_shared(parser, "--force", "--units", "--json")
 
 
 def named_place(text: str) -> tuple[str, Point]:

@@ -123,13 +123,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_shared(parser, "settings")
     parser.add_argument("--to", choices=FORMS, default="table", help="what to write [%(default)s]")
     add_client(parser)
-    add_shared(
-        parser,
-        ("-o --output", "write to this file, not to the screen"),
-        ("--details", "the numbers that are 0"),
-        "--force",
-        "--json",
-    )
+    add_shared(parser, output="write to this file, not to the screen")
+    add_shared(parser, details="the numbers that are 0")
+    add_shared(parser, "--force", "--json")
 
 
 # What belongs to the client that was named, and what the owner does with it.

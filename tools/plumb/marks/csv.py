@@ -41,18 +41,16 @@ def read_marks_csv(path: str | PathLike[str]) -> Measurements:
     titles = [cell.lower() for cell in header]
     columns = [_in_millimetres(title) for title in titles]
     units = {column: INCH for column, title in zip(columns, titles, strict=True) if column != title}
-    _check_header(path, line, columns)
+    with naming(path, f"line {line}"):
+        _check_header(columns)
     if len(rows) == 1:
         raise InputError(path, "has no marks below its header", remedy="add one line for each mark")
     marks = []
     for line, cells in rows[1:]:
-        if len(cells) != len(columns):
-            raise InputError(
-                path,
-                f"{len(cells)} values where the header has {len(columns)}",
-                place=f"line {line}",
-                remedy="write one value for each column",
-            )
+        with naming(path, f"line {line}"):
+            if len(cells) != len(columns):
+                many = f"{len(cells)} values where the header has {len(columns)}"
+                raise ValueError(f"{many}; write one value for each column")
         marks.append(_mark(path, line, dict(zip(columns, cells, strict=True)), units))
     return Measurements(marks=marks_of(marks), source=str(path))
 
@@ -106,30 +104,20 @@ def _rows(path: str | PathLike[str]) -> list[tuple[int, list[str]]]:
     return rows
 
 
-def _check_header(path: str | PathLike[str], line: int, columns: list[str]) -> None:
-    place = f"line {line}"
+def _check_header(columns: list[str]) -> None:
     if len(columns) == 1 and (";" in columns[0] or "\t" in columns[0]):
-        raise InputError(
-            path,
-            "the columns are not separated by commas",
-            place=place,
-            remedy="save it comma-separated, with decimal points",
+        raise ValueError(
+            "the columns are not separated by commas; save it comma-separated, with decimal points"
         )
     if len(set(columns)) < len(columns):
         twin = next(column for column in columns if columns.count(column) > 1)
-        raise InputError(path, f"column {twin} stands twice", place=place, remedy="remove a column")
+        raise ValueError(f"column {twin} stands twice; remove a column")
     if not set(columns) & set(NEEDED):
-        raise InputError(
-            path,
-            "the first line does not name the columns",
-            place=place,
-            remedy=f"begin with {','.join(NEEDED)}",
-        )
-    with naming(path, place):
-        refuse_unknown(columns, NEEDED + OPTIONAL)
-        for column in NEEDED:
-            if column not in columns:
-                raise ValueError(f"column {column} is missing; needed are {', '.join(NEEDED)}")
+        raise ValueError(f"the first line does not name the columns; begin with {','.join(NEEDED)}")
+    refuse_unknown(columns, NEEDED + OPTIONAL)
+    for column in NEEDED:
+        if column not in columns:
+            raise ValueError(f"column {column} is missing; needed are {', '.join(NEEDED)}")
 
 
 def _mark(
