@@ -5,7 +5,6 @@ from __future__ import annotations
 import argparse
 from collections.abc import Sequence
 from dataclasses import dataclass
-from os import PathLike
 from typing import Annotated
 
 import numpy as np
@@ -25,7 +24,7 @@ from plumb.model.predict import (
 )
 from plumb.settings.machine import MachineSettings
 from plumb.text.answers import among, key
-from plumb.text.errors import InputError, naming
+from plumb.text.errors import InputError, Source, naming
 from plumb.text.files import read_text
 from plumb.text.values import bare, number_in, unit
 
@@ -163,7 +162,7 @@ def answers_table(
 # Pairs of numbers from a comma-separated file: places x,y or chains left,right [mm].
 
 
-def read_pairs(path: str | PathLike[str], *, names: tuple[str, str]) -> np.ndarray:
+def read_pairs(path: Source, *, names: tuple[str, str]) -> np.ndarray:
     """Return the pairs (n, 2) [mm]; a header of the two names and lines that begin with # are
     allowed.
     """
@@ -196,7 +195,7 @@ def _is_header(cells: list[str]) -> bool:
 
 
 def _check_header(
-    path: str | PathLike[str], line: int, cells: list[str], names: tuple[str, str], form: str
+    path: Source, line: int, cells: list[str], names: tuple[str, str], form: str
 ) -> None:
     """Refuse columns that are exchanged, or in another unit."""
     allowed = [{name, f"{name}_mm", f"{name} mm", f"{name} [mm]", f"{name} (mm)"} for name in names]

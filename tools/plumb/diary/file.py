@@ -14,7 +14,6 @@ from dataclasses import dataclass
 from datetime import datetime
 from hashlib import sha256
 from importlib.metadata import version
-from os import PathLike
 from pathlib import Path
 from typing import Any
 
@@ -23,14 +22,14 @@ from plumb.fit.inputs import Inputs
 from plumb.line.memory import WrittenNumbers, as_lines, version_of, write_numbers
 from plumb.line.sender import Sender
 from plumb.text.answers import Internal, Moment, plain
-from plumb.text.errors import InputError
+from plumb.text.errors import InputError, Source
 from plumb.text.files import opened, write_whole
 
 NAME = "diary.jsonl"
 DIGITS = 16  # of a line's digest
 HEAD = '{"digest": "%s", '  # what a line begins with
 
-Folder = str | PathLike[str]
+Folder = Source
 
 
 @dataclass(frozen=True)

@@ -12,7 +12,6 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from itertools import combinations
 from math import dist
-from os import PathLike
 from pathlib import Path
 from typing import Annotated
 
@@ -23,7 +22,7 @@ from plumb.grid.options import APPROACH, PLUNGE_FEED, Grid
 from plumb.model.predict import FOUND, Array, believed_lengths, places
 from plumb.settings.machine import MachineSettings
 from plumb.text.answers import key
-from plumb.text.errors import InputError
+from plumb.text.errors import InputError, Source
 from plumb.text.files import parsed, read_text, write_whole
 from plumb.text.tables import Table, part, read_table, toml_text
 from plumb.text.values import pair
@@ -79,7 +78,7 @@ class HomeFit:
         return float(np.hypot(*self.error)) <= self.limit
 
 
-def home_file(settings: str | PathLike[str]) -> Path:
+def home_file(settings: Source) -> Path:
     """Return where the home marks of a machine are: next to its settings."""
     return Path(settings).parent / NAME
 
@@ -129,7 +128,7 @@ def home_fit(settings: MachineSettings, mark: HomeMark, shown: Point) -> HomeFit
     return HomeFit(mark.name, (x, y), (left, right), limit=SURE * 2**0.5 * TOUCH_SIGMA)
 
 
-def read_home_marks(path: str | PathLike[str]) -> dict[str, HomeMark]:
+def read_home_marks(path: Source) -> dict[str, HomeMark]:
     """Return the home marks of a file by name; none if there is no file. Raises InputError."""
     if not Path(path).exists():
         return {}
@@ -138,7 +137,7 @@ def read_home_marks(path: str | PathLike[str]) -> dict[str, HomeMark]:
     return {name: HomeMark(name, **dict(each)) for name, each in marks.items()}
 
 
-def write_home_marks(path: str | PathLike[str], marks: Mapping[str, HomeMark]) -> None:
+def write_home_marks(path: Source, marks: Mapping[str, HomeMark]) -> None:
     """Replace the file in one step; every number comes back bit for bit."""
     tables = {
         mark.name: {key: getattr(mark, key) for key in HomeTable.model_fields}

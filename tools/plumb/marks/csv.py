@@ -6,7 +6,6 @@ import csv
 import io
 import re
 from collections.abc import Mapping
-from os import PathLike
 from typing import Any
 
 import numpy as np
@@ -14,7 +13,7 @@ import numpy as np
 from plumb.marks.model import Mark, Measurements, Point
 from plumb.marks.plausible import Sheet, to_machine
 from plumb.marks.toml import MarkTable, marks_of
-from plumb.text.errors import InputError, naming
+from plumb.text.errors import InputError, Source, naming
 from plumb.text.files import read_text
 from plumb.text.ini import IniText, read_ini
 from plumb.text.tables import Path, read_table
@@ -32,7 +31,7 @@ NEEDED = (*COLUMNS["target"], *COLUMNS["measured"])
 OPTIONAL = ("name", *COLUMNS["approach"], *COLUMNS["sled_weight_n"], *COLUMNS["chains"])
 
 
-def read_marks_csv(path: str | PathLike[str]) -> Measurements:
+def read_marks_csv(path: Source) -> Measurements:
     """Return the marks of a comma-separated table; lines that begin with # are comments."""
     rows = _rows(path)
     if not rows:
@@ -85,7 +84,7 @@ def _in_millimetres(title: str) -> str:
     return title
 
 
-def _rows(path: str | PathLike[str]) -> list[tuple[int, list[str]]]:
+def _rows(path: Source) -> list[tuple[int, list[str]]]:
     """Line numbers and trimmed cells of all lines that are neither empty nor comments."""
     rows = []
     for line, text in enumerate(read_text(path).splitlines(), 1):
@@ -120,9 +119,7 @@ def _check_header(columns: list[str]) -> None:
             raise ValueError(f"column {column} is missing; needed are {', '.join(NEEDED)}")
 
 
-def _mark(
-    path: str | PathLike[str], line: int, row: dict[str, str], units: Mapping[str, float]
-) -> MarkTable:
+def _mark(path: Source, line: int, row: dict[str, str], units: Mapping[str, float]) -> MarkTable:
     """Return the mark of a line, which is refused as a table [[mark]] would be."""
     said: dict[str, Any] = {"name": row["name"]} if row.get("name") else {}
     for key, columns in COLUMNS.items():
@@ -148,7 +145,7 @@ def _mark(
 _NUMBERED = re.compile(r"t?[xy](\d+)", re.IGNORECASE)
 
 
-def read_marks_ini(path: str | PathLike[str], *, sheet: Sheet) -> Measurements:
+def read_marks_ini(path: Source, *, sheet: Sheet) -> Measurements:
     """Return the marks of a published measurement file, moved to the machine frame."""
     ini = read_ini(path)
     count = _count(ini)

@@ -8,7 +8,6 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from os import PathLike
 from typing import Any
 
 import tomlkit
@@ -17,6 +16,8 @@ from plumb.grid.pattern import spans_in
 from plumb.marks.model import Mark, Measurements, Point
 from plumb.marks.plausible import Sheet
 from plumb.marks.toml import read_marks_toml
+from plumb.settings.toml import Known
+from plumb.text.errors import Source
 from plumb.text.files import read_text
 from plumb.text.values import UNITS, with_quoted_fractions
 
@@ -37,12 +38,7 @@ class Form:
         return spans_in(self.text.splitlines())
 
 
-def read_form(
-    path: str | PathLike[str],
-    *,
-    sheet: Sheet,
-    known: Mapping[str, Sequence[str]] | None = None,
-) -> Form:
+def read_form(path: Source, *, sheet: Sheet, known: Known = None) -> Form:
     """Return the form in a file. Raises InputError for what is no marks.toml."""
     measurements = read_marks_toml(path, sheet=sheet, known=known)
     return Form(with_quoted_fractions(read_text(path)), measurements)

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import tomllib
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from functools import partial
-from os import PathLike
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
@@ -16,8 +15,9 @@ from plumb.marks.plausible import Sheet, to_machine
 from plumb.settings.cut_with import settings_as_they_were
 from plumb.settings.files import read_settings
 from plumb.settings.machine import Controller
+from plumb.settings.toml import Known
 from plumb.text.answers import meant
-from plumb.text.errors import naming
+from plumb.text.errors import Source, naming
 from plumb.text.files import parsed, read_text
 from plumb.text.tables import Number, Table, read_table
 from plumb.text.values import UNITS, length, pair, point, with_quoted_fractions, within
@@ -132,12 +132,7 @@ class MarksFile(Table):
     distance: tuple[DistanceTable, ...] = ()
 
 
-def read_marks_toml(
-    path: str | PathLike[str],
-    *,
-    sheet: Sheet,
-    known: Mapping[str, Sequence[str]] | None = None,
-) -> Measurements:
+def read_marks_toml(path: Source, *, sheet: Sheet, known: Known = None) -> Measurements:
     """Return the marks and distances of a marks.toml, moved to the machine frame; unread
     marks too.
     """
@@ -161,9 +156,7 @@ def read_marks_toml(
     )
 
 
-def _round(
-    path: str | PathLike[str], file: MarksFile, known: Mapping[str, Sequence[str]] | None
-) -> Round:
+def _round(path: Source, file: MarksFile, known: Known) -> Round:
     """Return how the file's marks were cut; the path in cut_with starts at the file's folder."""
     cut_with, changed = None, ""
     if file.cut_with is not None:

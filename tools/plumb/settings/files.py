@@ -8,10 +8,9 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from hashlib import sha256
-from os import PathLike
 from pathlib import Path
 from typing import Any
 
@@ -24,23 +23,21 @@ from plumb.settings.ini import (
     same_number,
 )
 from plumb.settings.machine import MachineSettings, SettingsFile
-from plumb.settings.toml import read_machine_toml
-from plumb.text.errors import InputError
+from plumb.settings.toml import Known, read_machine_toml
+from plumb.text.errors import InputError, Source
 from plumb.text.files import CODE, parsed, read_bytes, read_text
 from plumb.text.ini import IniEntry, IniText, parse_ini
 
 WEBCONTROL_ENDING = ".json"
 
 
-def read_settings(
-    path: str | PathLike[str], *, known: Mapping[str, Sequence[str]] | None = None
-) -> MachineSettings:
+def read_settings(path: Source, *, known: Known = None) -> MachineSettings:
     """Return the settings in a file of a client or ours; known lists each effect's parameters."""
     file = SettingsFile(Path(path).name, sha256(read_bytes(path)).hexdigest())
     return replace(_read(path, known), file=file)
 
 
-def _read(path: str | PathLike[str], known: Mapping[str, Sequence[str]] | None) -> MachineSettings:
+def _read(path: Source, known: Known) -> MachineSettings:
     text = read_bytes(path).decode("utf-8-sig", "replace").lstrip()
     if text.startswith("{"):
         return published_settings(read_webcontrol(path))
@@ -78,7 +75,7 @@ def parse_client_file(content: bytes, *, source: str) -> IniText:
 # `webcontrol.json`: the settings of WebControl, by the sections and keys of a groundcontrol.ini.
 
 
-def read_webcontrol(path: str | PathLike[str]) -> IniText:
+def read_webcontrol(path: Source) -> IniText:
     """Return the settings of a webcontrol.json as entries of an ini file."""
     return parse_webcontrol(read_text(path), source=str(path))
 
@@ -93,9 +90,7 @@ def parse_webcontrol(text: str, *, source: str) -> IniText:
     return IniText(source, lines, tuple(entries))
 
 
-def changed_webcontrol(
-    original_path: str | PathLike[str], changes: Mapping[Key, float | str]
-) -> bytes:
+def changed_webcontrol(original_path: Source, changes: Mapping[Key, float | str]) -> bytes:
     """Return the bytes of a webcontrol.json with some values replaced; equal numbers stay as they
     are.
     """

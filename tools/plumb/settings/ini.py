@@ -9,7 +9,6 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from decimal import Decimal
 from difflib import get_close_matches
-from os import PathLike
 from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, BeforeValidator, Field
@@ -25,7 +24,7 @@ from plumb.settings.machine import (
     refuse_impossible,
     tuned_numbers,
 )
-from plumb.text.errors import InputError
+from plumb.text.errors import InputError, Source
 from plumb.text.ini import IniEntry, IniText, parse_ini, read_ini, with_values
 from plumb.text.tables import read_table
 from plumb.text.values import number_in
@@ -92,7 +91,7 @@ NEIGHBOURS = (
 )
 
 
-def read_settings_ini(path: str | PathLike[str]) -> MachineSettings:
+def read_settings_ini(path: Source) -> MachineSettings:
     """Return the settings of a groundcontrol.ini; it belongs to the stock controller."""
     return published_settings(_settings_text(path))
 
@@ -144,7 +143,7 @@ def _entries(ini: IniText) -> dict[str, IniEntry]:
     return entries
 
 
-def _settings_text(path: str | PathLike[str]) -> IniText:
+def _settings_text(path: Source) -> IniText:
     """Return the ini file, if it holds settings."""
     ini = read_ini(path)
     if ini.find("numpositions", section="global"):
@@ -247,7 +246,7 @@ def _unsaid(ours: MachineSettings) -> tuple[Unsaid, ...]:
     return tuple(lost)
 
 
-def changed_ini(original_path: str | PathLike[str], changes: Mapping[Key, float | str]) -> bytes:
+def changed_ini(original_path: Source, changes: Mapping[Key, float | str]) -> bytes:
     """Return the bytes of an ini file with some values replaced; equal numbers leave their line
     alone.
     """
@@ -263,7 +262,7 @@ def changed_ini(original_path: str | PathLike[str], changes: Mapping[Key, float 
     return text.encode("utf-8", "surrogateescape")
 
 
-def new_value(value: float | str, source: str | PathLike[str], *, place: str) -> str:
+def new_value(value: float | str, source: Source, *, place: str) -> str:
     """Return a value as a client's file has it. Raises InputError for what it cannot hold."""
     if isinstance(value, str):
         if any(sign in value for sign in "\r\n"):

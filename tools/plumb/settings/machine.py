@@ -8,7 +8,6 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
-from os import PathLike
 from typing import TYPE_CHECKING, Annotated, Any, Literal, NamedTuple, get_args
 
 import numpy as np
@@ -17,7 +16,7 @@ from pydantic.dataclasses import dataclass as pydantic_dataclass
 
 from plumb import _core
 from plumb.text.answers import meant
-from plumb.text.errors import InputError
+from plumb.text.errors import InputError, Source
 from plumb.text.tables import Number, Table, refuse_other_keys
 
 if TYPE_CHECKING:
@@ -303,12 +302,8 @@ PUBLISHED_LIMITS = {
 
 def find_fault(settings: MachineSettings) -> tuple[str, str] | None:
     """Return the name of the first impossible setting and a sentence about it, or None."""
-    for name, limit in FRAME_LIMITS.items():
-        fault = limit.fault(getattr(settings, name))
-        if fault:
-            return name, fault
-    for name, limit in PUBLISHED_LIMITS.items():
-        value = getattr(settings.published, name)
+    for name, limit in {**FRAME_LIMITS, **PUBLISHED_LIMITS}.items():
+        value = getattr(settings if name in FRAME_LIMITS else settings.published, name)
         # The published firmware takes a sled weight of zero or less as a switch.
         if value is None or (name == "holey_sled_weight" and value <= 0):
             continue
@@ -319,7 +314,7 @@ def find_fault(settings: MachineSettings) -> tuple[str, str] | None:
 
 
 def refuse_impossible(
-    settings: MachineSettings, source: str | PathLike[str], place: Callable[[str], str]
+    settings: MachineSettings, source: Source, place: Callable[[str], str]
 ) -> None:
     """Raise InputError for a setting that cannot be; `place` says where the file has it."""
     fault = find_fault(settings)

@@ -7,7 +7,6 @@ import tomllib
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import asdict, dataclass, replace
 from functools import partial
-from os import PathLike
 from typing import Annotated, Any
 
 from pydantic import BeforeValidator
@@ -22,7 +21,7 @@ from plumb.settings.machine import (
     refuse_impossible,
 )
 from plumb.text.answers import meant
-from plumb.text.errors import InputError, naming
+from plumb.text.errors import InputError, Source, naming
 from plumb.text.files import parsed, read_text, write_whole
 from plumb.text.tables import Number, Table, part, read_table, toml_text
 from plumb.text.values import numbers, refuse_unknown
@@ -139,7 +138,7 @@ class FitRecord(Fit):
         return any(board.cut_with != settings for board in self.boards)
 
 
-def read_machine_toml(path: str | PathLike[str], *, known: Known = None) -> MachineSettings:
+def read_machine_toml(path: Source, *, known: Known = None) -> MachineSettings:
     """Return the settings of a machine.toml; known lists the parameters of each effect."""
     head = parsed(path, read_text(path), tomllib.loads, "TOML")
     if "mark" in head or "distance" in head:
@@ -149,9 +148,7 @@ def read_machine_toml(path: str | PathLike[str], *, known: Known = None) -> Mach
     return machine_in(head, path, known=known)
 
 
-def machine_in(
-    head: Mapping[str, Any], source: str | PathLike[str], *, known: Known = None
-) -> MachineSettings:
+def machine_in(head: Mapping[str, Any], source: Source, *, known: Known = None) -> MachineSettings:
     """Return the machine in the tables of a machine.toml. Raises InputError."""
     # A board says nothing without its fit.
     said = {"fit": {}, **head} if "board" in head else head
@@ -166,13 +163,13 @@ def machine_in(
     return replace(machine, fitted=FitRecord(**dict(file.fit), boards=boards))
 
 
-def _cut_with(table: CutWith, source: str | PathLike[str], known: Known) -> MachineSettings:
+def _cut_with(table: CutWith, source: Source, known: Known) -> MachineSettings:
     machine = _machine(table, source, known, place="board.cut_with.")
     return replace(machine, file=SettingsFile(table.file, table.sha256))
 
 
 def _machine(
-    table: MachineTable, source: str | PathLike[str], known: Known, *, place: str = ""
+    table: MachineTable, source: Source, known: Known, *, place: str = ""
 ) -> MachineSettings:
     """Return the machine in a table; `place` goes before the names of its tables."""
     for name, parameters in table.effects.items():
@@ -222,7 +219,7 @@ NOTES = {
 }
 
 
-def write_machine_toml(path: str | PathLike[str], settings: MachineSettings) -> None:
+def write_machine_toml(path: Source, settings: MachineSettings) -> None:
     """Write the settings so that reading gives back every number bit for bit."""
     write_whole(path, machine_toml(settings).encode("utf-8"))
 

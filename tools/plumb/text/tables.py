@@ -7,14 +7,13 @@ A refusal is a line that says where, what, and what to write:
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from os import PathLike
 from typing import Annotated, Any, Literal, TypeVar, get_args, get_origin
 
 import tomlkit
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationError, model_validator
 from pydantic_core import ErrorDetails
 
-from plumb.text.errors import InputError
+from plumb.text.errors import InputError, Source
 from plumb.text.values import number, refuse_unknown, shortened
 
 Path = tuple[int | str, ...]  # of a value: the names of tables and keys, and numbers in lists
@@ -57,7 +56,7 @@ Kind = TypeVar("Kind", bound=BaseModel)
 def read_table(
     kind: type[Kind],
     said: Mapping[str, Any],
-    source: str | PathLike[str],
+    source: Source,
     *,
     place: Callable[[Path], str] | None = None,
     context: object = None,
