@@ -198,29 +198,6 @@ def fit_entry(
     }
 
 
-def numbers_entry(
-    machine: str,
-    lines: list[str],
-    *,
-    changed: Mapping[int, tuple[float, float]],
-    firmware: str,
-    kept: str,
-    back: bool = False,
-) -> dict[str, Any]:
-    """Return numbers that a machine holds now: the `$` lines sent, and old and new value of each
-    change; `kept` is the file with all that were replaced; `back`: it had them before `machine`.
-    """
-    return {
-        "plumb": version("plumb"),
-        "machine": machine,
-        "lines": lines,
-        "changed": {f"${number}": list(both) for number, both in changed.items()},
-        "firmware": firmware,
-        "kept": kept,
-        "back": back,
-    }
-
-
 def program_entry(name: str, lines: list[str], *, whole: bool) -> dict[str, Any]:
     """Return a program that was sent; whole: False if it was stopped or refused."""
     text = "\n".join(lines)
@@ -338,12 +315,13 @@ def write_and_keep(
         if not Path(kept).exists():
             raise
         raise InputError(f"{error}. The old numbers are in {kept}") from None
-    entry = numbers_entry(
-        Path(path).name,
-        lines,
-        changed=written.changed,
-        firmware=version_of(sender),
-        kept=Path(kept).name,
-        back=back,
-    )
+    entry = {
+        "plumb": version("plumb"),
+        "machine": Path(path).name,
+        "lines": lines,
+        "changed": {f"${number}": list(both) for number, both in written.changed.items()},
+        "firmware": version_of(sender),
+        "kept": Path(kept).name,
+        "back": back,
+    }
     return written, kept, keep(path, NUMBERS, entry)
