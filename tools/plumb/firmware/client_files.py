@@ -54,48 +54,36 @@ def client_files(
     `lines` is the name of the first; `original` is the groundcontrol.ini whose other keys are kept.
     Raises InputError if it is missing, or if what the client sends would change the machine.
     """
+    files: dict[str, bytes] = {}
+    steps: tuple[str, ...] = ()
+    numbers: tuple[SentSetting, ...] = ()
     if firmware == "published":
-        return _for_published(settings, client, original, lines)
-    return _for_plumb(settings, client, original, lines)
-
-
-def _for_plumb(
-    settings: MachineSettings, client: str, original: str | None, lines: str
-) -> ClientFiles:
-    """Return lines that carry all corrections, and a client that carries none."""
-    numbers = firmware_numbers(settings)
-    files = {lines: gcode(numbers)}
-    send = f"open {lines} in your sender like a program and run it: it sets the machine"
-    if client == "none":
-        return ClientFiles(files, (send,), {}, ())
-    kept = _kept_by_client(settings)
-    if client == "webcontrol" and original is None:
-        typed = {key: number_for_firmware(value) for key, value in kept.items()}
-        return ClientFiles(files, (TYPE_THEM, send), typed, ())
-    name, content = _client_file(client, kept, original, lines)
-    refuse_what_disturbs(settings, numbers, content, source=str(original))
-    return ClientFiles({**files, name: content}, (_put_in_place(client, name), send), {}, ())
-
-
-def _for_published(
-    settings: MachineSettings, client: str, original: str | None, lines: str
-) -> ClientFiles:
-    """Return a client that carries all corrections, and no lines."""
-    changes = groundcontrol_changes(settings)
-    unsaid = tuple(loss.sentence for loss in changes.unsaid)
-    if client == "none":
-        raise InputError(
-            to_do(
-                "--client none: the published firmware gets its numbers from a client; give "
-                "--client groundcontrol or webcontrol",
-                page="the published firmware gets its numbers from a client: open its file",
+        # The client carries all corrections.
+        if client == "none":
+            raise InputError(
+                to_do(
+                    "--client none: the published firmware gets its numbers from a client; give "
+                    "--client groundcontrol or webcontrol",
+                    page="the published firmware gets its numbers from a client: open its file",
+                )
             )
-        )
+        changes = groundcontrol_changes(settings)
+        values, unsaid = changes.values, changes.unsaid
+    else:
+        # The lines carry all corrections, and the client carries none.
+        numbers = firmware_numbers(settings)
+        files = {lines: gcode(numbers)}
+        steps = (f"open {lines} in your sender like a program and run it: it sets the machine",)
+        values, unsaid = _kept_by_client(settings), ()
+        if client == "none":
+            return ClientFiles(files, steps, {}, ())
     if client == "webcontrol" and original is None:
-        typed = {key: number_for_firmware(value) for key, value in changes.values.items()}
-        return ClientFiles({}, (TYPE_THEM,), typed, unsaid)
-    name, content = _client_file(client, changes.values, original, lines)
-    return ClientFiles({name: content}, (_put_in_place(client, name),), {}, unsaid)
+        typed = {key: number_for_firmware(value) for key, value in values.items()}
+        return ClientFiles(files, (TYPE_THEM, *steps), typed, unsaid)
+    name, content = _client_file(client, values, original, lines)
+    if numbers:
+        refuse_what_disturbs(settings, numbers, content, source=str(original))
+    return ClientFiles({**files, name: content}, (_put_in_place(client, name), *steps), {}, unsaid)
 
 
 def gcode(numbers: tuple[SentSetting, ...]) -> bytes:

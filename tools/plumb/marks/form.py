@@ -120,8 +120,8 @@ def _as_form(document: tomlkit.TOMLDocument) -> str:
     for mark in document.get("mark", []):
         if "measured" not in mark:
             _say(mark, "unread", True, instead_of="measured")
-    text = document.as_string().replace(f"{BLANK}\n", "")
-    return re.sub(r"(?m)^(unread\s*=\s*true\b.*)$", rf"\1\n{BLANK}", text)
+    text = re.sub(rf"(?m)^{re.escape(BLANK)}\r?\n", "", document.as_string())
+    return re.sub(r"(?m)^(unread\s*=\s*true\b.*?)(\r?)$", rf"\1\2\n{BLANK}\2", text)
 
 
 def _say(mark: Any, key: str, value: object, *, instead_of: str) -> None:

@@ -5,7 +5,7 @@ programs.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from decimal import Decimal
 from difflib import get_close_matches
@@ -179,19 +179,11 @@ NOTHING = 1e-15  # smaller numbers mean zero for every setting there is
 
 
 @dataclass(frozen=True)
-class Unsaid:
-    """A setting that the published firmware cannot express, with a sentence for the user."""
-
-    name: str
-    sentence: str
-
-
-@dataclass(frozen=True)
 class GroundControlChanges:
     """Values by (section, key) as a groundcontrol.ini holds them, and what is lost on the way."""
 
     values: dict[Key, float]
-    unsaid: tuple[Unsaid, ...]
+    unsaid: tuple[str, ...]  # a sentence each
 
 
 def groundcontrol_changes(settings: MachineSettings) -> GroundControlChanges:
@@ -206,7 +198,7 @@ def groundcontrol_changes(settings: MachineSettings) -> GroundControlChanges:
     }
     # Rounded far below what any of them means, so that 1072.6 - 609.6 is 463 again.
     values = {SOURCES[name]: round(value, 10) for name, value in said.items()}
-    return GroundControlChanges(values=values, unsaid=_unsaid(ours))
+    return GroundControlChanges(values=values, unsaid=tuple(_unsaid(ours)))
 
 
 def published_machine(settings: MachineSettings) -> MachineSettings:
@@ -224,26 +216,14 @@ def published_machine(settings: MachineSettings) -> MachineSettings:
     )
 
 
-def _unsaid(ours: MachineSettings) -> tuple[Unsaid, ...]:
-    """Return everything in our model that no key of the published firmware can hold."""
-    lost = []
+def _unsaid(ours: MachineSettings) -> Iterator[str]:
+    """Yield everything in our model that no key of the published firmware can hold."""
     if ours.motor_center_x:
-        lost.append(
-            Unsaid(
-                "motor_center_x",
-                f"the motors sit {ours.motor_center_x:g} mm off the middle: move the sheet instead",
-            )
-        )
+        yield f"the motors sit {ours.motor_center_x:g} mm off the middle: move the sheet instead"
     for name, parameters in ours.effects.items():
         for parameter, value in parameters.items():
             if value and not is_tuned(name, parameter):
-                lost.append(
-                    Unsaid(
-                        f"{name}.{parameter}",
-                        f"{name} {parameter} = {value:g} has no setting in the published firmware",
-                    )
-                )
-    return tuple(lost)
+                yield f"{name} {parameter} = {value:g} has no setting in the published firmware"
 
 
 def changed_ini(original_path: Source, changes: Mapping[Key, float | str]) -> bytes:

@@ -71,8 +71,12 @@ Answer = TypeVar("Answer", bound=BaseModel)
 
 def like(kind: type[Answer], other: object, **more: Any) -> Answer:
     """Return an answer with what `other` has of the same names, and more."""
-    same = kind.model_fields.keys() - more.keys()
-    return kind(**{name: getattr(other, name) for name in same if hasattr(other, name)}, **more)
+    names = kind.model_fields.keys() - more.keys()
+    has = (
+        other if isinstance(other, Mapping) else {name: getattr(other, name, ...) for name in names}
+    )
+    same = {name: has[name] for name in names & has.keys() if has[name] is not ...}
+    return kind(**same, **more)
 
 
 def json_of(answer: object) -> Any:

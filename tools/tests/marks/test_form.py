@@ -43,11 +43,15 @@ mm = 254.25  # hook at A
 """
 
 
+def form_in(folder, text):
+    path = folder / "marks.toml"
+    path.write_bytes(text.encode())
+    return read_form(path, sheet=SHEET)
+
+
 @pytest.fixture
 def form(tmp_path):
-    path = tmp_path / "marks.toml"
-    path.write_text(TEXT)
-    return read_form(path, sheet=SHEET)
+    return form_in(tmp_path, TEXT)
 
 
 def test_a_distance_that_stays_keeps_its_table_and_another_is_added(form):
@@ -73,6 +77,11 @@ def test_only_what_was_said_changes(form):
     assert [line for line in text.splitlines() if not line.startswith(changed)] == kept
     assert text.count(BLANK) == 2  # for A and C, the marks that wait
     assert text.endswith("\n") and not text.endswith("\n\n")
+
+
+def test_line_ends_stay(form, tmp_path):
+    windows = with_readings(form, {}).replace("\n", "\r\n")
+    assert with_readings(form_in(tmp_path, windows), {}) == windows
 
 
 def test_the_tape_is_stated_and_forgotten(form):

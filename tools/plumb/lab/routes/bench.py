@@ -305,11 +305,9 @@ def save(change: BenchSave, project: TheProject, warm: Warm) -> ProjectAnswer:
 def _effects(warm: WarmBoard) -> list[BenchEffect]:
     settings = warm.live.model
     return [
-        BenchEffect(
-            name=effect["name"],
-            noun=effect["noun"],
-            summary=effect["summary"],
-            where=effect["where"],
+        like(
+            BenchEffect,
+            effect,
             in_settings=any(settings.effects.get(effect["name"], {}).values()),
             parameters=[
                 _parameter(f"{effect['name']}.{each['name']}", warm)

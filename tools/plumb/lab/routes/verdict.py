@@ -236,13 +236,11 @@ def _effect(diagnosis: Diagnosis, name: str, together: Together) -> EffectAnswer
     words = next(each for each in every_effect() if each["name"] == name)
     ranked = next(each for each in diagnosis.ranking if each.effect == name)
     check = words["check"]
-    return EffectAnswer(
-        name=name,
-        noun=words["noun"],
-        summary=words["summary"],
+    return like(
+        EffectAnswer,
+        words,
         sizes=[_size(name, size) for size in together.sizes[name]],
         taken_up=share_words(ranked.hidden_share),
-        remedy=words["remedy"],
         check=f"{check['title']}, about {check['minutes']:.0f} minutes"
         if check and check["title"]
         else "",
