@@ -168,12 +168,11 @@ def _frame(settings: MachineSettings) -> list[KnownNumber]:
 
 def _of_frame(name: str, value: float, *, zero: float) -> KnownNumber:
     check = FRAME_CHECKS[name]
-    return KnownNumber(
+    return like(
+        KnownNumber,
+        check,
         name=name,
-        title=check.direct.title,
-        steps=check.direct.steps,
         unit="mm",
-        minutes=check.direct.minutes,
         zero=zero,
         believed=value + zero,
         usual=check.sigmas[name],
@@ -203,8 +202,8 @@ def _of_effect(name: str, reading: RuleReading, settings: MachineSettings) -> Kn
         KnownNumber,
         reading,
         name=name,
-        steps=check.direct.steps,
-        minutes=check.direct.minutes / len(check.sigmas),
+        steps=check.steps,
+        minutes=check.minutes / len(check.sigmas),
         scale=reading.factor,
         believed=reading.read(value) if value or is_first else None,
         marked="chain" if effect in ON_DRAWING else "",
