@@ -1,7 +1,7 @@
 # The types of the compiled module: tools/core/binding.cpp says what the functions do.
 # tools/tests/project/test_core_types.py holds this file against the module.
 from collections.abc import Mapping
-from typing import TypedDict
+from typing import Any, TypedDict
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,30 +20,10 @@ class FrameWords(TypedDict):
     summary: str
     noun: str
 
-class SettingRow(TypedDict):
-    number: int
-    name: str
-    unit: str
-    kind: str
-    access: str
-    usual: float
-    low: float
-    high: float
-    touches: list[str]
-    step: int
-    key: str
-    sentence: str
-    change: str
-
 class Effective(TypedDict):
     frame: dict[str, float]
     effects: dict[str, float]
     over_top: bool
-
-class Reach(TypedDict):
-    verdict: Answers
-    tension: Numbers
-    compliance: Numbers
 
 def frame() -> list[FrameWords]: ...
 def effects() -> list[EffectWords]: ...
@@ -67,9 +47,9 @@ def reach(
     least_tension: float = ...,
     least_free: float = ...,
     most_give: float = ...,
-) -> Reach: ...
+) -> dict[str, NDArray[Any]]: ...  # the fields of Reached in plumb/model
 def reach_limits() -> dict[str, float]: ...
-def settings_table() -> list[SettingRow]: ...
+def settings_table() -> list[dict[str, Any]]: ...  # rows of Setting in plumb/firmware
 def effective(settings: Mapping[int, float]) -> Effective: ...
 def carried_twice(settings: dict[int, float]) -> list[tuple[int, int]]: ...
 def format_value(value: float) -> str: ...

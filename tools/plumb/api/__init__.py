@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from os import PathLike
 from pathlib import Path
 
 from plumb.cure.add import Addition
@@ -24,7 +23,7 @@ from plumb.fit.problem import priors_with
 from plumb.plan import Next, propose
 from plumb.settings.toml import write_machine_toml
 from plumb.text.compiled import refuse_stale
-from plumb.text.errors import InputError
+from plumb.text.errors import InputError, Source
 
 __all__ = [
     "Addition",
@@ -43,7 +42,7 @@ __all__ = [
     "write",
 ]
 
-AnyPath = str | PathLike[str]
+AnyPath = Source
 
 refuse_stale()
 

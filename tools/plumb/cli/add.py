@@ -16,17 +16,9 @@ from plumb.cli.addition import (
     short_text,
     verdict_of,
 )
-from plumb.cli.arguments import (
-    add_details,
-    add_force,
-    add_json,
-    add_marks,
-    add_picture,
-    add_units,
-    add_without,
-)
+from plumb.cli.arguments import BOARD, add_shared, held_size
 from plumb.cli.compare import panel_of
-from plumb.cli.inputs import add_stated, held_size, picture_form, refuse_unfitted, stated_inputs
+from plumb.cli.inputs import add_stated, picture_form, refuse_unfitted, stated_inputs
 from plumb.cli.output import STDOUT, refuse_twins, say_failure, write_outputs
 from plumb.cli.screen import (
     AUTO,
@@ -312,7 +304,7 @@ EXIT = (
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the arguments of `plumb add`."""
-    add_marks(parser)
+    add_shared(parser, *BOARD)
     parser.add_argument(
         "--effect",
         metavar="NAME",
@@ -337,15 +329,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         action="store_true",
         help="also fit a smooth map of the errors that no effect explains; it is no physics",
     )
-    add_without(parser)
-    parser.add_argument(
-        "-o", "--output", metavar="FILE", help="write the fitted machine to this file"
-    )
+    add_shared(parser, "--without", output="write the fitted machine to this file")
     add_client(parser)
     add_firmware(parser)
     add_stated(parser, sigma="tape_sigma_mm of MARKS and their scatter")
-    add_picture(parser, "draw how the error falls")
-    add_details(parser, "how the error falls, and all that is to be known of the numbers")
-    add_force(parser)
-    add_units(parser)
-    add_json(parser)
+    add_shared(parser, picture="draw how the error falls")
+    add_shared(parser, details="how the error falls, and all that is to be known of the numbers")
+    add_shared(parser, "--force", "--units", "--json")

@@ -4,119 +4,62 @@ from __future__ import annotations
 
 import argparse
 import math
+from collections.abc import Callable, Mapping
+from contextlib import suppress
 from pathlib import Path
+from typing import Any, TypeVar
 
 from plumb.settings.machine import CONTROLLERS
 from plumb.text.files import read_bytes
 from plumb.text.values import typed_length
 
+# The values of arguments: each is read from what was typed, or refused.
 
-def add_settings(parser: argparse.ArgumentParser) -> None:
-    """Add the argument SETTINGS."""
-    parser.add_argument(
-        "settings",
-        metavar="SETTINGS",
-        type=file,
-        help="groundcontrol.ini, webcontrol.json or machine.toml",
-    )
+Value = TypeVar("Value")
 
 
-def add_marks(parser: argparse.ArgumentParser) -> None:
-    """Add the arguments SETTINGS and MARKS, and how the marks were cut."""
-    add_settings(parser)
-    parser.add_argument(
-        "marks",
-        metavar="MARKS",
-        type=file,
-        nargs="+",
-        help="Calibration Measurements.ini, marks.toml or marks.csv; several make a single board",
-    )
-    add_cut_with(parser)
-    add_controller(parser)
+def kind(
+    read: Callable[[str], Value], what: str, holds: Callable[[Value], bool] = lambda _: True
+) -> Callable[[str], Value]:
+    """Return what reads a value, and refuses what is not such: no number is infinite."""
+
+    def typed(text: str) -> Value:
+        with suppress(ValueError):
+            value = read(text)
+            parts = value if isinstance(value, tuple) else (value,)
+            if all(math.isfinite(part) for part in parts if isinstance(part, float)) and holds(
+                value
+            ):
+                return value
+        raise argparse.ArgumentTypeError(f"'{text}' is not {what}")
+
+    return typed
 
 
-def add_cut_with(parser: argparse.ArgumentParser) -> None:
-    """Add the option --cut-with."""
-    parser.add_argument(
-        "--cut-with",
-        metavar="SETTINGS",
-        type=file,
-        help="the settings in force when the marks were cut, if they are not SETTINGS",
-    )
+def _named(text: str) -> tuple[str, float]:
+    name, _, value = text.partition("=")
+    return name, float(value)
 
 
-def add_picture(parser: argparse.ArgumentParser, draws: str) -> None:
-    """Add the option --picture; `draws` says what for."""
-    parser.add_argument("--picture", metavar="FILE", help=f"{draws}: .png, .svg or .pdf")
+def _numbered(text: str) -> tuple[int, float]:
+    name, _, value = text.lstrip("$").partition("=")
+    return int(name), float(value)
 
 
-def add_controller(parser: argparse.ArgumentParser) -> None:
-    """Add the option --controller."""
-    parser.add_argument(
-        "--controller",
-        choices=CONTROLLERS,
-        help="the controller whose formula turned targets into chain lengths "
-        "[what MARKS say, else stock for a groundcontrol.ini]",
-    )
+def _place(text: str) -> tuple[float, float]:
+    x, y = map(typed_length, text.split(","))
+    return x, y
 
 
-def add_prior(parser: argparse.ArgumentParser) -> None:
-    """Add the option --prior."""
-    parser.add_argument(
-        "--prior",
-        metavar="NAME=SIGMA",
-        action="append",
-        type=prior,
-        default=[],
-        help="how far (1 sigma; mm, N, rad) a stated number may be wrong; 0 holds the number",
-    )
-
-
-def add_sigma(parser: argparse.ArgumentParser, *, usual: str) -> None:
-    """Add the option --sigma; `usual` says what holds without it."""
-    parser.add_argument(
-        "--sigma",
-        metavar="MM",
-        type=length,
-        help=f"reading error of a coordinate [{usual}]",
-    )
-
-
-def add_without(parser: argparse.ArgumentParser) -> None:
-    """Add the option --without."""
-    parser.add_argument(
-        "--without",
-        metavar="MARK",
-        action="append",
-        default=[],
-        help="leave this mark out, for example because its reading is a slip",
-    )
-
-
-def add_units(parser: argparse.ArgumentParser) -> None:
-    """Add the option --units."""
-    parser.add_argument(
-        "--units",
-        choices=("mm", "inch"),
-        help="unit of the lengths on the screen [as places were typed]",
-    )
-
-
-def add_json(parser: argparse.ArgumentParser) -> None:
-    """Add the option --json."""
-    parser.add_argument("--json", action="store_true", help="print a JSON object and nothing else")
-
-
-def add_details(parser: argparse.ArgumentParser, what: str) -> None:
-    """Add the option --details; `what` says what it shows."""
-    parser.add_argument("--details", action="store_true", help=f"also show {what}")
-
-
-def add_force(parser: argparse.ArgumentParser) -> None:
-    """Add the option --force."""
-    parser.add_argument(
-        "--force", action="store_true", help="replace files that plumb did not write"
-    )
+any_length = kind(typed_length, "a length, like 100 or 4in")
+length = kind(typed_length, "a length above zero, like 100 or 4in", lambda size: size > 0)
+positive = kind(float, "a number above zero", lambda number: number > 0)
+limit = kind(float, "a number of zero or more", lambda number: number >= 0)
+count = kind(int, "a whole number from 1 on, like 100", lambda number: number > 0)
+prior = kind(_named, "NAME=SIGMA, like motor_gap=1.5", lambda named: named[1] >= 0)
+held_size = kind(_named, "NAME=SIZE, like chain_pitch.left=0.001")
+place = kind(_place, "X,Y, like 100,-50")  # [mm]
+number = kind(_numbered, "N=VALUE, like 15=800", lambda pair: 0 <= pair[0] <= 255)
 
 
 def file(path: str) -> str:
@@ -126,110 +69,89 @@ def file(path: str) -> str:
     return path
 
 
-def length(text: str) -> float:
-    """Return a length above zero [mm], typed in mm or with its unit."""
-    try:
-        value = typed_length(text)
-    except ValueError:
-        value = math.nan
-    if not (math.isfinite(value) and value > 0):
-        raise argparse.ArgumentTypeError(f"'{text}' is not a length above zero, like 100 or 4in")
-    return value
+# The arguments. {} stands for what a command says of it.
+
+FLAG: Mapping[str, Any] = {"action": "store_true"}
+SHARED: Mapping[str, Mapping[str, Any]] = {
+    "settings": {
+        "metavar": "SETTINGS",
+        "type": file,
+        "help": "groundcontrol.ini, webcontrol.json or machine.toml",
+    },
+    "marks": {
+        "metavar": "MARKS",
+        "type": file,
+        "nargs": "+",
+        "help": "Calibration Measurements.ini, marks.toml or marks.csv; "
+        "several make a single board",
+    },
+    "job": {"metavar": "JOB", "type": file, "help": "a program of G-code"},
+    "--cut-with": {
+        "metavar": "SETTINGS",
+        "type": file,
+        "help": "the settings in force when the marks were cut, if they are not SETTINGS",
+    },
+    "--controller": {
+        "choices": CONTROLLERS,
+        "help": "the controller whose formula turned targets into chain lengths "
+        "[what MARKS say, else stock for a groundcontrol.ini]",
+    },
+    "--start": {
+        "metavar": "X,Y",
+        "type": place,
+        "default": (0.0, 0.0),
+        "help": "where the bit is when the program begins, "
+        "mm or like 4in,-2in from mid sheet [0,0]",
+    },
+    "--set": {
+        "metavar": "N=VALUE",
+        "type": number,
+        "action": "append",
+        "default": [],
+        "help": "a number of the firmware that SETTINGS do not hold, like 15=800 "
+        "[as clients send it]",
+    },
+    "--prior": {
+        "metavar": "NAME=SIGMA",
+        "action": "append",
+        "type": prior,
+        "default": [],
+        "help": "how far (1 sigma; mm, N, rad) a stated number may be wrong; 0 holds the number",
+    },
+    "--sigma": {
+        "metavar": "MM",
+        "type": length,
+        "help": "reading error of a coordinate [{}]",
+    },
+    "--without": {
+        "metavar": "MARK",
+        "action": "append",
+        "default": [],
+        "help": "leave this mark out, for example because its reading is a slip",
+    },
+    "--port": {
+        "metavar": "PATH",
+        "help": "the machine's serial port [that of the only board on USB]",
+    },
+    "-o --output": {"metavar": "FILE", "help": "{}"},
+    "--picture": {"metavar": "FILE", "help": "{}: .png, .svg or .pdf"},
+    "--details": {**FLAG, "help": "also show {}"},
+    "--units": {
+        "choices": ("mm", "inch"),
+        "help": "unit of the lengths on the screen [as places were typed]",
+    },
+    "--force": {**FLAG, "help": "replace files that plumb did not write"},
+    "--json": {**FLAG, "help": "print a JSON object and nothing else"},
+}
+BOARD = ("settings", "marks", "--cut-with", "--controller")  # and how these were cut
+PROGRAM = ("job", "settings", "--start", "--set")
 
 
-def positive(text: str) -> float:
-    """Return a number above zero."""
-    value = float(text)
-    if not (math.isfinite(value) and value > 0):
-        raise argparse.ArgumentTypeError(f"'{text}' is not a number above zero")
-    return value
-
-
-def count(text: str) -> int:
-    """Return a whole number from 1 on."""
-    number = int(text) if text.isdecimal() else -1
-    if number == 0:
-        raise argparse.ArgumentTypeError("'0' is too low: it counts from 1")
-    if number < 1:
-        raise argparse.ArgumentTypeError(f"'{text}' is not a whole number, like 100")
-    return number
-
-
-def limit(text: str) -> float:
-    """Return a limit of zero or more."""
-    value = float(text)
-    if not (math.isfinite(value) and value >= 0):
-        raise argparse.ArgumentTypeError(f"'{text}' is not a number of zero or more")
-    return value
-
-
-def prior(text: str) -> tuple[str, float]:
-    """Read NAME=SIGMA."""
-    name, sigma = named_number(text)
-    if sigma is None or sigma < 0:
-        raise argparse.ArgumentTypeError(f"'{text}' is not NAME=SIGMA, like motor_gap=1.5")
-    return name, sigma
-
-
-def named_number(text: str) -> tuple[str, float | None]:
-    """Return a name and the number behind its =; None if there is no such number."""
-    name, _, value = text.partition("=")
-    try:
-        number = float(value)
-    except ValueError:
-        return name, None
-    return name, number if math.isfinite(number) else None
-
-
-def add_port(parser: argparse.ArgumentParser) -> None:
-    """Add the option --port."""
-    parser.add_argument(
-        "--port", metavar="PATH", help="the machine's serial port [that of the only board on USB]"
-    )
-
-
-# What commands on a job share: the program, the machine, where it begins.
-
-
-def add_machine(parser: argparse.ArgumentParser) -> None:
-    """JOB, SETTINGS, --start and --set."""
-    parser.add_argument("job", metavar="JOB", type=file, help="a program of G-code")
-    add_settings(parser)
-    parser.add_argument(
-        "--start",
-        metavar="X,Y",
-        type=place,
-        default=(0.0, 0.0),
-        help="where the bit is when the program begins, mm or like 4in,-2in from mid sheet [0,0]",
-    )
-    parser.add_argument(
-        "--set",
-        metavar="N=VALUE",
-        type=number,
-        action="append",
-        default=[],
-        help="a number of the firmware that SETTINGS do not hold, like 15=800 [as clients send it]",
-    )
-
-
-def place(text: str) -> tuple[float, float]:
-    """Read X,Y [mm], typed in mm or with their units."""
-    try:
-        x, y = map(typed_length, text.split(","))
-    except ValueError:
-        x = y = math.nan
-    if not (math.isfinite(x) and math.isfinite(y)):
-        raise argparse.ArgumentTypeError(f"'{text}' is not X,Y, like 100,-50")
-    return x, y
-
-
-def number(text: str) -> tuple[int, float]:
-    """Read N=VALUE."""
-    name, _, value = text.lstrip("$").partition("=")
-    try:
-        pair = int(name), float(value)
-    except ValueError:
-        pair = -1, math.nan
-    if not (0 <= pair[0] <= 255 and math.isfinite(pair[1])):
-        raise argparse.ArgumentTypeError(f"'{text}' is not N=VALUE, like 15=800")
-    return pair
+def add_shared(parser: argparse.ArgumentParser, *names: str, **said: str) -> None:
+    """Add shared arguments; with some goes what the command says of them."""
+    words = {next(each for each in SHARED if each.endswith(f"--{name}")): name for name in said}
+    for name in (*names, *words):
+        argument = dict(SHARED[name])
+        if name in words:
+            argument["help"] = argument["help"].format(said[words[name]])
+        parser.add_argument(*name.split(), **argument)

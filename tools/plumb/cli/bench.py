@@ -7,7 +7,7 @@ from collections.abc import Callable, Sequence
 
 from plumb.bench.kinds import GRIDS, KINDS
 from plumb.bench.report import Report, Row, WantedBoards, play
-from plumb.cli.arguments import add_json, count
+from plumb.cli.arguments import add_shared, count
 from plumb.cli.output import INTERRUPTED
 from plumb.cli.screen import Bar, print_json, sentences, table
 from plumb.text.errors import InputError
@@ -142,4 +142,4 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         default="",
         help="a Dask scheduler that has the boards played",
     )
-    add_json(parser)
+    add_shared(parser, "--json")

@@ -9,14 +9,7 @@ from pydantic import computed_field
 
 from plumb.cli.add import WantedFiles, written
 from plumb.cli.addition import KINDS, details_text, short_text
-from plumb.cli.arguments import (
-    add_details,
-    add_force,
-    add_json,
-    add_marks,
-    add_units,
-    add_without,
-)
+from plumb.cli.arguments import BOARD, add_shared
 from plumb.cli.as_fitted import checked_by_fit, is_all, report
 from plumb.cli.compare import conclusion, outside_sentence, pose_sentence
 from plumb.cli.inputs import add_stated, stated_inputs
@@ -167,21 +160,17 @@ EXIT = (
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the arguments of `plumb calibrate`."""
-    add_marks(parser)
-    add_without(parser)
-    parser.add_argument(
-        "-o",
-        "--output",
-        metavar="FILE",
-        help="the new machine.toml [machine.toml, or machine-2.toml and so on if that exists]",
+    add_shared(parser, *BOARD, "--without")
+    add_shared(
+        parser,
+        output="the new machine.toml [machine.toml, or machine-2.toml and so on if that exists]",
     )
     add_client(parser)
     add_firmware(parser)
     add_stated(parser, sigma="as plumb diagnose takes it")
-    add_units(parser)
-    add_details(parser, "what the marks say, and what was fitted")
-    add_force(parser)
-    add_json(parser)
+    add_shared(parser, "--units")
+    add_shared(parser, details="what the marks say, and what was fitted")
+    add_shared(parser, "--force", "--json")
 
 
 # What `plumb calibrate` says to people: the size of the error, a verdict, and what to do.

@@ -10,16 +10,7 @@ from pathlib import Path
 import numpy as np
 from pydantic import computed_field
 
-from plumb.cli.arguments import (
-    add_cut_with,
-    add_force,
-    add_json,
-    add_machine,
-    add_picture,
-    add_units,
-    file,
-    length,
-)
+from plumb.cli.arguments import PROGRAM, add_shared, file, length
 from plumb.cli.inputs import inputs_of, picture_form
 from plumb.cli.output import refuse_twins, say_failure, write_outputs
 from plumb.cli.screen import (
@@ -217,7 +208,7 @@ EXIT = "Exit: 0 nothing is wrong; 1 something is; 2 an input cannot be used."
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the arguments of `plumb check`."""
-    add_machine(parser)
+    add_shared(parser, *PROGRAM)
     parser.add_argument(
         "--marks",
         metavar="MARKS",
@@ -226,14 +217,14 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         default=[],
         help="measured marks of this machine: they tell which errors to expect of each part",
     )
-    add_cut_with(parser)
+    add_shared(parser, "--cut-with")
     for option, of, usual in (
         ("--bit", "diameter of the bit", "what JOB says, else 6.35"),
         ("--bit-length", "how long the bit cuts", "what JOB says"),
         ("--thickness", "how thick the sheet is", "what JOB says, else 19.05"),
     ):
         parser.add_argument(option, metavar="MM", type=length, help=f"{of} [{usual}]")
-    add_picture(parser, "draw the job on its sheet, shaded by depth")
+    add_shared(parser, picture="draw the job on its sheet, shaded by depth")
     parser.add_argument(
         "--outline",
         metavar="FILE",
@@ -245,9 +236,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="write an equal program that this machine runs, and list what was changed; refused "
         "where none is known",
     )
-    add_force(parser)
-    add_units(parser)
-    add_json(parser)
+    add_shared(parser, "--force", "--units", "--json")
 
 
 # What `plumb check` says to people.

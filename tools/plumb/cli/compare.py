@@ -6,14 +6,7 @@ import argparse
 
 import numpy as np
 
-from plumb.cli.arguments import (
-    add_details,
-    add_force,
-    add_json,
-    add_marks,
-    add_picture,
-    add_units,
-)
+from plumb.cli.arguments import BOARD, add_shared
 from plumb.cli.inputs import inputs_of, picture_form
 from plumb.cli.output import write_outputs
 from plumb.cli.screen import (
@@ -131,7 +124,7 @@ def details(comparison: Comparison, inputs: Inputs) -> list[str]:
             ]
             for mark in comparison.marks
         ]
-        parts.append(table([*MARKS, "left chain", "right"], rows))
+        parts.append(table([*BOARD, "left chain", "right"], rows))
         note = (
             "Error: measured - predicted. Chains: how much more of each the measured place needs "
             f"than was paid out. All in {unit()}; {FRAMES[typed.sheet is None]}."
@@ -241,9 +234,7 @@ EXIT = "Exit: 0 done; 2 an input cannot be used."
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the arguments of `plumb compare`."""
-    add_marks(parser)
-    add_units(parser)
-    add_picture(parser, "draw the errors")
-    add_details(parser, "every mark, the chains, and how the sheet would have to move")
-    add_force(parser)
-    add_json(parser)
+    add_shared(parser, *BOARD, "--units")
+    add_shared(parser, picture="draw the errors")
+    add_shared(parser, details="every mark, the chains, and how the sheet would have to move")
+    add_shared(parser, "--force", "--json")

@@ -6,7 +6,7 @@ import argparse
 from dataclasses import dataclass
 from operator import itemgetter
 
-from plumb.cli.arguments import add_details, add_json, add_marks, add_units
+from plumb.cli.arguments import BOARD, add_shared
 from plumb.cli.inputs import add_stated, stated_inputs
 from plumb.cli.screen import (
     BAD,
@@ -216,8 +216,8 @@ EXIT = (
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the arguments of `plumb diagnose`."""
-    add_marks(parser)
+    add_shared(parser, *BOARD)
     add_stated(parser, sigma="tape_sigma_mm of MARKS and their scatter")
-    add_units(parser)
-    add_details(parser, "all accounts with their sizes, and what these marks cannot show")
-    add_json(parser)
+    add_shared(parser, "--units")
+    add_shared(parser, details="all accounts with their sizes, and what these marks cannot show")
+    add_shared(parser, "--json")

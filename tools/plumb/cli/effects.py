@@ -6,7 +6,7 @@ import argparse
 from collections import Counter
 from dataclasses import dataclass
 
-from plumb.cli.arguments import add_json
+from plumb.cli.arguments import add_shared
 from plumb.cli.screen import next_step, number, print_json, sentences, table
 from plumb.model.catalogue import NO_FIRMWARE, empirical_effects, every_effect, label
 from plumb.model.effect_words import EffectWords
@@ -71,4 +71,4 @@ EXIT = "Exit: 0 done."
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the arguments of `plumb effects`."""
-    add_json(parser)
+    add_shared(parser, "--json")

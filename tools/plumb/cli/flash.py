@@ -7,7 +7,7 @@ import shutil
 import subprocess
 from pathlib import Path
 
-from plumb.cli.arguments import add_port
+from plumb.cli.arguments import add_shared
 from plumb.line.port import port_for
 from plumb.text.errors import InputError
 
@@ -64,4 +64,4 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         default=".pio/build/megaatmega2560/firmware.hex",
         help="the file to write [%(default)s]",
     )
-    add_port(parser)
+    add_shared(parser, "--port")

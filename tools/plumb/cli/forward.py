@@ -6,7 +6,7 @@ import argparse
 from dataclasses import dataclass
 from typing import Annotated
 
-from plumb.cli.arguments import add_json, add_settings, add_units, file
+from plumb.cli.arguments import add_shared, file
 from plumb.cli.inverse import Outcome, Pair, answered, answers_table, count_sentence, read_pairs
 from plumb.cli.screen import print_json
 from plumb.fit.inputs import settings_in
@@ -49,7 +49,7 @@ EXIT = "Exit: 0 done; 1 some lengths lead nowhere; 2 an input cannot be used."
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the arguments of `plumb forward`."""
-    add_settings(parser)
+    add_shared(parser, "settings")
     parser.add_argument(
         "--lengths",
         metavar="FILE",
@@ -57,5 +57,4 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         required=True,
         help="CSV: left,right per line, mm paid out from 12 o'clock; a header is allowed",
     )
-    add_units(parser)
-    add_json(parser)
+    add_shared(parser, "--units", "--json")

@@ -7,7 +7,7 @@ import os
 from dataclasses import dataclass
 from typing import Annotated
 
-from plumb.cli.arguments import add_details, add_force, add_json
+from plumb.cli.arguments import add_shared, any_length
 from plumb.cli.output import refuse_twins, write_outputs
 from plumb.cli.screen import next_step, print_json, sentences, table
 from plumb.diagnosis.unseen import share_words
@@ -23,16 +23,16 @@ from plumb.grid import (
     spans_of,
     touches_of,
 )
-from plumb.grid.cut_with import cut_with_lines, with_form
 from plumb.grid.options import APPROACH, NUMBERS, UNITS, demand, pairs
 from plumb.model.plain import noun_of, plain_before
 from plumb.model.reach import plain_machine, refuse_way, with_soft_chains
 from plumb.pictures.grid_paper import grid_paper
 from plumb.plan.preview import POWER, Outline, Preview, as_read, preview
+from plumb.settings.cut_with import cut_with_lines, with_form
 from plumb.settings.machine import MachineSettings
 from plumb.text.answers import meant
 from plumb.text.errors import InputError
-from plumb.text.values import bare, typed_length, unit, worded
+from plumb.text.values import bare, unit, worded
 
 Point = tuple[float, float]
 
@@ -254,20 +254,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     group.add_argument("--new-sheet", action="store_true", help=another)
     paper = "also write a sheet to print: the holes with their numbers, and boxes to fill in"
     group.add_argument("--paper", metavar="FILE.pdf", help=paper)
-    add_force(parser)
-    add_details(parser, "what such marks could tell; without files, that alone")
-    add_json(parser)
+    add_shared(parser, "--force")
+    add_shared(parser, details="what such marks could tell; without files, that alone")
+    add_shared(parser, "--json")
 
 
 def _add_number(group: argparse._ArgumentGroup, name: str) -> None:
     meaning = f"{NUMBERS[name].meaning} [{Grid._field_defaults[name]:g}]"
-    kind = float if name == "feed" else _length
+    kind = float if name == "feed" else any_length
     group.add_argument(f"--{name.replace('_', '-')}", help=meaning, type=kind, metavar="N")
-
-
-def _length(text: str) -> float:
-    """Return a length [mm], typed in mm or with its unit."""
-    try:
-        return typed_length(text)
-    except ValueError:
-        raise argparse.ArgumentTypeError(f"'{text}' is not a length, like 100 or 4in") from None

@@ -9,7 +9,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import NamedTuple
 
-from plumb.cli.arguments import add_prior, add_sigma, named_number
+from plumb.cli.arguments import add_shared
 from plumb.diagnosis import Checked
 from plumb.fit.by_hand import UNITS, number_read
 from plumb.fit.expected import refuse_absurd
@@ -110,8 +110,7 @@ class Measured(NamedTuple):
 
 def add_stated(parser: argparse.ArgumentParser, *, sigma: str) -> None:
     """Add the options --prior, --sigma and --checked; `sigma` says what holds without it."""
-    add_prior(parser)
-    add_sigma(parser, usual=sigma)
+    add_shared(parser, "--prior", sigma=sigma)
     parser.add_argument(
         "--checked",
         metavar="NAME=VALUE+-SIGMA",
@@ -151,11 +150,3 @@ def picture_form(path: str, *, option: str = "--picture") -> str:
     if form not in FORMATS:
         raise InputError(f"{option} {path}: end the name with .{', .'.join(FORMATS)}")
     return form
-
-
-def held_size(text: str) -> tuple[str, float]:
-    """Read NAME=SIZE."""
-    name, size = named_number(text)
-    if size is None:
-        raise argparse.ArgumentTypeError(f"'{text}' is not NAME=SIZE, like chain_pitch.left=0.001")
-    return name, size

@@ -5,12 +5,11 @@ from __future__ import annotations
 import argparse
 from collections.abc import Sequence
 from dataclasses import dataclass
-from os import PathLike
 from typing import Annotated
 
 import numpy as np
 
-from plumb.cli.arguments import add_controller, add_json, add_settings, add_units, file, place
+from plumb.cli.arguments import add_shared, file, place
 from plumb.cli.screen import print_json, table
 from plumb.fit.inputs import settings_in
 from plumb.model.predict import (
@@ -25,7 +24,7 @@ from plumb.model.predict import (
 )
 from plumb.settings.machine import MachineSettings
 from plumb.text.answers import among, key
-from plumb.text.errors import InputError, naming
+from plumb.text.errors import InputError, Source, naming
 from plumb.text.files import read_text
 from plumb.text.values import bare, number_in, unit
 
@@ -99,7 +98,7 @@ EXIT = "Exit: 0 done; 1 some place is out of reach; 2 an input cannot be used."
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the arguments of `plumb inverse`."""
-    add_settings(parser)
+    add_shared(parser, "settings")
     parser.add_argument(
         "places",
         metavar="X,Y",
@@ -114,9 +113,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="CSV: x,y per line, mm from the middle of the sheet, y up; a header is allowed",
     )
     parser.add_argument("--float32", action="store_true", help="compute as the board does")
-    add_controller(parser)
-    add_units(parser)
-    add_json(parser)
+    add_shared(parser, "--controller", "--units", "--json")
 
 
 # What `plumb inverse` and `plumb forward` say to people: counts and tables of places.
@@ -165,7 +162,7 @@ def answers_table(
 # Pairs of numbers from a comma-separated file: places x,y or chains left,right [mm].
 
 
-def read_pairs(path: str | PathLike[str], *, names: tuple[str, str]) -> np.ndarray:
+def read_pairs(path: Source, *, names: tuple[str, str]) -> np.ndarray:
     """Return the pairs (n, 2) [mm]; a header of the two names and lines that begin with # are
     allowed.
     """
@@ -198,7 +195,7 @@ def _is_header(cells: list[str]) -> bool:
 
 
 def _check_header(
-    path: str | PathLike[str], line: int, cells: list[str], names: tuple[str, str], form: str
+    path: Source, line: int, cells: list[str], names: tuple[str, str], form: str
 ) -> None:
     """Refuse columns that are exchanged, or in another unit."""
     allowed = [{name, f"{name}_mm", f"{name} mm", f"{name} [mm]", f"{name} (mm)"} for name in names]

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from plumb.cli.arguments import add_details, add_force, add_json, add_marks, add_picture, add_units
+from plumb.cli.arguments import BOARD, add_shared
 from plumb.cli.inputs import add_stated, picture_form, stated_inputs
 from plumb.cli.output import refuse_twins, write_outputs
 from plumb.cli.screen import (
@@ -306,7 +306,7 @@ EXIT = "Exit: 0 done; 2 an input cannot be used, and nothing was written."
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the arguments of `plumb next`."""
-    add_marks(parser)
+    add_shared(parser, *BOARD)
     add_stated(parser, sigma="as plumb diagnose takes it")
     parser.add_argument(
         "--choose",
@@ -315,7 +315,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="the number of the proposal for --picture, --marks and --output [the best that has "
         "them]",
     )
-    add_picture(parser, "draw the proposal on the sheet")
+    add_shared(parser, picture="draw the proposal on the sheet")
     parser.add_argument(
         "--marks", dest="template", metavar="FILE", help="write a marks.toml to fill in"
     )
@@ -328,7 +328,5 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="the settings that the machine has now, if they are not those of MARKS; the form "
         "names them",
     )
-    add_details(parser, "all proposals, and how their order comes about")
-    add_force(parser)
-    add_units(parser)
-    add_json(parser)
+    add_shared(parser, details="all proposals, and how their order comes about")
+    add_shared(parser, "--force", "--units", "--json")

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
-from plumb.cli.arguments import add_json, add_units
+from plumb.cli.arguments import add_shared
 from plumb.cli.screen import headline, print_json, sentences, table
 from plumb.cli.vm import add_pace, serve
 from plumb.model.predict import known_effects
@@ -84,7 +84,7 @@ class _Reader:
     def __init__(self, folder: Path, tape: Tape) -> None:
         self._folder, self._tape = folder, tape
         self._form = ""
-        tape.get_ready(f"target = [0, 0]\n{BLANK}\n")
+        tape.get_ready(f'[[mark]]\nname = "1"\ntarget = [0, 0]\n{BLANK}\n')
 
     def look(self, machine: VirtualMachine) -> None:
         """Look whether a form waits, and whether its marks are cut."""
@@ -157,5 +157,4 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("--seed", metavar="N", type=int, help="start: a certain machine [drawn]")
     add_pace(parser, "start: ")
-    add_units(parser)
-    add_json(parser)
+    add_shared(parser, "--units", "--json")

@@ -10,7 +10,7 @@ import numpy as np
 from pydantic import computed_field
 
 from plumb import _core
-from plumb.cli.arguments import add_force, add_json, add_prior, add_settings, add_units, limit
+from plumb.cli.arguments import add_shared, limit
 from plumb.cli.inputs import picture_form
 from plumb.cli.output import write_outputs
 from plumb.cli.screen import next_step, print_json, sentences, table
@@ -178,8 +178,7 @@ EXIT = "Exit: 0 done; 2 an input cannot be used."
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the arguments of `plumb reach`."""
     usual = _core.reach_limits()
-    add_settings(parser)
-    parser.add_argument("-o", "--output", metavar="FILE", help="draw the map: .png, .svg or .pdf")
+    add_shared(parser, "settings", output="draw the map: .png, .svg or .pdf")
     for name, (measure, meaning) in OPTIONS.items():
         parser.add_argument(
             "--" + name.replace("_", "-"),
@@ -188,7 +187,4 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
             default=usual[name],
             help=f"{meaning} [%(default)g]",
         )
-    add_prior(parser)
-    add_force(parser)
-    add_units(parser)
-    add_json(parser)
+    add_shared(parser, "--prior", "--force", "--units", "--json")

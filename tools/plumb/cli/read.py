@@ -8,7 +8,7 @@ from typing import Annotated
 
 from pydantic import Field
 
-from plumb.cli.arguments import add_force, add_json, add_port
+from plumb.cli.arguments import add_shared
 from plumb.cli.output import write_outputs
 from plumb.cli.screen import print_json, sentences, table
 from plumb.firmware.settings import every_setting, machine_of_numbers
@@ -120,9 +120,6 @@ EXIT = "Exit: 0 done; 2 no machine answers, or the file cannot be written."
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the arguments of `plumb read`."""
-    add_port(parser)
-    parser.add_argument(
-        "-o", "--output", metavar="FILE", help="write the numbers to this file, as a machine.toml"
-    )
-    add_force(parser)
-    add_json(parser)
+    add_shared(parser, "--port")
+    add_shared(parser, output="write the numbers to this file, as a machine.toml")
+    add_shared(parser, "--force", "--json")

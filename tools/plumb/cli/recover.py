@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 import argparse
-import math
 import re
 
 from plumb.cli import home, slip
-from plumb.cli.arguments import add_force, add_json, add_settings, add_sigma, add_units
+from plumb.cli.arguments import add_shared, place
 from plumb.job.home import Point
 from plumb.text.errors import InputError
-from plumb.text.values import typed_length
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -39,7 +37,7 @@ WORD = re.compile(r"[A-Za-z0-9_-]+")
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the arguments of `plumb recover`."""
-    add_settings(parser)
+    add_shared(parser, "settings")
     parser.add_argument(
         "--keep",
         metavar="NAME=X,Y",
@@ -74,19 +72,17 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         action="store_true",
         help="the holes are in the frame or its board, not in a sheet that can move",
     )
-    add_sigma(parser, usual="0.5; with --taped what the fit of SETTINGS left, if that is more")
-    parser.add_argument("-o", "--output", metavar="FILE", help="write the program to this file")
-    add_force(parser)
-    add_units(parser)
-    add_json(parser)
+    add_shared(parser, sigma="0.5; with --taped what the fit of SETTINGS left, if that is more")
+    add_shared(parser, output="write the program to this file")
+    add_shared(parser, "--force", "--units", "--json")
 
 
 def named_place(text: str) -> tuple[str, Point]:
     """Read NAME=X,Y."""
-    name, _, place = text.partition("=")
+    name, _, where = text.partition("=")
     if not WORD.fullmatch(name):
         raise argparse.ArgumentTypeError(f"'{text}' is not NAME=X,Y, like left=-900,250")
-    return name, point(place)
+    return name, place(where)
 
 
 def touch(text: str) -> tuple[str | Point, Point]:
@@ -94,15 +90,4 @@ def touch(text: str) -> tuple[str | Point, Point]:
     hole, separator, shown = text.rpartition(":")
     if not (separator and hole):
         raise argparse.ArgumentTypeError(f"'{text}' is not HOLE:SHOWN, like -900,250:-896.2,253.1")
-    return (point(hole) if "," in hole else hole), point(shown)
-
-
-def point(text: str) -> Point:
-    """Read x,y [mm, from the middle of the sheet, y up], typed in mm or with their units."""
-    try:
-        x, y = map(typed_length, text.split(","))
-    except ValueError:
-        x = y = math.nan
-    if not (math.isfinite(x) and math.isfinite(y)):
-        raise argparse.ArgumentTypeError(f"'{text}' is no place x,y in mm, like -900,250")
-    return x, y
+    return (place(hole) if "," in hole else hole), place(shown)

@@ -7,13 +7,7 @@ from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 
-from plumb.cli.arguments import (
-    add_force,
-    add_json,
-    add_marks,
-    add_units,
-    add_without,
-)
+from plumb.cli.arguments import BOARD, add_shared
 from plumb.cli.inputs import add_stated, stated_inputs
 from plumb.cli.output import STDOUT, write_outputs
 from plumb.cli.screen import bar, headline, print_json, same_inputs, sentences
@@ -81,7 +75,7 @@ EXIT = "Exit: 0 done; 2 an input cannot be used, and nothing was written."
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the arguments of `plumb report`."""
-    add_marks(parser)
+    add_shared(parser, *BOARD)
     parser.add_argument(
         "-o",
         "--output",
@@ -89,8 +83,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         required=True,
         help="the page: .html, a single file that needs no network",
     )
-    add_without(parser)
+    add_shared(parser, "--without")
     add_stated(parser, sigma="as plumb diagnose takes it")
-    add_units(parser)
-    add_force(parser)
-    add_json(parser)
+    add_shared(parser, "--units", "--force", "--json")

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated
 
-from plumb.cli.arguments import add_force, add_json, add_machine, add_units, count, place
+from plumb.cli.arguments import PROGRAM, add_shared, count, place
 from plumb.cli.output import STDOUT, say_failure, write_outputs
 from plumb.cli.screen import next_step, print_json, sentences
 from plumb.fit.inputs import settings_in
@@ -82,7 +82,7 @@ EXIT = "Exit: 0 done; 2 an input cannot be used."
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the arguments of `plumb resume`."""
-    add_machine(parser)
+    add_shared(parser, *PROGRAM)
     parser.add_argument(
         "--line",
         metavar="N",
@@ -103,6 +103,4 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         default="-",
         help="the program [the standard output]",
     )
-    add_force(parser)
-    add_units(parser)
-    add_json(parser)
+    add_shared(parser, "--force", "--units", "--json")

@@ -25,6 +25,7 @@ from rich.table import Table
 from rich.text import Text
 
 from plumb.text.answers import json_of
+from plumb.text.files import numbered
 from plumb.text.values import unit
 
 WIDEST = 80  # [characters]
@@ -272,12 +273,8 @@ def second_round(arguments: argparse.Namespace, files: Sequence[str]) -> str:
 
 def free_name(stem: str, ending: str) -> str:
     """Return the first of `machine.toml`, `machine-2.toml` ... that no file has."""
-    number = 1
-    while True:
-        name = f"{stem}{ending}" if number == 1 else f"{stem}-{number}{ending}"
-        if not os.path.exists(name):
-            return name
-        number += 1
+    names = (f"{each}{ending}" for each in numbered(stem))
+    return next(name for name in names if not os.path.exists(name))
 
 
 # A question in the terminal; whoever asks goes on working, and looks for the answer meanwhile.

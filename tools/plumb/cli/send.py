@@ -12,14 +12,13 @@ from pathlib import Path
 from threading import Event
 from typing import Annotated
 
-from plumb.cli.arguments import add_json, add_port
+from plumb.cli.arguments import add_shared
 from plumb.cli.followed import NOWHERE, Followed, time_left
 from plumb.cli.output import say_failure
 from plumb.cli.screen import Prompt, free_name, next_step, print_json, sentences
 from plumb.diary.file import PROGRAM, keep, program_entry, write_and_keep
 from plumb.firmware.settings import refuse_other_numbers, refuse_other_origin
 from plumb.firmware.telemetry import telemetry_in, warnings
-from plumb.grid.cut_with import form_of
 from plumb.job.dry_run import program_in, refuse_other_files
 from plumb.line.memory import WrittenNumbers, kept_before, lines_for, read_numbers
 from plumb.line.port import LostError, SerialPort, port_for
@@ -28,6 +27,7 @@ from plumb.line.reached import SureLines
 from plumb.line.sender import PAUSED, RefusedError, Sender, StoppedError, cleaned
 from plumb.marks.form import read_form
 from plumb.model.predict import known_effects
+from plumb.settings.cut_with import form_of
 from plumb.settings.files import read_settings
 from plumb.settings.machine import MachineSettings
 from plumb.text.answers import meant
@@ -374,7 +374,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "more", metavar="LINE", nargs="*", help="more lines, before the board is reset again"
     )
-    add_port(parser)
+    add_shared(parser, "--port")
     parser.add_argument(
         "--undo",
         action="store_true",
@@ -386,4 +386,4 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="send marks, or numbers, though the machine holds others than those that they were "
         "made for",
     )
-    add_json(parser)
+    add_shared(parser, "--json")

@@ -10,7 +10,7 @@ from typing import Annotated
 
 from pydantic import computed_field
 
-from plumb.cli.arguments import add_details, add_force, add_json, add_settings, file
+from plumb.cli.arguments import add_shared, file
 from plumb.cli.output import write_outputs
 from plumb.cli.screen import headline, next_step, print_json, sentences, table
 from plumb.firmware.client_files import CLIENT_FILES, ClientFiles, client_files, gcode
@@ -120,15 +120,12 @@ EXIT = "Exit: 0 done; 2 an input cannot be used, and nothing was written."
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the arguments of `plumb settings`."""
-    add_settings(parser)
+    add_shared(parser, "settings")
     parser.add_argument("--to", choices=FORMS, default="table", help="what to write [%(default)s]")
     add_client(parser)
-    parser.add_argument(
-        "-o", "--output", metavar="FILE", help="write to this file, not to the screen"
-    )
-    add_details(parser, "the numbers that are 0")
-    add_force(parser)
-    add_json(parser)
+    add_shared(parser, output="write to this file, not to the screen")
+    add_shared(parser, details="the numbers that are 0")
+    add_shared(parser, "--force", "--json")
 
 
 # What belongs to the client that was named, and what the owner does with it.

@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 from rich.live import Live
 
-from plumb.cli.arguments import add_json, length, positive
+from plumb.cli.arguments import add_shared, length, positive
 from plumb.cli.screen import console, print_json
 from plumb.line.sender import Sender
 from plumb.settings.machine import MachineSettings
@@ -258,7 +258,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         default=0.4,
         help="noise of the tape's readings [%(default)g]",
     )
-    add_json(parser)
+    add_shared(parser, "--json")
 
 
 def _add_brain(parser: argparse.ArgumentParser) -> None:

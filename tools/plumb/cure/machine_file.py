@@ -59,7 +59,7 @@ def record_of(result: Addition, inputs: Inputs, *, without: Sequence[str] = ()) 
         sheet_rotation=fitted.sheet_rotation,
         effects=result.effects_added,
         without=tuple(without),
-        lab_effects=fitted.lab_effects,
+        lab_effects={name: dict(sizes) for name, sizes in fitted.lab_effects.items()},
         boards=tuple(_board(each, unknowns, inputs) for each in inputs.measurements.rounds),
     )
 

@@ -14,7 +14,6 @@ from dataclasses import dataclass
 from datetime import datetime
 from hashlib import sha256
 from importlib.metadata import version
-from os import PathLike
 from pathlib import Path
 from typing import Any
 
@@ -23,14 +22,14 @@ from plumb.fit.inputs import Inputs
 from plumb.line.memory import WrittenNumbers, as_lines, version_of, write_numbers
 from plumb.line.sender import Sender
 from plumb.text.answers import Internal, Moment, plain
-from plumb.text.errors import InputError
+from plumb.text.errors import InputError, Source
 from plumb.text.files import opened, write_whole
 
 NAME = "diary.jsonl"
 DIGITS = 16  # of a line's digest
 HEAD = '{"digest": "%s", '  # what a line begins with
 
-Folder = str | PathLike[str]
+Folder = Source
 
 
 @dataclass(frozen=True)
@@ -199,29 +198,6 @@ def fit_entry(
     }
 
 
-def numbers_entry(
-    machine: str,
-    lines: list[str],
-    *,
-    changed: Mapping[int, tuple[float, float]],
-    firmware: str,
-    kept: str,
-    back: bool = False,
-) -> dict[str, Any]:
-    """Return numbers that a machine holds now: the `$` lines sent, and old and new value of each
-    change; `kept` is the file with all that were replaced; `back`: it had them before `machine`.
-    """
-    return {
-        "plumb": version("plumb"),
-        "machine": machine,
-        "lines": lines,
-        "changed": {f"${number}": list(both) for number, both in changed.items()},
-        "firmware": firmware,
-        "kept": kept,
-        "back": back,
-    }
-
-
 def program_entry(name: str, lines: list[str], *, whole: bool) -> dict[str, Any]:
     """Return a program that was sent; whole: False if it was stopped or refused."""
     text = "\n".join(lines)
@@ -339,12 +315,13 @@ def write_and_keep(
         if not Path(kept).exists():
             raise
         raise InputError(f"{error}. The old numbers are in {kept}") from None
-    entry = numbers_entry(
-        Path(path).name,
-        lines,
-        changed=written.changed,
-        firmware=version_of(sender),
-        kept=Path(kept).name,
-        back=back,
-    )
+    entry = {
+        "plumb": version("plumb"),
+        "machine": Path(path).name,
+        "lines": lines,
+        "changed": {f"${number}": list(both) for number, both in written.changed.items()},
+        "firmware": version_of(sender),
+        "kept": Path(kept).name,
+        "back": back,
+    }
     return written, kept, keep(path, NUMBERS, entry)

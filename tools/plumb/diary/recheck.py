@@ -20,7 +20,7 @@ from plumb.job.home import TOUCH_SIGMA, HomeTouch, believed_chains, turned_back
 from plumb.model.plain import ranked
 from plumb.model.predict import FOUND, NAMES, Array, places_with_slopes, values_of
 from plumb.settings.machine import MachineSettings
-from plumb.settings.toml import MACHINE_KEYS, machine_in
+from plumb.settings.toml import machine_in
 from plumb.text.answers import Internal
 from plumb.text.errors import InputError
 
@@ -119,9 +119,8 @@ def _recheck(
 def fit_of(diary: Diary, settings: MachineSettings) -> Entry | None:
     """Return the newest fit of the diary that gave these settings; None if it knows no such fit."""
     for entry in reversed(diary.of_kind(FIT)):
-        tables = tomllib.loads(entry.content["settings"])
-        head = {key: value for key, value in tables.items() if key in MACHINE_KEYS}
-        if machine_in(diary.path, head, place="", known=None) == replace(settings, fitted=None):
+        machine = machine_in(tomllib.loads(entry.content["settings"]), diary.path)
+        if replace(machine, fitted=None) == replace(settings, fitted=None):
             return entry
     return None
 

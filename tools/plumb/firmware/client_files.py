@@ -24,9 +24,8 @@ from plumb.firmware.settings import (
 from plumb.settings.files import changed_client_file, parse_client_file
 from plumb.settings.ini import SOURCES, Key, groundcontrol_changes, number_for_firmware
 from plumb.settings.machine import MachineSettings
-from plumb.text.errors import InputError, naming, to_do
-from plumb.text.ini import IniEntry, IniText
-from plumb.text.values import number_in
+from plumb.text.errors import InputError, to_do
+from plumb.text.ini import IniText
 
 # What clients work out before they send it.
 KINEMATICS, CHAIN_PER_TURN, FEED = 7, 13, 38
@@ -55,48 +54,36 @@ def client_files(
     `lines` is the name of the first; `original` is the groundcontrol.ini whose other keys are kept.
     Raises InputError if it is missing, or if what the client sends would change the machine.
     """
+    files: dict[str, bytes] = {}
+    steps: tuple[str, ...] = ()
+    numbers: tuple[SentSetting, ...] = ()
     if firmware == "published":
-        return _for_published(settings, client, original, lines)
-    return _for_plumb(settings, client, original, lines)
-
-
-def _for_plumb(
-    settings: MachineSettings, client: str, original: str | None, lines: str
-) -> ClientFiles:
-    """Return lines that carry all corrections, and a client that carries none."""
-    numbers = firmware_numbers(settings)
-    files = {lines: gcode(numbers)}
-    send = f"open {lines} in your sender like a program and run it: it sets the machine"
-    if client == "none":
-        return ClientFiles(files, (send,), {}, ())
-    kept = _kept_by_client(settings)
-    if client == "webcontrol" and original is None:
-        typed = {key: number_for_firmware(value) for key, value in kept.items()}
-        return ClientFiles(files, (TYPE_THEM, send), typed, ())
-    name, content = _client_file(client, kept, original, lines)
-    refuse_what_disturbs(settings, numbers, content, source=str(original))
-    return ClientFiles({**files, name: content}, (_put_in_place(client, name), send), {}, ())
-
-
-def _for_published(
-    settings: MachineSettings, client: str, original: str | None, lines: str
-) -> ClientFiles:
-    """Return a client that carries all corrections, and no lines."""
-    changes = groundcontrol_changes(settings)
-    unsaid = tuple(loss.sentence for loss in changes.unsaid)
-    if client == "none":
-        raise InputError(
-            to_do(
-                "--client none: the published firmware gets its numbers from a client; give "
-                "--client groundcontrol or webcontrol",
-                page="the published firmware gets its numbers from a client: open its file",
+        # The client carries all corrections.
+        if client == "none":
+            raise InputError(
+                to_do(
+                    "--client none: the published firmware gets its numbers from a client; give "
+                    "--client groundcontrol or webcontrol",
+                    page="the published firmware gets its numbers from a client: open its file",
+                )
             )
-        )
+        changes = groundcontrol_changes(settings)
+        values, unsaid = changes.values, changes.unsaid
+    else:
+        # The lines carry all corrections, and the client carries none.
+        numbers = firmware_numbers(settings)
+        files = {lines: gcode(numbers)}
+        steps = (f"open {lines} in your sender like a program and run it: it sets the machine",)
+        values, unsaid = _kept_by_client(settings), ()
+        if client == "none":
+            return ClientFiles(files, steps, {}, ())
     if client == "webcontrol" and original is None:
-        typed = {key: number_for_firmware(value) for key, value in changes.values.items()}
-        return ClientFiles({}, (TYPE_THEM,), typed, unsaid)
-    name, content = _client_file(client, changes.values, original, lines)
-    return ClientFiles({name: content}, (_put_in_place(client, name),), {}, unsaid)
+        typed = {key: number_for_firmware(value) for key, value in values.items()}
+        return ClientFiles(files, (TYPE_THEM, *steps), typed, unsaid)
+    name, content = _client_file(client, values, original, lines)
+    if numbers:
+        refuse_what_disturbs(settings, numbers, content, source=str(original))
+    return ClientFiles({**files, name: content}, (_put_in_place(client, name), *steps), {}, unsaid)
 
 
 def gcode(numbers: tuple[SentSetting, ...]) -> bytes:
@@ -106,17 +93,26 @@ def gcode(numbers: tuple[SentSetting, ...]) -> bytes:
 
 def client_numbers(ini: IniText) -> dict[int, float]:
     """Return what a client sends of this file that says where the sled hangs, by $-number."""
+
+    def said(name: str) -> str:
+        section, key = SOURCES[name]
+        return ini.needed(key, section=section).value.lower()
+
+    teeth, pitch = (
+        ini.number(key, section=section)
+        for section, key in (SOURCES["gear_teeth"], SOURCES["link_pitch"])
+    )
     numbers = {
-        KINEMATICS: 1.0 if _said(ini, "kinematics").value.lower() == "quadrilateral" else 2.0,
-        CHAIN_PER_TURN: _number(_said(ini, "gear_teeth"), ini)
-        * _number(_said(ini, "link_pitch"), ini),
-        FEED: 1.0 if _said(ini, "feed").value.lower() == "top" else 2.0,
+        KINEMATICS: 1.0 if said("kinematics") == "quadrilateral" else 2.0,
+        CHAIN_PER_TURN: teeth * pitch,
+        FEED: 1.0 if said("feed") == "top" else 2.0,
     }
     for setting in every_setting():
         section, _, key = setting.key.partition(": ")
-        entry = ini.find(key, section=f"{section} Settings") if key else None
-        if entry and "geometry" in setting.touches and setting.number not in numbers:
-            numbers[setting.number] = _number(entry, ini)
+        named = f"{section} Settings"
+        is_said = key and ini.find(key, section=named)
+        if is_said and "geometry" in setting.touches and setting.number not in numbers:
+            numbers[setting.number] = ini.number(key, section=named)
     return numbers
 
 
@@ -175,16 +171,3 @@ def _put_in_place(client: str, name: str) -> str:
     if client == "webcontrol":
         return f"stop WebControl, put {name} in place of its webcontrol.json, and start it again"
     return f"close GroundControl, put {name} in place of its groundcontrol.ini, and connect"
-
-
-def _said(ini: IniText, name: str) -> IniEntry:
-    section, key = SOURCES[name]
-    entry = ini.find(key, section=section)
-    if entry is None:
-        raise InputError(ini.source, f"{key} is missing in [{section}]")
-    return entry
-
-
-def _number(entry: IniEntry, ini: IniText) -> float:
-    with naming(ini.source, entry.place):
-        return number_in(entry.value)

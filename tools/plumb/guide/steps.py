@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection
 from dataclasses import dataclass, replace
-from itertools import count
 from pathlib import Path
 
 import numpy as np
@@ -32,7 +31,7 @@ from plumb.line.sender import RefusedError, Sender
 from plumb.model.reach import percent, survey_sheet
 from plumb.settings.machine import GRAVITY, MachineSettings, frame_of
 from plumb.settings.toml import machine_toml
-from plumb.text.files import read_bytes, write_whole
+from plumb.text.files import numbered, read_bytes, write_whole
 from plumb.text.values import bare, brief, unit, worded
 
 SETTINGS = "machine.toml"
@@ -325,8 +324,8 @@ def keep_other(path: Path, content: bytes) -> None:
     if not path.is_file() or path.stat().st_size == 0 or read_bytes(path) == content:
         return
     before = read_bytes(path)
-    names = (f"{path.stem}-old{'' if number == 1 else f'-{number}'}" for number in count(1))
-    for each in (path.with_name(f"{name}{path.suffix}") for name in names):
+    for name in numbered(f"{path.stem}-old"):
+        each = path.with_name(f"{name}{path.suffix}")
         if not each.exists():
             return write_whole(each, before)
         if each.is_file() and read_bytes(each) == before:

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Protocol
+from typing import Literal
+
+from pydantic.dataclasses import dataclass as pydantic_dataclass
 
 from plumb.text.errors import InputError
 from plumb.text.files import read_text, write_whole
@@ -17,33 +19,58 @@ class LeftError(Exception):
     """The owner leaves; what is done stays done."""
 
 
-class Talk(Protocol):
+Kind = Literal["go", "yes", "choice", "length", "turn", "mass"]
+YES, NO = "y", "n"
+
+
+@dataclass(frozen=True)
+class Question:
+    """A question of the guide; lengths in mm, a mass in kg."""
+
+    kind: Kind
+    text: str
+    act: str = ""  # what a yes moves, in a few words
+    answers: tuple[tuple[str, str], ...] = ()  # letter and words
+    usual: float | None = None
+    low: float = 0.0
+    high: float = 0.0
+    number: int = 0
+
+
+@dataclass(frozen=True)
+class Talk:
     """Says lines and asks questions. Each question raises LeftError if the owner leaves."""
 
-    def say(self, text: str) -> None:
-        """Say lines."""
+    say: Callable[[str], None]
+    put: Callable[[Question], str]  # waits for the answer
 
     def agrees(self, what: str, act: str) -> bool:
         """Return whether the owner says yes to what will move; `act` says it in a few words, for a
         button.
         """
+        return self.put(Question("go", what, act=act)) == YES
 
     def says_yes(self, question: str) -> bool:
         """Return whether the owner says yes to what moves nothing."""
+        return self.put(Question("yes", question)) == YES
 
     def choice(self, question: str, answers: dict[str, str]) -> str:
         """Return the letter of one of the answers."""
+        return self.put(Question("choice", question, answers=tuple(answers.items())))
 
     def length(self, question: str, usual: float, low: float, high: float) -> float:
         """Return a length [mm] from low to high."""
+        return float(self.put(Question("length", question, usual=usual, low=low, high=high)))
 
     def turn(self, side: str, most: float) -> float:
         """Return how far the owner lets a sprocket turn [mm of chain]; 0: a tooth points straight
         up.
         """
+        return float(self.put(Question("turn", side, low=-most, high=most)))
 
     def mass(self, question: str, usual: float, low: float, high: float) -> float:
         """Return a mass [kg] from low to high."""
+        return float(self.put(Question("mass", question, usual=usual, low=low, high=high)))
 
 
 # What a short jog says of an axis' wires: what moved, which way, and what the machine noticed.
@@ -172,7 +199,7 @@ def remedy(axis: str, seen: str, alarm: str) -> str:
 FILE = "guide.json"
 
 
-@dataclass
+@pydantic_dataclass
 class GuideProgress:
     """Steps that are done, and the owner's statements on the machine."""
 
@@ -200,11 +227,8 @@ def progress_in(folder: Path) -> GuideProgress:
     if not path.exists():
         return GuideProgress(folder)
     try:
-        kept = json.loads(read_text(path))
-        done = [str(step) for step in kept["done"]]
-        sigmas: Mapping[str, float] = kept["sigmas"]
-        return GuideProgress(folder, done, {name: float(size) for name, size in sigmas.items()})
-    except (ValueError, KeyError, TypeError, AttributeError):
+        return GuideProgress(folder, **json.loads(read_text(path)))
+    except (ValueError, TypeError):
         raise InputError(path, "is damaged", remedy="delete it, and begin again") from None
 
 

@@ -6,7 +6,6 @@ import re
 from array import array
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from os import PathLike
 
 import numpy as np
 import scipy
@@ -17,7 +16,7 @@ from plumb.firmware.settings import CLIENT_NUMBERS, firmware_numbers
 from plumb.line.sender import PlainError, plain
 from plumb.model.predict import FOUND, Array, lengths
 from plumb.settings.machine import MachineSettings
-from plumb.text.errors import InputError
+from plumb.text.errors import InputError, Source
 from plumb.text.files import MB, read_text
 
 __all__ = ["COLUMNS", "Done", "Refused", "Run", "pieces"]
@@ -278,7 +277,7 @@ OTHERS = (
 NO_CODE = re.compile(r"(this begins no word|a number is missing behind|there is no such code).*")
 
 
-def program_in(path: str | PathLike[str], *, say: Callable[[str], None]) -> list[str]:
+def program_in(path: Source, *, say: Callable[[str], None]) -> list[str]:
     """Return the lines of a program; InputError for what holds none.
 
     Old CAM programs write comments in the code page of Windows; `say` hears of it.
@@ -288,14 +287,14 @@ def program_in(path: str | PathLike[str], *, say: Callable[[str], None]) -> list
     return text.splitlines()
 
 
-def refuse_other_files(source: str | PathLike[str], text: str) -> None:
+def refuse_other_files(source: Source, text: str) -> None:
     """InputError for a client's settings, marks, tables and JSON."""
     for pattern, what, remedy in OTHERS:
         if re.search(pattern, text, re.IGNORECASE | re.MULTILINE | re.DOTALL):
             raise InputError(source, f"{what}, not a program", remedy=remedy)
 
 
-def refuse_what_is_no_program(source: str | PathLike[str], text: str) -> None:
+def refuse_what_is_no_program(source: Source, text: str) -> None:
     """InputError for a text that is something else, or begins with what the firmware cannot read.
 
     Later lines are left to the machine, and to `plumb check`.

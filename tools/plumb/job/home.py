@@ -12,20 +12,22 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from itertools import combinations
 from math import dist
-from os import PathLike
 from pathlib import Path
 from typing import Annotated
 
 import numpy as np
-from pydantic import computed_field
+from pydantic import BeforeValidator, computed_field
 
 from plumb.grid.options import APPROACH, PLUNGE_FEED, Grid
 from plumb.model.predict import FOUND, Array, believed_lengths, places
 from plumb.settings.machine import MachineSettings
 from plumb.text.answers import key
-from plumb.text.errors import InputError
+from plumb.text.errors import InputError, Source
 from plumb.text.files import parsed, read_text, write_whole
+from plumb.text.tables import Table, part, read_table, toml_text
+from plumb.text.values import pair
 
+Point = tuple[float, float]
 NAME = "home.toml"
 HEAD = "# Home marks of a machine, for plumb: holes, and the chains with the bit in them. mm."
 HOLE_DEPTH = 2.0  # [mm] so that a bit finds its place in the hole
@@ -42,6 +44,21 @@ class HomeMark:
     chains: Point  # left and right paid out there
     date: str = ""
     settings: str = ""  # name of the settings' file then
+
+
+class HomeTable(Table):
+    """A table [mark.NAME] of the file."""
+
+    place: Annotated[Point, BeforeValidator(pair)]
+    chains: Annotated[Point, BeforeValidator(pair)]
+    date: str = ""
+    settings: str = ""
+
+
+class HomeFile(Table):
+    """The file of the home marks."""
+
+    mark: dict[str, HomeTable] = part()
 
 
 @dataclass(frozen=True)
@@ -61,7 +78,7 @@ class HomeFit:
         return float(np.hypot(*self.error)) <= self.limit
 
 
-def home_file(settings: str | PathLike[str]) -> Path:
+def home_file(settings: Source) -> Path:
     """Return where the home marks of a machine are: next to its settings."""
     return Path(settings).parent / NAME
 
@@ -111,47 +128,27 @@ def home_fit(settings: MachineSettings, mark: HomeMark, shown: Point) -> HomeFit
     return HomeFit(mark.name, (x, y), (left, right), limit=SURE * 2**0.5 * TOUCH_SIGMA)
 
 
-def read_home_marks(path: str | PathLike[str]) -> dict[str, HomeMark]:
+def read_home_marks(path: Source) -> dict[str, HomeMark]:
     """Return the home marks of a file by name; none if there is no file. Raises InputError."""
     if not Path(path).exists():
         return {}
     head = parsed(path, read_text(path), tomllib.loads, "TOML")
-    try:
-        return {name: _mark(name, each) for name, each in head.get("mark", {}).items()}
-    except (AttributeError, KeyError, TypeError, ValueError) as error:
-        raise InputError(path, f"holds no home marks ({error})", remedy="mend it") from None
+    marks = read_table(HomeFile, head, path).mark
+    return {name: HomeMark(name, **dict(each)) for name, each in marks.items()}
 
 
-def write_home_marks(path: str | PathLike[str], marks: Mapping[str, HomeMark]) -> None:
+def write_home_marks(path: Source, marks: Mapping[str, HomeMark]) -> None:
     """Replace the file in one step; every number comes back bit for bit."""
-    lines = [HEAD]
-    for mark in marks.values():
-        lines += [
-            "",
-            f"[mark.{mark.name}]",
-            f"place = [{mark.place[0]!r}, {mark.place[1]!r}]",
-            f"chains = [{mark.chains[0]!r}, {mark.chains[1]!r}]  # left and right paid out",
-            f'date = "{mark.date}"',
-            f'settings = "{mark.settings}"',
-        ]
-    write_whole(path, ("\n".join(lines) + "\n").encode())
-
-
-def _mark(name: str, table: Mapping[str, object]) -> HomeMark:
-    place, chains = _pair(table["place"]), _pair(table["chains"])
-    return HomeMark(name, place, chains, str(table.get("date", "")), str(table.get("settings", "")))
-
-
-def _pair(value: object) -> Point:
-    if not isinstance(value, list):
-        raise TypeError("a pair of numbers is missing")
-    first, second = map(float, value)
-    return first, second
+    tables = {
+        mark.name: {key: getattr(mark, key) for key in HomeTable.model_fields}
+        for mark in marks.values()
+    }
+    notes = {f"{name}.chains": "left and right paid out" for name in marks}
+    write_whole(path, f"{HEAD}\n\n{toml_text({'mark': tables}, notes)}".encode())
 
 
 # Marks touched with the bit: where the hole is, and where the machine shows the bit in it.
 
-Point = tuple[float, float]
 TOUCH_SIGMA = 0.5  # [mm] of a coordinate: the bit in its hole, and the hole's place
 MISREAD = 100.0  # [mm] of a touch: a slip of two links shows less
 SAME = 3.0  # [mm] between two holes: a bit is wider

@@ -6,7 +6,9 @@ import json
 import sys
 from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
+from importlib import import_module
 from pathlib import Path
+from pkgutil import iter_modules
 
 from fastapi import FastAPI, Request
 from fastapi.exceptions import RequestValidationError
@@ -16,54 +18,21 @@ from starlette.exceptions import HTTPException
 from starlette.middleware.gzip import GZipMiddleware
 from starlette.types import ASGIApp, Receive, Scope, Send
 
+from plumb.lab import routes
 from plumb.lab.background import LiveBoards
 from plumb.lab.guard import Address, Guard
 from plumb.lab.guide_desk import GuideDesk
 from plumb.lab.machine_line import MachineLine
 from plumb.lab.phones import Phones
 from plumb.lab.project import ChangedError, Project
-from plumb.lab.routes import (
-    bench,
-    check,
-    correction,
-    diary,
-    grid,
-    guide,
-    known,
-    machine,
-    next,
-    papers,
-    phones,
-    plan,
-    project,
-    readings,
-    verdict,
-)
 from plumb.text.errors import InputError, read_on_page
 from plumb.text.files import links_refused
 
 PAGE = Path(__file__).parent / "page"
 
-# To add a route, write its file and give it a place here.
+# To add a route, write its file in the folder routes.
 ROUTERS = tuple(
-    room.router
-    for room in (
-        project,
-        machine,
-        guide,
-        known,
-        plan,
-        grid,
-        readings,
-        verdict,
-        next,
-        correction,
-        check,
-        diary,
-        bench,
-        papers,
-        phones,
-    )
+    import_module(f"{routes.__name__}.{each.name}").router for each in iter_modules(routes.__path__)
 )
 
 

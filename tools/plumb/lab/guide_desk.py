@@ -9,36 +9,19 @@ from __future__ import annotations
 import time
 from collections.abc import Callable
 from concurrent.futures import Future
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 from threading import Lock
-from typing import Literal
 
 from plumb.guide.steps import GuideVisit, Step, take
-from plumb.guide.talk import LeftError, Talk, progress_in
+from plumb.guide.talk import NO, YES, LeftError, Question, Talk, progress_in
 from plumb.lab.machine_line import MachineLine
 from plumb.line.sender import Sender, StoppedError
 from plumb.text.errors import InputError
 from plumb.text.values import shown_in
 
-Kind = Literal["go", "yes", "choice", "length", "turn", "mass"]
 MOMENT = 0.05  # [s] between two looks for an answer
-YES, NO = "y", "n"
 PAYS_OUT = "chains"  # the step that does
-
-
-@dataclass(frozen=True)
-class Question:
-    """A question of the guide; lengths in mm, a mass in kg."""
-
-    kind: Kind
-    text: str
-    act: str = ""  # what a yes moves, in a few words
-    answers: tuple[tuple[str, str], ...] = ()  # letter and words
-    usual: float | None = None
-    low: float = 0.0
-    high: float = 0.0
-    number: int = 0
 
 
 class GuideDesk:
@@ -72,7 +55,7 @@ class GuideDesk:
 
         def work(sender: Sender) -> None:
             try:
-                talk = ScreenTalk(self, sender, line)
+                talk = Talk(self.said.append, lambda question: self._put(question, sender, line))
                 self._note_hanging(step, line)
                 visit = GuideVisit(sender, talk, progress_in(folder), lambda: self._hang(line))
                 with shown_in(unit):
@@ -123,55 +106,23 @@ class GuideDesk:
                 machine.slip(axis, before - now)
             self._hung = None
 
-    def ask(self, question: Question, wait: Callable[[], None]) -> str:
-        """Put a question, and wait for its answer. Raises LeftError if the step is left."""
+    def _put(self, question: Question, sender: Sender, line: MachineLine) -> str:
+        """Put a question, and wait for its answer. Raises LeftError if the step is left.
+
+        The machine is heard meanwhile; Stop, or a line that is let go, ends the step.
+        """
         with self._lock:
             self._count += 1
             self._reply = None
             self.question = replace(question, number=self._count)
-        while self._reply is None:
-            if self._left:
-                raise LeftError
-            wait()
-            time.sleep(MOMENT)
+        with line.resting():
+            while self._reply is None:
+                if self._left:
+                    raise LeftError
+                sender.listen()
+                sender.attend(sender)
+                time.sleep(MOMENT)
         return self._reply
-
-
-class ScreenTalk(Talk):
-    """The guide speaks through a page."""
-
-    def __init__(self, desk: GuideDesk, sender: Sender, line: MachineLine) -> None:
-        self._desk, self._sender, self._line = desk, sender, line
-
-    def say(self, text: str) -> None:
-        self._desk.said.append(text)
-
-    def agrees(self, what: str, act: str) -> bool:
-        return self._put(Question("go", what, act=act)) == YES
-
-    def says_yes(self, question: str) -> bool:
-        return self._put(Question("yes", question)) == YES
-
-    def choice(self, question: str, answers: dict[str, str]) -> str:
-        return self._put(Question("choice", question, answers=tuple(answers.items())))
-
-    def length(self, question: str, usual: float, low: float, high: float) -> float:
-        return float(self._put(Question("length", question, usual=usual, low=low, high=high)))
-
-    def turn(self, side: str, most: float) -> float:
-        return float(self._put(Question("turn", side, low=-most, high=most)))
-
-    def mass(self, question: str, usual: float, low: float, high: float) -> float:
-        return float(self._put(Question("mass", question, usual=usual, low=low, high=high)))
-
-    def _put(self, question: Question) -> str:
-        with self._line.resting():
-            return self._desk.ask(question, self._wait)
-
-    def _wait(self) -> None:
-        """Hear the machine while nobody answers; Stop, or a line that is let go, ends the step."""
-        self._sender.listen()
-        self._sender.attend(self._sender)
 
 
 def _why(error: BaseException) -> str:

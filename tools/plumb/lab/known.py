@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from pydantic import BaseModel
+from pydantic import BaseModel, ConfigDict
 
 from plumb.diagnosis import Checked
 from plumb.fit.by_hand import WEIGHED, WEIGHT, readings
@@ -15,6 +15,7 @@ from plumb.lab.project import Choices
 from plumb.model.effect_words import CURVES, Curve, RuleReading, Unit
 from plumb.plan.separation import FRAME_CHECKS, effect_checks
 from plumb.settings.machine import GRAVITY, MachineSettings
+from plumb.text.answers import like
 from plumb.text.errors import InputError
 from plumb.text.values import shown_in, worded
 
@@ -69,20 +70,22 @@ ON_DRAWING = ("chain_pitch", "chain_zero")  # effects that mark the chain there
 class KnownNumber(BaseModel):
     """A number that can be measured by hand: it is curve(what is read - zero) * scale."""
 
+    model_config = ConfigDict(json_schema_serialization_defaults_required=True)
+
     name: str
     title: str
     steps: str
     unit: Unit
     minutes: float
-    zero: float
-    scale: float
-    curve: Curve
+    zero: float = 0.0
+    scale: float = 1.0
+    curve: Curve = "straight"
     believed: float | None  # what the settings say, as it would be read; None: they leave it out
     usual: float  # how far a careful reading may be off
-    digits: int
+    digits: int = 1
     marked: str  # the distance on the drawing; empty: none is
-    by: str  # the number by whose square this is divided; empty: none is
-    is_first: bool  # it belongs to what everybody measures
+    by: str = ""  # the number by whose square this is divided; empty: none is
+    is_first: bool = True  # it belongs to what everybody measures
     refused: str = ""  # why what is stated cannot have been measured; empty if it can
 
     def read(self, value: float) -> float:
@@ -155,36 +158,25 @@ def _frame(settings: MachineSettings) -> list[KnownNumber]:
             steps="Weigh the sled with router and bricks, as it cuts, to 0.2 kg.",
             unit="kg",
             minutes=8.0,
-            zero=0.0,
             scale=GRAVITY,
-            curve="straight",
             believed=settings.sled_weight / GRAVITY,
             usual=WEIGHED,
-            digits=1,
             marked=WEIGHT,
-            by="",
-            is_first=True,
         ),
     ]
 
 
 def _of_frame(name: str, value: float, *, zero: float) -> KnownNumber:
     check = FRAME_CHECKS[name]
-    return KnownNumber(
+    return like(
+        KnownNumber,
+        check,
         name=name,
-        title=check.direct.title,
-        steps=check.direct.steps,
         unit="mm",
-        minutes=check.direct.minutes,
         zero=zero,
-        scale=1.0,
-        curve="straight",
         believed=value + zero,
         usual=check.sigmas[name],
-        digits=1,
         marked=name,
-        by="",
-        is_first=True,
     )
 
 
@@ -206,18 +198,14 @@ def _of_effect(name: str, reading: RuleReading, settings: MachineSettings) -> Kn
     effect, _, part = name.partition(".")
     check = effect_checks()[effect]
     value, is_first = settings.effect(effect, part), effect in FIRST
-    return KnownNumber(
+    return like(
+        KnownNumber,
+        reading,
         name=name,
-        title=reading.title,
-        steps=check.direct.steps,
-        unit=reading.unit,
-        minutes=check.direct.minutes / len(check.sigmas),
-        zero=reading.zero,
+        steps=check.steps,
+        minutes=check.minutes / len(check.sigmas),
         scale=reading.factor,
-        curve=reading.curve,
         believed=reading.read(value) if value or is_first else None,
-        usual=reading.usual,
-        digits=reading.digits,
         marked="chain" if effect in ON_DRAWING else "",
         by=WEIGHT if reading.unit == "g" else "",
         is_first=is_first,

@@ -241,6 +241,12 @@ def is_fit_of_machine(project: Project, line: MachineLine) -> bool:
     return any(not differences(board.cut_with, line.state.numbers) for board in boards)
 
 
+def refuse_unknown_place(line: MachineLine) -> None:
+    """Raise InputError while the machine does not know where its sled is."""
+    if not line.state.knows_place:
+        raise InputError("where the sled is, is not known: set its chains first")
+
+
 def refuse_other_machine(project: Project, line: MachineLine) -> None:
     """InputError unless the machine, asked now, holds the numbers that its next marks name: those
     of the open settings, or of the form that somebody took."""

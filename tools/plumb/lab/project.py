@@ -7,19 +7,20 @@ what another program or the command line wrote in the meantime; `guard.py` lets 
 from __future__ import annotations
 
 import fcntl
+import json
 import os
 import re
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from hashlib import sha256
-from itertools import count
 from pathlib import Path
 from typing import Annotated, Literal
 
-from pydantic import BaseModel, ConfigDict, Field, ValidationError
+from pydantic import BaseModel, ConfigDict, Field
 
 from plumb.text.errors import InputError
-from plumb.text.files import links_refused, opened, write_all
+from plumb.text.files import links_refused, numbered, opened, parsed, write_all
+from plumb.text.tables import read_table
 
 # A name is a single word without a folder, so no name from outside leads out of the project.
 NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_.-]{0,63}")
@@ -86,7 +87,7 @@ class Project:
         """
         return next(
             f"{each}{endings[0]}"
-            for each in _numbered(stem)
+            for each in numbered(stem)
             if all(self.read(f"{each}{ending}") is None for ending in endings)
         )
 
@@ -94,7 +95,7 @@ class Project:
         """Return the first of these names that no file has, or a file with just this content."""
         return next(
             f"{each}{ending}"
-            for each in _numbered(stem)
+            for each in numbered(stem)
             if self.read(f"{each}{ending}") in (None, content)
         )
 
@@ -138,12 +139,6 @@ class Project:
             yield
 
 
-def _numbered(stem: str) -> Iterator[str]:
-    """Yield a name and its followers, as `machine`, `machine-2` ..."""
-    yield stem
-    yield from (f"{stem}-{number}" for number in count(2))
-
-
 def digest_of(content: bytes | None) -> str:
     """Return a number for what a file holds; MISSING for None."""
     return MISSING if content is None else sha256(content).hexdigest()
@@ -157,6 +152,7 @@ TRIES = 5  # to save, while somebody else saves choices
 Edges = Literal["top-left", "top-right", "bottom-left", "bottom-right"]
 Layout = Literal["nine", "fifteen", "twenty-five", "distances", "own"]
 FileName = Annotated[str, Field(pattern=f"^{NAME.pattern}$")]
+FileOrNone = Annotated[str, Field(pattern=f"^({NAME.pattern})?$")]  # empty: none
 
 
 class Number(BaseModel):
@@ -180,9 +176,7 @@ class Choices(BaseModel):
 
     model_config = ConfigDict(extra="forbid", allow_inf_nan=False)
 
-    settings: FileName | Literal[""] = (
-        ""  # name of the settings' file in the folder; empty: none opened
-    )
+    settings: FileOrNone = ""  # name of the settings' file in the folder
     marks: list[FileName] = []  # names of the files of marks, in the order they were cut
     units: Literal["mm", "inch"] = "mm"
     fineness: float = 0.5  # [mm] the finest division of the tape
@@ -191,7 +185,7 @@ class Choices(BaseModel):
     new_sheet: bool = False  # the next marks are cut on another sheet than those before
     # [mm] machine frame: marks of the layout "own"
     planned: list[tuple[float, float]] = Field(default=[], max_length=400)
-    proposed: FileName | Literal[""] = ""  # the form of the proposal that somebody took
+    proposed: FileOrNone = ""  # the form of the proposal that somebody took
     known: dict[str, Number] = {}  # by name of the frame's number
     bench: Bench = Bench()
     accepted: list[str] = []  # numbers of the correction that the owner accepted
@@ -203,12 +197,8 @@ def read_choices(project: Project) -> tuple[Choices, str]:
     content = project.read(FILE)
     if content is None:
         return _found(project), digest_of(None)
-    try:
-        return Choices.model_validate_json(content), digest_of(content)
-    except ValidationError as error:
-        first = error.errors()[0]
-        place = ".".join(str(part) for part in first["loc"])
-        raise InputError(FILE, first["msg"], place=place, remedy="mend or delete it") from None
+    said = parsed(FILE, content.decode(errors="replace"), json.loads, "JSON")
+    return read_table(Choices, said, FILE), digest_of(content)
 
 
 # The settings that a folder of the command line has, the newest first.

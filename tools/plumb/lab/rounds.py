@@ -12,7 +12,6 @@ from plumb import api
 from plumb.fit.inputs import settings_in
 from plumb.fit.problem import PRIORS, Checked
 from plumb.grid import PRESETS, Grid, PlainMachine, marks_list, spans_of, touches_of
-from plumb.grid.cut_with import cut_with_lines, digest_of, with_form
 from plumb.grid.pattern import Touch
 from plumb.lab.known import refuse_absurd_known, stated
 from plumb.lab.project import Choices, Layout, Project
@@ -22,9 +21,10 @@ from plumb.marks.read import Mark, read_marks
 from plumb.model.predict import known_effects
 from plumb.model.reach import plain_machine, refuse_way, with_soft_chains
 from plumb.plan.options import MARK, READING, ROUND
+from plumb.settings.cut_with import cut_with_lines, digest_of, with_form
 from plumb.settings.machine import MachineSettings
 from plumb.text.errors import InputError
-from plumb.text.files import is_ours
+from plumb.text.files import is_ours, numbered
 
 FORM, PROGRAM = "marks{}.toml", "grid{}.nc"
 
@@ -73,10 +73,11 @@ def cut_commands(
 
 def next_names(project: Project) -> tuple[str, str]:
     """Return the names of the next round's form and program, which end in nothing, or -2, -3 ..."""
-    number, count = "", 1
-    while has_readings(project, FORM.format(number)) or _is_foreign(project, number):
-        count += 1
-        number = f"-{count}"
+    number = next(
+        each
+        for each in numbered("")
+        if not has_readings(project, FORM.format(each)) and not _is_foreign(project, each)
+    )
     return FORM.format(number), PROGRAM.format(number)
 
 

@@ -5,14 +5,13 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from os import PathLike
 from pathlib import Path
 
 from plumb.firmware.client_files import gcode
 from plumb.firmware.settings import every_setting, firmware_numbers
 from plumb.line.sender import REPORTS, STANDS, Sender, Watch
 from plumb.settings.machine import MachineSettings
-from plumb.text.errors import InputError, to_do
+from plumb.text.errors import InputError, Source, to_do
 from plumb.text.files import read_text
 
 ROW = re.compile(r"\$(\d+)=([-+\d.eE]+)")
@@ -117,7 +116,7 @@ def lines_for(settings: MachineSettings, source: str) -> list[str]:
     return gcode(firmware_numbers(settings)).decode().splitlines()
 
 
-def kept_before(path: str | PathLike[str]) -> list[str]:
+def kept_before(path: Source) -> list[str]:
     """Return the lines of the newest file that kept the machine's numbers before `path` was
     sent.
     """

@@ -6,29 +6,32 @@ import csv
 import io
 import re
 from collections.abc import Mapping
-from os import PathLike
+from typing import Any
+
+import numpy as np
 
 from plumb.marks.model import Mark, Measurements, Point
 from plumb.marks.plausible import Sheet, to_machine
-from plumb.marks.toml import CHAIN_RANGE, sled_weight_in_newtons
-from plumb.text.errors import InputError, naming
+from plumb.marks.toml import MarkTable, marks_of
+from plumb.text.errors import InputError, Source, naming
 from plumb.text.files import read_text
 from plumb.text.ini import IniText, read_ini
-from plumb.text.values import INCH, length_in, number_in, refuse_unknown, within
+from plumb.text.tables import Path, read_table
+from plumb.text.values import INCH, length_in, refuse_unknown
 
-NEEDED = ("target_x_mm", "target_y_mm", "measured_x_mm", "measured_y_mm")
-OPTIONAL = (
-    "name",
-    "approach_x",
-    "approach_y",
-    "sled_weight_n",
-    "chain_left_mm",
-    "chain_right_mm",
-)
-PAIRS = (("approach_x", "approach_y"), ("chain_left_mm", "chain_right_mm"))
+# The columns of each key that a table [[mark]] of a marks.toml has.
+COLUMNS = {
+    "target": ("target_x_mm", "target_y_mm"),
+    "measured": ("measured_x_mm", "measured_y_mm"),
+    "approach": ("approach_x", "approach_y"),
+    "sled_weight_n": ("sled_weight_n",),
+    "chains": ("chain_left_mm", "chain_right_mm"),
+}
+NEEDED = (*COLUMNS["target"], *COLUMNS["measured"])
+OPTIONAL = ("name", *COLUMNS["approach"], *COLUMNS["sled_weight_n"], *COLUMNS["chains"])
 
 
-def read_marks_csv(path: str | PathLike[str]) -> Measurements:
+def read_marks_csv(path: Source) -> Measurements:
     """Return the marks of a comma-separated table; lines that begin with # are comments."""
     rows = _rows(path)
     if not rows:
@@ -37,22 +40,18 @@ def read_marks_csv(path: str | PathLike[str]) -> Measurements:
     titles = [cell.lower() for cell in header]
     columns = [_in_millimetres(title) for title in titles]
     units = {column: INCH for column, title in zip(columns, titles, strict=True) if column != title}
-    _check_header(path, line, columns)
+    with naming(path, f"line {line}"):
+        _check_header(columns)
     if len(rows) == 1:
         raise InputError(path, "has no marks below its header", remedy="add one line for each mark")
-    names: dict[Point, str] = {}
     marks = []
-    for index, (line, cells) in enumerate(rows[1:], 1):
-        if len(cells) != len(columns):
-            raise InputError(
-                path,
-                f"{len(cells)} values where the header has {len(columns)}",
-                place=f"line {line}",
-                remedy="write one value for each column",
-            )
-        row = dict(zip(columns, cells, strict=True))
-        marks.append(_mark(path, line, row, index, names, units))
-    return Measurements(marks=tuple(marks), source=str(path))
+    for line, cells in rows[1:]:
+        with naming(path, f"line {line}"):
+            if len(cells) != len(columns):
+                many = f"{len(cells)} values where the header has {len(columns)}"
+                raise ValueError(f"{many}; write one value for each column")
+        marks.append(_mark(path, line, dict(zip(columns, cells, strict=True)), units))
+    return Measurements(marks=marks_of(marks), source=str(path))
 
 
 def marks_csv(measurements: Measurements) -> str:
@@ -68,21 +67,13 @@ def marks_csv(measurements: Measurements) -> str:
 
 
 def _row(mark: Mark) -> dict[str, str]:
-    assert mark.measured is not None
-    pairs = {
-        NEEDED[:2]: mark.target,
-        NEEDED[2:]: mark.measured,
-        PAIRS[0]: mark.approach,
-        PAIRS[1]: mark.chains,
-    }
-    row = {
-        column: repr(float(value))
-        for columns, pair in pairs.items()
-        if pair is not None
-        for column, value in zip(columns, pair, strict=True)
-    }
-    weight = {} if mark.sled_weight is None else {"sled_weight_n": repr(float(mark.sled_weight))}
-    return {"name": mark.name, **row, **weight}
+    row = {"name": mark.name}
+    for key, columns in COLUMNS.items():
+        value = getattr(mark, key.removesuffix("_n"))
+        if value is not None:
+            numbers = map(repr, np.atleast_1d(value).tolist())
+            row |= dict(zip(columns, numbers, strict=True))
+    return row
 
 
 def _in_millimetres(title: str) -> str:
@@ -93,7 +84,7 @@ def _in_millimetres(title: str) -> str:
     return title
 
 
-def _rows(path: str | PathLike[str]) -> list[tuple[int, list[str]]]:
+def _rows(path: Source) -> list[tuple[int, list[str]]]:
     """Line numbers and trimmed cells of all lines that are neither empty nor comments."""
     rows = []
     for line, text in enumerate(read_text(path).splitlines(), 1):
@@ -112,75 +103,39 @@ def _rows(path: str | PathLike[str]) -> list[tuple[int, list[str]]]:
     return rows
 
 
-def _check_header(path: str | PathLike[str], line: int, columns: list[str]) -> None:
-    place = f"line {line}"
+def _check_header(columns: list[str]) -> None:
     if len(columns) == 1 and (";" in columns[0] or "\t" in columns[0]):
-        raise InputError(
-            path,
-            "the columns are not separated by commas",
-            place=place,
-            remedy="save it comma-separated, with decimal points",
+        raise ValueError(
+            "the columns are not separated by commas; save it comma-separated, with decimal points"
         )
     if len(set(columns)) < len(columns):
         twin = next(column for column in columns if columns.count(column) > 1)
-        raise InputError(path, f"column {twin} stands twice", place=place, remedy="remove a column")
+        raise ValueError(f"column {twin} stands twice; remove a column")
     if not set(columns) & set(NEEDED):
-        raise InputError(
-            path,
-            "the first line does not name the columns",
-            place=place,
-            remedy=f"begin with {','.join(NEEDED)}",
-        )
-    with naming(path, place):
-        refuse_unknown(columns, NEEDED + OPTIONAL)
-        for column in NEEDED:
-            if column not in columns:
-                raise ValueError(f"column {column} is missing; needed are {', '.join(NEEDED)}")
+        raise ValueError(f"the first line does not name the columns; begin with {','.join(NEEDED)}")
+    refuse_unknown(columns, NEEDED + OPTIONAL)
+    for column in NEEDED:
+        if column not in columns:
+            raise ValueError(f"column {column} is missing; needed are {', '.join(NEEDED)}")
 
 
-def _mark(
-    path: str | PathLike[str],
-    line: int,
-    row: dict[str, str],
-    index: int,
-    names: dict[Point, str],
-    units: Mapping[str, float],
-) -> Mark:
-    """Return the mark of a line; without a name, an equal target makes it a repeat."""
-    values: dict[str, float] = {}
-    for column, text in row.items():
-        if column != "name" and (text or column in NEEDED):
-            with naming(path, f"line {line}, {column}"):
-                values[column] = length_in(text, unit=units.get(column, 1.0))
-    for first, second in PAIRS:
-        if (first in values) != (second in values):
-            raise InputError(
-                path,
-                f"{first} and {second} go together",
-                place=f"line {line}",
-                remedy="give both or none",
-            )
-    with naming(path, f"line {line}"):
-        if values.get("approach_x") == values.get("approach_y") == 0:
-            raise ValueError("approach 0, 0 is no direction; leave it empty if it is not known")
-        for column in ("chain_left_mm", "chain_right_mm"):
-            within(values.get(column, 0.0), *CHAIN_RANGE)
-        if "sled_weight_n" in values:
-            sled_weight_in_newtons(values["sled_weight_n"])
-    target = (values["target_x_mm"], values["target_y_mm"])
-    return Mark(
-        name=row.get("name") or names.setdefault(target, str(index)),
-        target=target,
-        measured=(values["measured_x_mm"], values["measured_y_mm"]),
-        approach=_both(values, PAIRS[0]),
-        sled_weight=values.get("sled_weight_n"),
-        chains=_both(values, PAIRS[1]),
-    )
+def _mark(path: Source, line: int, row: dict[str, str], units: Mapping[str, float]) -> MarkTable:
+    """Return the mark of a line, which is refused as a table [[mark]] would be."""
+    said: dict[str, Any] = {"name": row["name"]} if row.get("name") else {}
+    for key, columns in COLUMNS.items():
+        if columns[0] in NEEDED or any(row.get(column) for column in columns):
+            said[key] = []
+            for column in columns:
+                with naming(path, f"line {line}, {column}"):
+                    typed = length_in(row.get(column, ""), unit=units.get(column, 1.0))
+                said[key].append(typed)
+    if "sled_weight_n" in said:
+        (said["sled_weight_n"],) = said["sled_weight_n"]
 
+    def place(where: Path) -> str:
+        return ", ".join([f"line {line}", *map(str, where[:1])])
 
-def _both(values: dict[str, float], columns: tuple[str, str]) -> Point | None:
-    first, second = columns
-    return (values[first], values[second]) if first in values else None
+    return read_table(MarkTable, said, path, place=place, context=1.0)
 
 
 # The published `Calibration Measurements.ini`: marks in mm from the sheet's top-left corner.
@@ -190,7 +145,7 @@ def _both(values: dict[str, float], columns: tuple[str, str]) -> Point | None:
 _NUMBERED = re.compile(r"t?[xy](\d+)", re.IGNORECASE)
 
 
-def read_marks_ini(path: str | PathLike[str], *, sheet: Sheet) -> Measurements:
+def read_marks_ini(path: Source, *, sheet: Sheet) -> Measurements:
     """Return the marks of a published measurement file, moved to the machine frame."""
     ini = read_ini(path)
     count = _count(ini)
@@ -206,13 +161,7 @@ def read_marks_ini(path: str | PathLike[str], *, sheet: Sheet) -> Measurements:
 
 def _count(ini: IniText) -> int:
     """Return how many positions the file says it has, if it has exactly those."""
-    entry = ini.find("numpositions", section="global")
-    if entry is None:
-        raise InputError(
-            ini.source,
-            "numpositions is missing",
-            remedy="add [global] numpositions = how many marks there are",
-        )
+    entry = ini.needed("numpositions", section="global")
     if not entry.value.isascii() or not entry.value.isdigit() or int(entry.value) == 0:
         raise InputError(
             ini.source,
@@ -235,16 +184,5 @@ def _count(ini: IniText) -> int:
 
 def _point(ini: IniText, section: str, prefix: str, index: int) -> Point:
     """Return a point of the file, as written [mm]."""
-    values = []
-    for axis in ("x", "y"):
-        key = f"{prefix}{axis}{index}"
-        entry = ini.find(key, section=section)
-        if entry is None:
-            raise InputError(
-                ini.source,
-                f"{key} is missing in [{section}]",
-                remedy="add it, or correct numpositions",
-            )
-        with naming(ini.source, entry.place):
-            values.append(number_in(entry.value))
-    return values[0], values[1]
+    x, y = (ini.number(f"{prefix}{axis}{index}", section=section) for axis in ("x", "y"))
+    return x, y

@@ -1,21 +1,23 @@
 """A marks.toml while its readings are typed: marks may wait, and any reading can be changed.
 
-Places are in the machine frame [mm]; the file keeps the corner and the unit that it has.
+Places are in the machine frame [mm]; the file keeps its corner, its unit and its comments.
 """
 
 from __future__ import annotations
 
-import json
-import tomllib
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from datetime import date
-from os import PathLike
 from typing import Any
 
+import tomlkit
+
+from plumb.grid.pattern import spans_in
 from plumb.marks.model import Mark, Measurements, Point
 from plumb.marks.plausible import Sheet
 from plumb.marks.toml import read_marks_toml
+from plumb.settings.toml import Known
+from plumb.text.errors import Source
 from plumb.text.files import read_text
 from plumb.text.values import UNITS, with_quoted_fractions
 
@@ -25,120 +27,111 @@ DIGITS = {"mm": 4, "inch": 5}  # a 1/128 inch stays what it is
 
 @dataclass(frozen=True)
 class Form:
-    """Contents of a marks.toml, as TOML has it and as marks."""
+    """A marks.toml as text, its fractions in quotes, and as marks."""
 
-    head: Mapping[str, Any]
-    comment: tuple[str, ...]  # the lines before its first key
+    text: str
     measurements: Measurements  # marks that wait are there too
 
+    @property
+    def spans(self) -> list[tuple[str, str]]:
+        """Names of marks between which its comment asks for the distance."""
+        return spans_in(self.text.splitlines())
 
-def read_form(
-    path: str | PathLike[str],
-    *,
-    sheet: Sheet,
-    known: Mapping[str, Sequence[str]] | None = None,
-) -> Form:
+
+def read_form(path: Source, *, sheet: Sheet, known: Known = None) -> Form:
     """Return the form in a file. Raises InputError for what is no marks.toml."""
     measurements = read_marks_toml(path, sheet=sheet, known=known)
-    text = read_text(path)
-    return Form(tomllib.loads(with_quoted_fractions(text)), _comment_of(text), measurements)
+    return Form(with_quoted_fractions(read_text(path)), measurements)
 
 
-def with_readings(form: Form, places: Mapping[int, Point | None]) -> dict[str, Any]:
-    """Return the head with other readings, by the marks' indices; None takes a reading out."""
-    marks = [dict(mark) for mark in form.head.get("mark", [])]
+def with_readings(form: Form, places: Mapping[int, Point | None]) -> str:
+    """Return the text with other readings, by the marks' indices; None takes a reading out."""
+    document = tomlkit.parse(form.text)
+    marks = document.get("mark", [])
     for index, place in places.items():
         if not 0 <= index < len(marks):
             raise ValueError(f"there is no mark number {index + 1}")
-        marks[index].pop("measured", None)
-        if place is not None:
-            marks[index].pop("unread", None)
-            marks[index]["measured"] = _typed(form, place)
-    for mark in marks:
-        if "measured" not in mark:
-            mark["unread"] = True
-    return {**form.head, "mark": marks}
+        _say(marks[index], "measured", place and _typed(form, place), instead_of="unread")
+    return _as_form(document)
 
 
-def with_distances(
-    form: Form, distances: Sequence[tuple[tuple[str, str], float]]
-) -> dict[str, Any]:
-    """Return the head with other distances [mm]; a distance that stays is not touched."""
-    before = form.head.get("distance", [])
+def with_distances(form: Form, distances: Sequence[tuple[tuple[str, str], float]]) -> str:
+    """Return the text with other distances [mm]; a distance that stays is not touched."""
+    document = tomlkit.parse(form.text)
     known = {
         (distance.between, distance.length): table
-        for distance, table in zip(form.measurements.distances, before, strict=False)
+        for distance, table in zip(
+            form.measurements.distances, document.get("distance", []), strict=False
+        )
     }
-    tables = [
-        known.get((between, length), {"between": list(between), "mm": round(length, 4)})
-        for between, length in distances
-    ]
+    tables = tomlkit.aot()
+    for between, length in distances:
+        new = tomlkit.item({"between": list(between), "mm": round(length, 4)})
+        tables.append(known.get((between, length), new))
+    if distances:
+        document["distance"] = tables
+    else:
+        document.pop("distance", None)
     # A mark without reading is an end of a distance, or waits; both are written as waiting.
-    return with_readings(Form({**form.head, "distance": tables}, (), form.measurements), {})
+    return _as_form(document)
 
 
-def head_of(measurements: Measurements) -> dict[str, Any]:
-    """Return what a marks.toml says of measurements that came in another form."""
-    said = {
+def with_tape_sigma(form: Form, sigma: float | None) -> str:
+    """Return the text with how well the tape is read [mm]; None: nothing is stated."""
+    document = tomlkit.parse(form.text)
+    if sigma is None:
+        document.pop("tape_sigma_mm", None)
+    else:
+        document["tape_sigma_mm"] = sigma
+    return _as_form(document)
+
+
+def marks_toml(measurements: Measurements) -> str:
+    """Return a marks.toml that says what measurements say that came in another form."""
+    head = {
+        "frame": "machine",
         "controller": measurements.controller,
         "tape_sigma_mm": measurements.tape_sigma,
         "steered": measurements.steered or None,
+        "mark": [_mark_table(mark) for mark in measurements.marks],
+        "distance": [
+            {"between": list(distance.between), "mm": distance.length}
+            for distance in measurements.distances
+        ],
     }
-    marks = [_mark_table(mark) for mark in measurements.marks]
-    distances = [
-        {"between": list(distance.between), "mm": distance.length}
-        for distance in measurements.distances
-    ]
-    lists = {"mark": marks, "distance": distances}
-    kept = {key: value for key, value in (said | lists).items() if value}
-    return {"frame": "machine", **kept}
+    return _as_form(tomlkit.item({key: value for key, value in head.items() if value}))
 
 
 def _mark_table(mark: Mark) -> dict[str, Any]:
     said = {
         "name": mark.name,
         "target": list(mark.target),
-        "measured": list(mark.measured) if mark.measured else None,
-        "unread": True if mark.measured is None else None,
-        "approach": list(mark.approach) if mark.approach else None,
+        "measured": mark.measured and list(mark.measured),
+        "approach": mark.approach and list(mark.approach),
         "sled_weight_n": mark.sled_weight,
-        "chains": list(mark.chains) if mark.chains else None,
+        "chains": mark.chains and list(mark.chains),
         "chains_swapped": mark.chains_swapped or None,
     }
     return {key: value for key, value in said.items() if value is not None}
 
 
-def toml_text(head: Mapping[str, Any], comment: Sequence[str] = ()) -> str:
-    """Return the text of a marks.toml."""
-    lines = [*comment]
-    for key, value in head.items():
-        if not _is_table(value):
-            lines.append(f"{key} = {_value(value)}")
-    for key, value in head.items():
-        for table in value if isinstance(value, list) and _is_table(value) else ():
-            lines += ["", f"[[{key}]]", *_lines(table)]
-        if isinstance(value, Mapping):
-            lines += ["", f"[{key}]", *_lines(value)]
-    return "\n".join([*lines, ""])
+def _as_form(document: tomlkit.TOMLDocument) -> str:
+    """Return the text of a form, in which each mark without reading has a line for it."""
+    for mark in document.get("mark", []):
+        if "measured" not in mark:
+            _say(mark, "unread", True, instead_of="measured")
+    text = re.sub(rf"(?m)^{re.escape(BLANK)}\r?\n", "", document.as_string())
+    return re.sub(r"(?m)^(unread\s*=\s*true\b.*?)(\r?)$", rf"\1\2\n{BLANK}\2", text)
 
 
-def _is_table(value: object) -> bool:
-    is_list = isinstance(value, list) and value and isinstance(value[0], Mapping)
-    return isinstance(value, Mapping) or bool(is_list)
-
-
-def _lines(table: Mapping[str, Any]) -> list[str]:
-    lines = [f"{key} = {_value(value)}" for key, value in table.items()]
-    return [*lines, BLANK] if table.get("unread") else lines
-
-
-def _value(value: object) -> str:
-    """Return a value as TOML writes it; its texts are those of JSON."""
-    if isinstance(value, list):
-        return f"[{', '.join(map(_value, value))}]"
-    if isinstance(value, date):
-        return value.isoformat()
-    return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
+def _say(mark: Any, key: str, value: object, *, instead_of: str) -> None:
+    """Say something of a mark in the place where it said something else."""
+    if value is None:
+        mark.pop(key, None)
+    elif instead_of in mark:
+        mark.value._replace(instead_of, key, value)
+    else:
+        mark[key] = value
 
 
 def _typed(form: Form, place: Point) -> list[float]:
@@ -147,14 +140,3 @@ def _typed(form: Form, place: Point) -> list[float]:
     return [
         round(number / UNITS[typed.unit], DIGITS[typed.unit]) + 0.0 for number in typed.place(place)
     ]
-
-
-def _comment_of(text: str) -> tuple[str, ...]:
-    lines = []
-    for line in text.splitlines():
-        if line.strip() and not line.startswith("#"):
-            break
-        lines.append(line.rstrip())
-    while lines and not lines[-1]:
-        lines.pop()
-    return tuple(lines)

@@ -6,8 +6,8 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from plumb.marks.model import Mark, Measurements, Point, refuse_exchanged_columns
-from plumb.text.errors import InputError
+from plumb.marks.model import Distance, Mark, Measurements, Point, refuse_exchanged_columns
+from plumb.text.errors import naming
 from plumb.text.values import INCH
 
 MOST_ERROR = 500.0  # [mm] farther from its target a mark is a slip of the pen
@@ -33,54 +33,57 @@ def checked(measurements: Measurements, *, sheet: Sheet) -> Measurements:
     """Return the same measurements, if they can be what they say on a sheet of that width and
     height.
     """
-    _refuse_empty(measurements)
-    _refuse_inches(measurements, sheet)
+    source = measurements.source
+    with naming(source, ""):
+        if not measurements.measured_marks and not measurements.distances:
+            raise ValueError("has no measured mark; add measured positions")
+    for distance in measurements.distances:
+        with naming(source, f"distance {'-'.join(distance.between)}"):
+            _refuse_unnamed(measurements, distance)
     for mark in measurements.marks:
-        _refuse_outside(measurements, mark, sheet)
-        _refuse_far(measurements, mark, sheet)
-    _refuse_odd_distances(measurements)
+        with naming(source, f"mark {mark.name}"):
+            _refuse_useless(measurements, mark)
+    with naming(source, ""):
+        _refuse_inches(measurements, sheet)
+    for mark in measurements.marks:
+        with naming(source, f"mark {mark.name}"):
+            _refuse_outside(mark, sheet)
+            _refuse_far(measurements, mark, sheet)
+    for distance in measurements.distances:
+        with naming(source, f"distance {'-'.join(distance.between)}"):
+            _refuse_odd(measurements, distance)
     refuse_exchanged_columns(measurements)
     return measurements
 
 
-def _refuse_empty(measurements: Measurements) -> None:
-    if not measurements.measured_marks and not measurements.distances:
-        raise InputError(
-            measurements.source, "has no measured mark", remedy="add measured positions"
+def _refuse_unnamed(measurements: Measurements, distance: Distance) -> None:
+    names = {mark.name for mark in measurements.marks}
+    for name in distance.between:
+        if name not in names:
+            raise ValueError(
+                f"there is no mark named '{name}'; add a [[mark]] with that name and its target"
+            )
+
+
+def _refuse_useless(measurements: Measurements, mark: Mark) -> None:
+    """Refuse a mark that says nothing, or whose name does not say which mark it is."""
+    first = measurements.target_of(mark.name)
+    is_end = any(mark.name in distance.between for distance in measurements.distances)
+    if mark.measured is None and not is_end:
+        raise ValueError(
+            "has no measured position and no distance uses it; "
+            "add measured = [x, y], or remove the mark"
         )
-    first = {mark.name: mark for mark in reversed(measurements.marks)}
-    for distance in measurements.distances:
-        for name in distance.between:
-            if name not in first:
-                raise InputError(
-                    measurements.source,
-                    f"there is no mark named '{name}'",
-                    place=f"distance {distance.between[0]}-{distance.between[1]}",
-                    remedy="add a [[mark]] with that name and its target",
-                )
-    ends = {name for distance in measurements.distances for name in distance.between}
-    for mark in measurements.marks:
-        if mark.measured is None and mark.name not in ends:
-            raise InputError(
-                measurements.source,
-                "has no measured position and no distance uses it",
-                place=f"mark {mark.name}",
-                remedy="add measured = [x, y], or remove the mark",
-            )
-        if math.dist(mark.target, first[mark.name].target) > FARTHEST_REPEAT:
-            raise InputError(
-                measurements.source,
-                "the same name stands twice with targets far apart",
-                place=f"mark {mark.name}",
-                remedy=f"give another name, or for a repeat a target within {FARTHEST_REPEAT:g} mm",
-            )
-        if mark.name in ends and mark.target != first[mark.name].target:
-            raise InputError(
-                measurements.source,
-                "a distance goes to this name, but it has two places",
-                place=f"mark {mark.name}",
-                remedy="give the second place another name",
-            )
+    if math.dist(mark.target, first) > FARTHEST_REPEAT:
+        raise ValueError(
+            "the same name stands twice with targets far apart; "
+            f"give another name, or for a repeat a target within {FARTHEST_REPEAT:g} mm"
+        )
+    if is_end and mark.target != first:
+        raise ValueError(
+            "a distance goes to this name, but it has two places; "
+            "give the second place another name"
+        )
 
 
 def _refuse_inches(measurements: Measurements, sheet: Sheet) -> None:
@@ -99,37 +102,28 @@ def _refuse_inches(measurements: Measurements, sheet: Sheet) -> None:
             for axis in (0, 1)
         )
         if spread < TOO_CLOSE:
-            raise InputError(
-                measurements.source,
+            raise ValueError(
                 f"all {what} lie within {spread:.0f} mm of each other "
-                f"on a sheet {sheet[0]:.0f} mm wide",
-                remedy=_INCH_HINT,
+                f"on a sheet {sheet[0]:.0f} mm wide; {_INCH_HINT}"
             )
 
 
-def _refuse_outside(measurements: Measurements, mark: Mark, sheet: Sheet) -> None:
+def _refuse_outside(mark: Mark, sheet: Sheet) -> None:
     x, y = mark.target
     if abs(x) > sheet[0] / 2 + OUTSIDE or abs(y) > sheet[1] / 2 + OUTSIDE:
-        raise InputError(
-            measurements.source,
+        raise ValueError(
             f"target ({x:.1f}, {y:.1f}), counted from the middle of the sheet with y up, "
-            f"is off the {sheet[0]:.0f} x {sheet[1]:.0f} mm sheet",
-            place=f"mark {mark.name}",
-            remedy="check the frame (top-left corner with y down, or middle with y up), the units"
-            " and the sheet size in the settings",
+            f"is off the {sheet[0]:.0f} x {sheet[1]:.0f} mm sheet; check the frame (top-left "
+            "corner with y down, or middle with y up), the units and the sheet size in the settings"
         )
 
 
 def _refuse_far(measurements: Measurements, mark: Mark, sheet: Sheet) -> None:
     far = far_reading(measurements, mark, sheet)
     if far:
-        raise InputError(
-            measurements.source,
-            f"measured {far.error:.0f} mm away from its target",
-            place=f"mark {mark.name}",
-            remedy=far.mistake
-            or "check the frame (top-left corner with y down, or middle with y up) and the numbers",
-        )
+        frame = "check the frame (top-left corner with y down, or middle with y up) and the numbers"
+        remedy = far.mistake or frame
+        raise ValueError(f"measured {far.error:.0f} mm away from its target; {remedy}")
 
 
 @dataclass(frozen=True)
@@ -207,19 +201,14 @@ def _slips(right: float, top: float) -> dict[str, Callable[[float, float], Point
     }
 
 
-def _refuse_odd_distances(measurements: Measurements) -> None:
-    for distance in measurements.distances:
-        first, second = (measurements.target_of(name) for name in distance.between)
-        meant = math.dist(first, second)
-        if abs(meant - distance.length) <= MOST_DISTANCE_ERROR:
-            continue
+def _refuse_odd(measurements: Measurements, distance: Distance) -> None:
+    first, second = (measurements.target_of(name) for name in distance.between)
+    meant = math.dist(first, second)
+    if abs(meant - distance.length) > MOST_DISTANCE_ERROR:
         inches = abs(meant - INCH * distance.length) < TOO_CLOSE
-        raise InputError(
-            measurements.source,
-            f"measured {distance.length:g} mm, but the targets are {meant:.0f} mm apart",
-            place=f"distance {distance.between[0]}-{distance.between[1]}",
-            remedy=_INCH_HINT if inches else "check the names and the number",
-        )
+        remedy = _INCH_HINT if inches else "check the names and the number"
+        said = f"measured {distance.length:g} mm, but the targets are {meant:.0f} mm apart"
+        raise ValueError(f"{said}; {remedy}")
 
 
 # Places counted from two edges of the sheet, as a tape measures them [mm].

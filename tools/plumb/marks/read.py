@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import replace
-from os import PathLike
 from pathlib import Path
 from typing import TypeVar
 
@@ -14,7 +13,8 @@ from plumb.marks.model import Distance, Mark, Measurements, Point, Round, Typed,
 from plumb.marks.plausible import Sheet, checked
 from plumb.marks.toml import read_marks_toml
 from plumb.settings.machine import MachineSettings
-from plumb.text.errors import InputError, to_do
+from plumb.settings.toml import Known
+from plumb.text.errors import InputError, Source, to_do
 from plumb.text.files import CODE, read_bytes
 from plumb.text.values import refuse_unknown
 
@@ -29,12 +29,7 @@ __all__ = [
 ]
 
 
-def read_marks(
-    path: str | PathLike[str],
-    *,
-    sheet: Sheet,
-    known: Mapping[str, Sequence[str]] | None = None,
-) -> Measurements:
+def read_marks(path: Source, *, sheet: Sheet, known: Known = None) -> Measurements:
     """Return the marks of a file, in the machine frame [mm]; sheet is its width and height [mm].
 
     Marks that wait for their reading (`unread = true`) take no part. A file that names the settings
@@ -58,8 +53,6 @@ def _without_unread(measurements: Measurements) -> Measurements:
     return replace(measurements, marks=tuple(kept))
 
 
-Source = str | PathLike[str]
-Known = Mapping[str, Sequence[str]] | None
 # How a file is read, by the form that _form_of() finds.
 READERS: Mapping[str, Callable[[Source, Sheet, Known], Measurements]] = {
     "ini": lambda path, sheet, _: read_marks_ini(path, sheet=sheet),
@@ -68,9 +61,7 @@ READERS: Mapping[str, Callable[[Source, Sheet, Known], Measurements]] = {
 }
 
 
-def _read(
-    path: str | PathLike[str], sheet: Sheet, known: Mapping[str, Sequence[str]] | None = None
-) -> Measurements:
+def _read(path: Source, sheet: Sheet, known: Known = None) -> Measurements:
     return READERS[_form_of(path)](path, sheet, known)
 
 
@@ -80,16 +71,12 @@ def _sheet_of(measurements: Measurements, sheet: Sheet) -> Sheet:
     return cut_with.sheet if cut_with else sheet
 
 
-def _form_of(path: str | PathLike[str]) -> str:
+def _form_of(path: Source) -> str:
     """`ini`, `toml` or `csv`, by what the file says first and by its ending second."""
     text = read_bytes(path).decode("utf-8-sig", "replace").lower()
     lines = [line.strip() for line in text.splitlines()]
     lines = [line for line in lines if line and line[0] not in "#;"]
-    if any(line.startswith("[maslow settings]") for line in lines):
-        raise InputError(
-            path, "holds settings, not marks", remedy="give SETTINGS first, then MARKS"
-        )
-    if any(re.match(r"\[(sheet|effects\..*)\]", line) for line in lines):
+    if any(re.match(r"\[(maslow settings|sheet|effects\..*)\]", line) for line in lines):
         raise InputError(
             path, "holds settings, not marks", remedy="give SETTINGS first, then MARKS"
         )

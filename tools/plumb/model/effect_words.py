@@ -122,13 +122,3 @@ CURVES: Mapping[str, tuple[Callable[[float], float], Callable[[float], float]]] 
         lambda number: math.degrees(math.atan(_root(number))),
     ),
 }
-
-
-@dataclass(frozen=True)
-class DirectCheck:
-    """How the owner measures an effect directly, without marks on a sheet."""
-
-    title: str
-    steps: str  # what to do, and how exactly
-    value: str  # how the parameters follow from what was measured
-    minutes: float

@@ -93,9 +93,8 @@ def _sharper(check: PlannedCheck, known: Mapping[str, float]) -> bool:
 
 
 def _check(kind: str, number: NumberCheck, each: tuple[PlannedCheck, ...]) -> Option:
-    direct = number.direct
     return Option(
-        kind, direct.title, (direct.steps,), direct.minutes, nowhere(), each, direct.value
+        kind, number.title, (number.steps,), number.minutes, nowhere(), each, number.value
     )
 
 

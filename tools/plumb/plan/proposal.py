@@ -16,7 +16,6 @@ from plumb.diagnosis.outliers import Outlier
 from plumb.diagnosis.sizes import Room
 from plumb.fit.inputs import Inputs
 from plumb.fit.observations import Observations
-from plumb.grid.cut_with import cut_with_lines, with_form
 from plumb.model.plain import ascending, noun_of, plainly, ranked
 from plumb.plan.case import Case, PlannedCheck, PlannedMeasurement, case_of
 from plumb.plan.options import MARK, READING, ROUND, Option, many_marks, options, spots
@@ -32,6 +31,7 @@ from plumb.plan.planned_visits import (
     usable,
 )
 from plumb.plan.separation import ENOUGH, apart, drawn_by
+from plumb.settings.cut_with import cut_with_lines, with_form
 from plumb.text.answers import Internal, among, key, meant, part
 from plumb.text.values import bare, in_inches, worded
 

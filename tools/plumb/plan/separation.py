@@ -14,7 +14,6 @@ import numpy as np
 
 from plumb.diagnosis.explanation import Board, Explanation
 from plumb.model.catalogue import every_effect
-from plumb.model.effect_words import DirectCheck
 from plumb.model.plain import greatest
 from plumb.plan.case import Case, Hypothesis, visit_slopes
 from plumb.plan.planned_visits import Visits
@@ -146,9 +145,12 @@ class Chooser:
 
 @dataclass(frozen=True)
 class NumberCheck:
-    """How numbers of the machine are measured directly."""
+    """How numbers of the machine are measured directly, without marks on a sheet."""
 
-    direct: DirectCheck
+    title: str
+    steps: str  # what to do, and how exactly
+    value: str  # how the numbers follow from what was measured
+    minutes: float
     sigmas: Mapping[str, float]  # of each parameter, or number of the frame [its unit]
 
 
@@ -156,8 +158,8 @@ def effect_checks() -> dict[str, NumberCheck]:
     """Return the checks of all effects that have any."""
     return {
         effect["name"]: NumberCheck(
-            DirectCheck(**effect["check"]),
-            {
+            **effect["check"],
+            sigmas={
                 parameter["name"]: parameter["sigma"]
                 for parameter in effect["parameters"]
                 if parameter["sigma"]
@@ -170,31 +172,24 @@ def effect_checks() -> dict[str, NumberCheck]:
 
 FRAME_CHECKS: Mapping[str, NumberCheck] = {
     "motor_gap": NumberCheck(
-        DirectCheck(
-            "the gap between the motors",
-            "Measure between the sprocket centres to 1 mm, with a chain pulled tight or a steel "
-            "tape.",
-            "mm",
-            10.0,
-        ),
+        "the gap between the motors",
+        "Measure between the sprocket centres to 1 mm, with a chain pulled tight or a steel tape.",
+        "mm",
+        10.0,
         {"motor_gap": 1.0},
     ),
     "motor_height": NumberCheck(
-        DirectCheck(
-            "the motors above the top edge of the sheet",
-            "Measure from the sheet's top edge up to the sprocket centres to 1 mm, on both sides.",
-            "the mean of both sides and half the sheet's height, mm",
-            8.0,
-        ),
+        "the motors above the top edge of the sheet",
+        "Measure from the sheet's top edge up to the sprocket centres to 1 mm, on both sides.",
+        "the mean of both sides and half the sheet's height, mm",
+        8.0,
         {"motor_height": 1.0},
     ),
     "rotation_radius": NumberCheck(
-        DirectCheck(
-            "the rotation radius",
-            "Measure from the bit to the first link pin of each chain to 0.5 mm.",
-            "mm",
-            5.0,
-        ),
+        "the rotation radius",
+        "Measure from the bit to the first link pin of each chain to 0.5 mm.",
+        "mm",
+        5.0,
         {"rotation_radius": 0.5},
     ),
 }

@@ -7,41 +7,37 @@ or as a `machine.toml`.
 from __future__ import annotations
 
 import json
-import math
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from hashlib import sha256
-from os import PathLike
 from pathlib import Path
 from typing import Any
 
 from plumb.settings.ini import (
     Key,
     changed_ini,
-    number_for_firmware,
+    new_value,
     published_settings,
     read_settings_ini,
     same_number,
 )
 from plumb.settings.machine import MachineSettings, SettingsFile
-from plumb.settings.toml import read_machine_toml
-from plumb.text.errors import InputError
+from plumb.settings.toml import Known, read_machine_toml
+from plumb.text.errors import InputError, Source
 from plumb.text.files import CODE, parsed, read_bytes, read_text
 from plumb.text.ini import IniEntry, IniText, parse_ini
 
 WEBCONTROL_ENDING = ".json"
 
 
-def read_settings(
-    path: str | PathLike[str], *, known: Mapping[str, Sequence[str]] | None = None
-) -> MachineSettings:
+def read_settings(path: Source, *, known: Known = None) -> MachineSettings:
     """Return the settings in a file of a client or ours; known lists each effect's parameters."""
     file = SettingsFile(Path(path).name, sha256(read_bytes(path)).hexdigest())
     return replace(_read(path, known), file=file)
 
 
-def _read(path: str | PathLike[str], known: Mapping[str, Sequence[str]] | None) -> MachineSettings:
+def _read(path: Source, known: Known) -> MachineSettings:
     text = read_bytes(path).decode("utf-8-sig", "replace").lstrip()
     if text.startswith("{"):
         return published_settings(read_webcontrol(path))
@@ -71,15 +67,15 @@ def changed_client_file(original_path: str, changes: Mapping[Key, float | str]) 
 
 def parse_client_file(content: bytes, *, source: str) -> IniText:
     """Return the entries of a client's file."""
-    if source.lower().endswith(WEBCONTROL_ENDING):
-        return parse_webcontrol(content.decode("utf-8"), source=source)
-    return parse_ini(content.decode("utf-8", "surrogateescape"), source=source)
+    text = content.decode("utf-8-sig", "surrogateescape")
+    is_json = text.lstrip().startswith("{")
+    return (parse_webcontrol if is_json else parse_ini)(text, source=source)
 
 
 # `webcontrol.json`: the settings of WebControl, by the sections and keys of a groundcontrol.ini.
 
 
-def read_webcontrol(path: str | PathLike[str]) -> IniText:
+def read_webcontrol(path: Source) -> IniText:
     """Return the settings of a webcontrol.json as entries of an ini file."""
     return parse_webcontrol(read_text(path), source=str(path))
 
@@ -94,25 +90,19 @@ def parse_webcontrol(text: str, *, source: str) -> IniText:
     return IniText(source, lines, tuple(entries))
 
 
-def changed_webcontrol(
-    original_path: str | PathLike[str], changes: Mapping[Key, float | str]
-) -> bytes:
+def changed_webcontrol(original_path: Source, changes: Mapping[Key, float | str]) -> bytes:
     """Return the bytes of a webcontrol.json with some values replaced; equal numbers stay as they
     are.
     """
     text = read_text(original_path)
     document = _loaded(text, str(original_path))
     for (section, key), value in changes.items():
-        if not isinstance(value, str) and not math.isfinite(value):
-            raise InputError(
-                original_path, f"{value} is not a usable number", place=f"{section}, {key}"
-            )
+        new = new_value(value, original_path, place=f"{section}, {key}")
         same = [
             option
             for place, option in _options(document)
             if place == section and str(option["key"]).lower() == key.lower()
         ]
-        new = value if isinstance(value, str) else number_for_firmware(value)
         if not same:
             if section not in document:
                 raise InputError(original_path, f"has no section {section}")

@@ -6,15 +6,18 @@ Lengths in mm, forces in N, in the machine frame (origin in the middle of the sh
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING, NamedTuple, TypedDict
+from typing import TYPE_CHECKING, Annotated, Any, Literal, NamedTuple, get_args
 
 import numpy as np
+from pydantic import model_validator
+from pydantic.dataclasses import dataclass as pydantic_dataclass
 
 from plumb import _core
-from plumb.text.errors import InputError
-from plumb.text.values import refuse_unknown
+from plumb.text.answers import meant
+from plumb.text.errors import InputError, Source
+from plumb.text.tables import Number, Table, refuse_other_keys
 
 if TYPE_CHECKING:
     from plumb.settings.toml import FitRecord
@@ -25,35 +28,46 @@ SLED_WEIGHT = 97.9  # [N] 22 pounds, the published default
 CHAIN_WEIGHT = 0.00137293  # [N/mm] 0.14 kg/m, the published data of #25 chain
 HOLEY_CHAIN_WEIGHT = 0.001372  # [N/mm] as the catenary release rounds it
 SPROCKET_RADIUS = 10 * 6.35 / (2 * math.pi)  # [mm] ten teeth of 6.35 mm
-FEEDS = ("top", "bottom")
+Feed = Literal["top", "bottom"]
 
 
-class Frame(TypedDict):
-    """The seven numbers that every machine has [mm, N]; docs/words.md says what each is."""
+class Frame(Table):
+    """The seven numbers that every machine has; docs/words.md says what each is."""
 
-    motor_gap: float
-    motor_height: float
-    motor_center_x: float
-    rotation_radius: float
-    sprocket_radius: float
-    sled_weight: float
-    chain_weight: float
+    motor_gap: Annotated[Number, meant("mm between sprocket centres")]
+    motor_height: Annotated[Number, meant("mm, sprocket centres above the middle of the sheet")]
+    motor_center_x: Annotated[
+        Number, meant("mm, middle between the sprockets right of the middle of the sheet")
+    ] = 0.0
+    rotation_radius: Annotated[Number, meant("mm from the bit to the end of the chain")]
+    sprocket_radius: Annotated[Number, meant("mm")] = SPROCKET_RADIUS
+    sled_weight: Annotated[Number, meant("N")] = SLED_WEIGHT
+    chain_weight: Annotated[Number, meant("N/mm")] = CHAIN_WEIGHT
 
 
-FRAME_FIELDS = tuple(Frame.__annotations__)
+FRAME_FIELDS = tuple(Frame.model_fields)
 
 
-@dataclass(frozen=True)
+@pydantic_dataclass(frozen=True)
 class PublishedSettings:
     """Numbers that only the formulas of the published firmware need, in its units."""
 
-    chain_sag_correction: float = 0.0  # $37 [1e-12/mm^2]
-    left_tolerance: float = 0.0  # $40 [percent] positive: the chain is longer than nominal
-    right_tolerance: float = 0.0  # $41 [percent]
-    chain_elasticity: float | None = None  # $45 [1/N]; None: not in the file
-    holey_sled_weight: float | None = None  # $46 [N]; zero or less switches the catenary off
-    chain_length: float = 3360.0  # $10 [mm] bound of its search for the position
-    top_beam_tilt: float = 0.0  # [degrees] read, but used neither by stock nor by holey
+    chain_sag_correction: Annotated[Number, meant("$37, 1e-12/mm^2")] = 0.0
+    # Positive: the chain is longer than nominal.
+    left_tolerance: Annotated[Number, meant("$40, percent")] = 0.0
+    right_tolerance: Annotated[Number, meant("$41, percent")] = 0.0
+    # None: not in the file. A weight of zero or less switches the catenary off.
+    chain_elasticity: Annotated[Number | None, meant("$45, 1/N")] = None
+    holey_sled_weight: Annotated[Number | None, meant("$46, N")] = None
+    # Bound of its search for the position.
+    chain_length: Annotated[Number, meant("$10, mm")] = 3360.0
+    # Read, but used neither by stock nor by holey.
+    top_beam_tilt: Annotated[Number, meant("degrees")] = 0.0
+
+    @model_validator(mode="before")
+    @classmethod
+    def _refuse_other_keys(cls, said: Any) -> Any:
+        return refuse_other_keys(cls, said)
 
     @property
     def catenary(self) -> tuple[float, float] | None:
@@ -100,7 +114,7 @@ class MachineSettings:
     chain_weight: float = CHAIN_WEIGHT  # [N/mm]
     controller: str = "plumb"  # "stock", "holey" or "plumb"
     effects: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
-    published: PublishedSettings = PublishedSettings()
+    published: PublishedSettings = field(default_factory=PublishedSettings)
     # How the numbers came about; no part of the machine.
     file: SettingsFile | None = field(default=None, compare=False, repr=False)
     fitted: FitRecord | None = field(default=None, compare=False, repr=False)
@@ -152,17 +166,9 @@ class MachineSettings:
         )
 
 
-def frame_of(values: Mapping[str, float]) -> Frame:
+def frame_of(values: Mapping[str, float]) -> dict[str, Any]:
     """Return the frame among numbers by name; what else there is does not matter."""
-    return Frame(
-        motor_gap=values["motor_gap"],
-        motor_height=values["motor_height"],
-        motor_center_x=values["motor_center_x"],
-        rotation_radius=values["rotation_radius"],
-        sprocket_radius=values["sprocket_radius"],
-        sled_weight=values["sled_weight"],
-        chain_weight=values["chain_weight"],
-    )
+    return {name: values[name] for name in FRAME_FIELDS}
 
 
 def radius_in_published(left: float, right: float) -> float:
@@ -232,7 +238,8 @@ def is_tuned(effect: str, parameter: str) -> bool:
 
 # The published controllers and ours, by the names that files and options use.
 
-CONTROLLERS = ("stock", "holey", "plumb")  # whose formulas paid the chains out
+Controller = Literal["stock", "holey", "plumb"]  # whose formulas paid the chains out
+CONTROLLERS: tuple[str, ...] = get_args(Controller)
 CLIENTS = ("groundcontrol", "webcontrol", "none")  # what sends G-code; none keeps no numbers
 FIRMWARES = ("plumb", "published")  # what the machine runs
 
@@ -295,47 +302,21 @@ PUBLISHED_LIMITS = {
 
 def find_fault(settings: MachineSettings) -> tuple[str, str] | None:
     """Return the name of the first impossible setting and a sentence about it, or None."""
-    for name, limit in FRAME_LIMITS.items():
-        fault = limit.fault(getattr(settings, name))
-        if fault:
-            return name, fault
-    for name, limit in PUBLISHED_LIMITS.items():
-        value = getattr(settings.published, name)
+    for name, limit in {**FRAME_LIMITS, **PUBLISHED_LIMITS}.items():
+        value = getattr(settings if name in FRAME_LIMITS else settings.published, name)
         # The published firmware takes a sled weight of zero or less as a switch.
         if value is None or (name == "holey_sled_weight" and value <= 0):
             continue
         fault = limit.fault(value)
         if fault:
             return name, fault
-    for name, value, allowed in (
-        ("feed", settings.feed, FEEDS),
-        ("controller", settings.controller, CONTROLLERS),
-    ):
-        if value not in allowed:
-            return name, f"'{value}' is not known; write one of {', '.join(allowed)}"
     return None
 
 
-def check_effects(
-    source: str,
-    effects: Mapping[str, Mapping[str, float]],
-    *,
-    known: Mapping[str, Sequence[str]] | None,
+def refuse_impossible(
+    settings: MachineSettings, source: Source, place: Callable[[str], str]
 ) -> None:
-    """Refuse effects and parameters that are not in the list of those known (None: no list)."""
-    for name, parameters in effects.items():
-        place = f"[effects.{name}]"
-        try:
-            if known is not None:
-                refuse_unknown([name], known)
-                refuse_unknown(parameters, known[name])
-        except ValueError as error:
-            raise InputError(source, str(error), place=place) from None
-        for parameter, value in parameters.items():
-            if not math.isfinite(value):
-                raise InputError(
-                    source,
-                    f"{value} is not a usable number",
-                    place=f"{place} {parameter}",
-                    remedy="write a finite number",
-                )
+    """Raise InputError for a setting that cannot be; `place` says where the file has it."""
+    fault = find_fault(settings)
+    if fault:
+        raise InputError(source, fault[1], place=place(fault[0]))

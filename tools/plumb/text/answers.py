@@ -13,7 +13,14 @@ from operator import attrgetter
 from typing import Annotated, Any, Literal, TypeVar
 
 import numpy as np
-from pydantic import Field, GetPydanticSchema, PlainSerializer, TypeAdapter, computed_field
+from pydantic import (
+    BaseModel,
+    Field,
+    GetPydanticSchema,
+    PlainSerializer,
+    TypeAdapter,
+    computed_field,
+)
 from pydantic.fields import FieldInfo
 from pydantic.json_schema import GenerateJsonSchema
 from pydantic_core import core_schema
@@ -57,6 +64,19 @@ def part(path: str, kind: Any, said: str | None = None, *, name: str | None = No
     value = attrgetter(path)
     made = computed_field(alias=name, return_type=kind, description=said)
     return made(property(lambda each: value(each)))
+
+
+Answer = TypeVar("Answer", bound=BaseModel)
+
+
+def like(kind: type[Answer], other: object, **more: Any) -> Answer:
+    """Return an answer with what `other` has of the same names, and more."""
+    names = kind.model_fields.keys() - more.keys()
+    has = (
+        other if isinstance(other, Mapping) else {name: getattr(other, name, ...) for name in names}
+    )
+    same = {name: has[name] for name in names & has.keys() if has[name] is not ...}
+    return kind(**same, **more)
 
 
 def json_of(answer: object) -> Any:

@@ -7,6 +7,8 @@ from contextlib import contextmanager
 from contextvars import ContextVar
 from os import PathLike
 
+Source = str | PathLike[str]  # a path, or what stands for a file in a message
+
 
 class InputError(Exception):
     """A file or value that cannot be used: `source, place: problem; remedy` on a line.
@@ -16,7 +18,7 @@ class InputError(Exception):
 
     def __init__(
         self,
-        source: str | PathLike[str],
+        source: Source,
         problem: str = "",
         *,
         place: str = "",
@@ -31,7 +33,7 @@ class InputError(Exception):
 
 
 @contextmanager
-def naming(source: str | PathLike[str], place: str) -> Iterator[None]:
+def naming(source: Source, place: str) -> Iterator[None]:
     """Turn a ValueError raised inside into an InputError that names the file and the place."""
     try:
         yield

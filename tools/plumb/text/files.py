@@ -16,11 +16,11 @@ import tempfile
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager, suppress
 from contextvars import ContextVar
-from os import PathLike
+from itertools import count
 from pathlib import Path
 from typing import Any
 
-from plumb.text.errors import InputError
+from plumb.text.errors import InputError, Source
 
 MB = 1_000_000
 # A file of marks or settings has a few kilobytes; more is some other file picked by mistake.
@@ -42,7 +42,7 @@ def links_refused() -> Iterator[None]:
         _follows.reset(token)
 
 
-def opened(path: str | PathLike[str], flags: int, *, follows: bool | None = None) -> int:
+def opened(path: Source, flags: int, *, follows: bool | None = None) -> int:
     """Return a handle of a file. Raises InputError for a link where none is followed, and
     OSError.
     """
@@ -56,7 +56,7 @@ def opened(path: str | PathLike[str], flags: int, *, follows: bool | None = None
         raise
 
 
-def read_bytes(path: str | PathLike[str], *, most: int = LARGEST_FILE) -> bytes:
+def read_bytes(path: Source, *, most: int = LARGEST_FILE) -> bytes:
     """Return the bytes of a file that exists, is not empty and has at most `most` bytes."""
     place = Path(path)
     try:
@@ -79,7 +79,7 @@ def read_bytes(path: str | PathLike[str], *, most: int = LARGEST_FILE) -> bytes:
     return content
 
 
-def _content(path: str | PathLike[str], most: int) -> bytes:
+def _content(path: Source, most: int) -> bytes:
     with os.fdopen(opened(path, os.O_RDONLY), "rb") as file:
         return file.read(most)
 
@@ -97,7 +97,7 @@ NO_TEXT = (
 )
 
 
-def text_bytes(path: str | PathLike[str], *, most: int = LARGEST_FILE) -> bytes:
+def text_bytes(path: Source, *, most: int = LARGEST_FILE) -> bytes:
     """Return a file's text in UTF-8, also that of UTF-16, which Notepad calls `Unicode` and whose
     first bytes say so. InputError for what is no text.
     """
@@ -114,7 +114,7 @@ def text_bytes(path: str | PathLike[str], *, most: int = LARGEST_FILE) -> bytes:
 
 
 def read_text(
-    path: str | PathLike[str], *, most: int = LARGEST_FILE, say: Callable[[str], None] | None = None
+    path: Source, *, most: int = LARGEST_FILE, say: Callable[[str], None] | None = None
 ) -> str:
     """Return the text of a file in UTF-8 or UTF-16, without a byte-order mark.
 
@@ -140,7 +140,7 @@ def read_text(
 
 
 def parsed(
-    path: str | PathLike[str], text: str, parse: Callable[[str], dict[str, Any]], form: str
+    path: Source, text: str, parse: Callable[[str], dict[str, Any]], form: str
 ) -> dict[str, Any]:
     """Return what `parse` makes of a file's text; InputError for what is not valid in that form."""
     try:
@@ -151,7 +151,7 @@ def parsed(
 
 
 @contextmanager
-def alone_in(folder: str | PathLike[str]) -> Iterator[None]:
+def alone_in(folder: Source) -> Iterator[None]:
     """Until the end, whoever asks the same for this folder waits."""
     handle = os.open(folder, os.O_RDONLY)
     try:
@@ -161,7 +161,13 @@ def alone_in(folder: str | PathLike[str]) -> Iterator[None]:
         os.close(handle)
 
 
-def write_whole(path: str | PathLike[str], content: bytes) -> None:
+def numbered(stem: str) -> Iterator[str]:
+    """Yield a name and its followers, as `machine`, `machine-2` ..."""
+    yield stem
+    yield from (f"{stem}-{number}" for number in count(2))
+
+
+def write_whole(path: Source, content: bytes) -> None:
     """Replace a file in one step: a crash leaves the old or the new file, never half."""
     write_all({os.fspath(path): content})
 
@@ -196,7 +202,7 @@ def write_all(files: Mapping[str, bytes]) -> None:
             Path(name).unlink(missing_ok=True)
 
 
-def _is_poured_into(path: str | PathLike[str]) -> bool:
+def _is_poured_into(path: Source) -> bool:
     """Return whether it is a device or a pipe, which takes bytes and cannot be replaced; InputError
     for what takes no result at all.
     """

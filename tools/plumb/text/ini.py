@@ -7,13 +7,13 @@ that may hold a percent sign or run on over indented lines), so its rules are fo
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
-from os import PathLike
+from dataclasses import dataclass, replace
 
-from plumb.text.errors import InputError
+from plumb.text.errors import InputError, Source, naming
 from plumb.text.files import text_bytes
+from plumb.text.values import number_in
 
-_ENTRY = re.compile(r"(?P<head>\s*(?P<key>[^=:\s][^=:]*?)\s*[=:][ \t]*)(?P<value>.*?)(?P<tail>\s*)")
+_ENTRY = re.compile(r"\s*(?P<key>[^=:\s][^=:]*?)\s*[=:][ \t]*(?P<value>.*?)\s*")
 _SECTION = re.compile(r"\s*\[(?P<name>[^]]+)\]\s*([#;].*)?")
 
 
@@ -25,7 +25,7 @@ class IniEntry:
     key: str
     value: str
     line: int
-    runs_on: bool = False  # the value continues on indented lines
+    at: tuple[int, int] = (0, 0)  # where the value begins and ends in that line
 
     @property
     def place(self) -> str:
@@ -65,8 +65,22 @@ class IniText:
             )
         return same[0] if same else None
 
+    def needed(self, key: str, *, section: str) -> IniEntry:
+        """Return the entry of that key, or raise InputError."""
+        entry = self.find(key, section=section)
+        if entry is None:
+            remedy = f"add {key} = ... below [{section}]"
+            raise InputError(self.source, f"{key} is missing in [{section}]", remedy=remedy)
+        return entry
 
-def read_ini(path: str | PathLike[str]) -> IniText:
+    def number(self, key: str, *, section: str) -> float:
+        """Return the number of that key, or raise InputError."""
+        entry = self.needed(key, section=section)
+        with naming(self.source, entry.place):
+            return number_in(entry.value)
+
+
+def read_ini(path: Source) -> IniText:
     """Return the ini file at a path; bytes that are not UTF-8 survive as surrogates."""
     return parse_ini(text_bytes(path).decode("utf-8", "surrogateescape"), source=str(path))
 
@@ -82,13 +96,15 @@ def parse_ini(text: str, *, source: str) -> IniText:
             continue
         depth = len(bare) - len(bare.lstrip())
         if 0 <= indent < depth:
-            entries[-1] = _longer(entries[-1], bare)
+            entries[-1] = replace(entries[-1], value=f"{entries[-1].value}\n{bare.strip()}")
             continue
         header, entry = _SECTION.fullmatch(bare), _ENTRY.fullmatch(bare)
         if header:
             section, indent = header["name"], -1
         elif entry and section:
-            entries.append(IniEntry(section, entry["key"], entry["value"], line_number))
+            mark = line.find(bare)  # behind a byte-order mark
+            at = entry.start("value") + mark, entry.end("value") + mark
+            entries.append(IniEntry(section, entry["key"], entry["value"], line_number, at))
             indent = depth
         else:
             what = "a value comes before the first [section]" if entry else "is not key = value"
@@ -107,21 +123,12 @@ def with_values(ini: IniText, changes: dict[tuple[str, str], str]) -> str:
         entry = ini.find(key, section=section)
         if entry is None:
             new.append((section, key, value))
-        elif entry.runs_on:
-            raise InputError(
-                ini.source,
-                "runs on over several lines",
-                place=entry.place,
-                remedy="write the value on a single line",
-            )
-        else:
-            line = lines[entry.line - 1]
-            bare = _bare(line)
-            old = _ENTRY.fullmatch(bare)
-            assert old, "the line was parsed as an entry"
-            mark = line[: len(line.rstrip("\r\n")) - len(bare)]  # a byte-order mark, kept
-            ending = line[len(line.rstrip("\r\n")) :]
-            lines[entry.line - 1] = f"{mark}{old['head']}{value}{old['tail']}{ending}"
+            continue
+        if "\n" in entry.value:
+            why, remedy = "runs on over several lines", "write the value on a single line"
+            raise InputError(ini.source, why, place=entry.place, remedy=remedy)
+        line, (begin, end) = lines[entry.line - 1], entry.at
+        lines[entry.line - 1] = f"{line[:begin]}{value}{line[end:]}"
     for section, key, value in new:
         lines = _with_new_key(lines, ini, section, key, value)
     return "".join(lines)
@@ -152,20 +159,11 @@ def _bare(line: str) -> str:
     return line.rstrip("\r\n").removeprefix("\ufeff")
 
 
-def _longer(entry: IniEntry, more: str) -> IniEntry:
-    value = f"{entry.value}\n{more.strip()}"
-    return IniEntry(entry.section, entry.key, value, entry.line, runs_on=True)
-
-
 def _refuse_twins(entries: list[IniEntry], source: str) -> None:
     seen: dict[tuple[str, str], int] = {}
     for entry in entries:
         name = (entry.section.lower(), entry.key.lower())
         if name in seen:
-            raise InputError(
-                source,
-                f"the same key is already on line {seen[name]}",
-                place=entry.place,
-                remedy="remove a line",
-            )
+            why = f"the same key is already on line {seen[name]}"
+            raise InputError(source, why, place=entry.place, remedy="remove a line")
         seen[name] = entry.line

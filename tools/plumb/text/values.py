@@ -22,14 +22,16 @@ def number_in(text: str) -> float:
     if re.fullmatch(r"[+-]?\d+,\d+", stripped):
         raise ValueError(f"'{stripped}' has a decimal comma; write a decimal point")
     if not _DECIMAL.fullmatch(stripped):
-        raise ValueError(f"'{_short(stripped)}' is not a number; write it with digits and a point")
+        raise ValueError(
+            f"'{shortened(stripped)}' is not a number; write it with digits and a point"
+        )
     return _finite(float(stripped))
 
 
 def number(value: object) -> float:
     """Return the finite number that a TOML value is; text and true/false are refused."""
     if isinstance(value, bool) or not isinstance(value, (int, float)):
-        shown = f"'{_short(value)}'" if isinstance(value, str) else type(value).__name__
+        shown = f"'{shortened(value)}'" if isinstance(value, str) else type(value).__name__
         raise ValueError(f"a number is needed, not {shown}; write it without quotes")
     try:
         return _finite(float(value))
@@ -51,28 +53,6 @@ def numbers(value: object, count: int) -> tuple[float, ...]:
     return tuple(number(each) for each in value)
 
 
-def texts(value: object) -> tuple[str, ...]:
-    """Return the texts of a TOML array."""
-    if not isinstance(value, list):
-        raise ValueError("an array of texts in quotes is needed")
-    return tuple(text_of(each) for each in value)
-
-
-def text_of(value: object) -> str:
-    """Return the text of a TOML string."""
-    if not isinstance(value, str):
-        raise ValueError("text in quotes is needed")
-    return value
-
-
-def one_of(value: object, allowed: Iterable[str]) -> str:
-    """Return the value, if it is an allowed word."""
-    words = tuple(allowed)
-    if not isinstance(value, str) or value not in words:
-        raise ValueError(f"'{_short(value)}' is not known; write one of {', '.join(words)}")
-    return value
-
-
 def refuse_unknown(keys: Iterable[str], allowed: Iterable[str]) -> None:
     """Refuse the first key that is not allowed, with the nearest allowed key as a hint."""
     words = tuple(allowed)
@@ -81,7 +61,7 @@ def refuse_unknown(keys: Iterable[str], allowed: Iterable[str]) -> None:
             near = get_close_matches(key.lower(), words, 1)
             known = ", ".join(words) or "none"
             hint = f"did you mean {near[0]}?" if near else f"known are: {known}"
-            raise ValueError(f"unknown name '{_short(key)}'; {hint}")
+            raise ValueError(f"unknown name '{shortened(key)}'; {hint}")
 
 
 def within(value: float, low: float, high: float) -> float:
@@ -97,7 +77,8 @@ def _finite(value: float) -> float:
     return value
 
 
-def _short(value: object) -> str:
+def shortened(value: object) -> str:
+    """Return a value that somebody typed, as a message can show it."""
     text = " ".join(str(value).split())
     return text if len(text) <= 40 else text[:37] + "..."
 
@@ -234,7 +215,7 @@ def length(value: object, *, unit: float = 1.0) -> float:
     if isinstance(value, str) and "/" in value:
         if unit == 1.0:
             raise ValueError(
-                f"'{_short(value)}' is a fraction, and this is in mm; write units = \"inch\" at "
+                f"'{shortened(value)}' is a fraction, and this is in mm; write units = \"inch\" at "
                 "the top of the file (or inch = for a distance)"
             )
         return length_in(value, unit=unit)

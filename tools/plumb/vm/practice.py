@@ -11,6 +11,9 @@ from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
+from pydantic import computed_field
+from pydantic.dataclasses import dataclass as pydantic_dataclass
+
 from plumb.model.catalogue import empirical_effects
 from plumb.model.plain import plainly
 from plumb.settings.machine import MachineSettings
@@ -23,7 +26,7 @@ LISTED = 1e-5  # to which a machine lists its numbers
 MACHINES = 1_000_000  # that can be drawn
 
 
-@dataclass(frozen=True)
+@pydantic_dataclass(frozen=True)
 class Secret:
     """How `plumb vm --hide` draws a machine."""
 
@@ -50,15 +53,14 @@ def secret_in(folder: Path) -> Secret:
         begin = to_do(f"begin: plumb practice start {folder}", page="start a virtual machine")
         raise InputError(folder, "holds no secret", remedy=begin)
     try:
-        said = json.loads(read_text(path))
-        return Secret(int(said["seed"]), float(said["millimetres"]), tuple(said["hides"]))
-    except (ValueError, TypeError, KeyError):
+        return Secret(**json.loads(read_text(path)))
+    except (ValueError, TypeError):
         raise InputError(path, "is no secret", remedy="begin in a new folder") from None
 
 
 @dataclass(frozen=True)
 class Score:
-    """Hidden effects, and the worth of an answer."""
+    """Hidden effects, and the worth of an answer: errors of the sled all over the sheet [mm]."""
 
     hidden: str
     named: tuple[str, ...]  # effects that were hidden and claimed
@@ -67,6 +69,7 @@ class Score:
     before_mm: float  # RMS of the sled all over the sheet, by the settings as they were
     after_mm: float | None  # by the answer; None where a place is out of its reach
 
+    @computed_field
     @property
     def sentence(self) -> str:
         """Effects named, missed, and claimed though they are not there."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import re
+import tomllib
 from collections.abc import Sequence
 
 import numpy as np
@@ -15,7 +15,6 @@ Array = np.ndarray
 Cut = tuple[int, float, float, float, float]
 Target = tuple[float, float]  # [mm] from the sheet's corner, as two forms write it alike
 BLANK = "# measured = [ , ]"
-NUMBER = re.compile(r"-?[\d.]+")
 DIMPLE = 3.0  # [mm] a plunge that went farther sideways is a line, not a mark
 
 
@@ -54,7 +53,7 @@ class Tape:
     def get_ready(self, form: str) -> None:
         """Load what reading this form takes: a client takes a machine that is silent for two
         seconds for lost, and so long may it take on a busy computer."""
-        places = np.zeros_like(_waiting_targets(form))
+        places = np.zeros((len(_waiting(form)), 2))
         order_of(form, self.garage.read(places), sheet=self.garage.settings.sheet)
 
     def begin(self) -> None:
@@ -75,10 +74,9 @@ class Tape:
         seen = self.garage.read(new)
         read = seen + self._noise * self._source.standard_normal(seen.shape)
         order = order_of(form, read, sheet=sheet)
-        for name, i in zip(_waiting_names(form), order, strict=True):
-            self._places.setdefault(name, []).append(seen[i])
         first: dict[Target, Array] = {}
-        for target, i in zip(_waiting_targets(form), order, strict=True):
+        for (name, target), i in zip(_waiting(form), order, strict=True):
+            self._places.setdefault(name, []).append(seen[i])
             first.setdefault(_as_key(target), seen[i])
         self._rounds.append(first)
         if self._slip and len(read):
@@ -125,7 +123,7 @@ class Tape:
         """
         corner = np.array(self.garage.settings.sheet) / 2
         names: dict[Target, list[str]] = {}
-        for name, target in zip(_waiting_names(form), _waiting_targets(form), strict=True):
+        for name, target in _waiting(form):
             key = _as_key(target)
             here = names.setdefault(key, [])
             if name not in here:
@@ -168,7 +166,7 @@ def order_of(form: str, readings: Array, *, sheet: tuple[float, float]) -> Array
     """Return which reading belongs to each mark of a form, so that all together lie as near as can
     be.
     """
-    targets = _waiting_targets(form)
+    targets = np.array([target for _, target in _waiting(form)]).reshape(-1, 2)
     if len(targets) != len(readings):
         raise ValueError(
             f"the form waits for {len(targets)} marks, and the sheet has {len(readings)}"
@@ -189,23 +187,7 @@ def _as_key(target: Array) -> Target:
     return round(float(target[0]), 1) + 0.0, round(float(target[1]), 1) + 0.0
 
 
-def _waiting_names(form: str) -> list[str]:
-    """Return the names of the marks that wait for a reading."""
-    name, waiting = "", []
-    for line in form.splitlines():
-        if line.startswith("name = "):
-            name = line.partition("=")[2].strip().strip('"')
-        elif line == BLANK:
-            waiting.append(name)
-    return waiting
-
-
-def _waiting_targets(form: str) -> Array:
-    """Targets (n, 2) [mm] of the marks that wait for a reading."""
-    target, waiting = "", []
-    for line in form.splitlines():
-        if line.startswith("target = "):
-            target = line
-        elif line == BLANK:
-            waiting.append([float(number) for number in NUMBER.findall(target)])
-    return np.array(waiting).reshape(-1, 2)
+def _waiting(form: str) -> list[tuple[str, Array]]:
+    """Return names and targets [mm] of the marks that wait for a reading."""
+    marks = tomllib.loads(form).get("mark", [])
+    return [(each["name"], np.array(each["target"])) for each in marks if "measured" not in each]

@@ -12,7 +12,7 @@ from plumb.bench.boards import cut, plan
 from plumb.bench.causes import MAKER, PUBLISHED
 from plumb.bench.hiding import slip
 from plumb.bench.kinds import KINDS
-from plumb.marks.form import head_of, toml_text
+from plumb.marks.form import marks_toml
 from plumb.settings.toml import write_machine_toml
 
 DATA = Path(__file__).resolve().parents[1] / "data"
@@ -51,7 +51,7 @@ def written(folder, index):
     settings, measurements = board_of(index)
     folder.mkdir()
     write_machine_toml(folder / "machine.toml", settings)
-    (folder / "marks.toml").write_text(toml_text(head_of(measurements)))
+    (folder / "marks.toml").write_text(marks_toml(measurements))
 
 
 @pytest.fixture

@@ -11,7 +11,7 @@ from numbers_machine import NumbersMachine
 from plumb import api
 from plumb.cure.machine_file import record_of, toml_of
 from plumb.firmware.settings import numbers_in_force
-from plumb.grid.cut_with import form_of, with_form
+from plumb.settings.cut_with import form_of, with_form
 from plumb.settings.files import read_settings
 from plumb.settings.toml import write_machine_toml
 from synthetic import BELIEVED, TRUE, csv_of, grid, marks_on

@@ -17,8 +17,11 @@ JOB, SETTINGS, MARKS = (EXAMPLE / name for name in ("pocket.nc", "groundcontrol.
     ("words", "says"),
     [
         (["--lnie", "check"], "there is no option --lnie here; see plumb --help"),
-        (["resume", JOB, SETTINGS, "--line", "0"], "--line: '0' is too low: it counts from 1"),
-        (["resume", JOB, SETTINGS, "--line", "two"], "'two' is not a whole number, like 100"),
+        (["resume", JOB, SETTINGS, "--line", "0"], "--line: '0' is not a whole number from 1 on"),
+        (
+            ["resume", JOB, SETTINGS, "--line", "two"],
+            "'two' is not a whole number from 1 on, like 100",
+        ),
         (["check", JOB, SETTINGS, "--start", "1;2"], "'1;2' is not X,Y"),
         (["lab", "--share", "garage"], "name the folder first: plumb lab garage --share"),
     ],

@@ -14,7 +14,6 @@ from plumb.diary.file import (
     fit_entry,
     keep,
     noted,
-    numbers_entry,
     program_entry,
     read_diary,
 )
@@ -140,14 +139,7 @@ def test_what_was_done_has_its_words(kind, content, said):
     assert noted(Entry(kind, FIRST, content)) == said
 
 
-def test_numbers_and_programs_keep_what_was_sent(tmp_path):
-    changed = {2: (2978.4, 2979.31)}
-    content = numbers_entry(
-        "m.toml", ["$2=2979.31"], changed=changed, firmware="1.28", kept="m-before.nc"
-    )
-    append(tmp_path, "numbers", content)
-    kept = read_diary(tmp_path).entries[0].content
-    assert kept["changed"] == {"$2": [2978.4, 2979.31]} and kept["lines"] == ["$2=2979.31"]
+def test_programs_keep_what_was_sent():
     left, right = (program_entry("a.nc", [line], whole=False) for line in ("G0 X1", "G0 X2"))
     assert left["sha256"] != right["sha256"] and left["lines"] == 1 and not left["whole"]
 

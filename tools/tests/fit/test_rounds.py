@@ -55,7 +55,7 @@ def test_the_sheet_of_those_settings_is_the_one_that_edges_are_counted_from(file
     [
         ('cut_with = "missing.ini"', "missing.ini: there is no such file"),
         ("cut_with = 3", "cut_with: text in quotes is needed"),
-        ("new_sheet = 1", "new_sheet is neither true nor false"),
+        ("new_sheet = 1", "new_sheet: '1' is neither true nor false"),
         ("newsheet = true", "did you mean new_sheet"),
     ],
 )

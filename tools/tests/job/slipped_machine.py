@@ -25,8 +25,14 @@ def fitted_machine(number):
     board = cut(as_bought(usual_machine(source, number, sites), source), sites, seed=source)
     model, rows = Inputs(MAKER, board.measurements).model_and_observations()
     done = fit(model, rows, effects=("chain_pitch", "chain_stretch"), sigma=0.5)
-    sizes = (done.rms, done.corrected_rms, done.left_out_rms, done.sheet_rotation)
-    return board.machine, replace(done.settings, fitted=FitRecord(0.0, *sizes))
+    record = FitRecord(
+        start_rms=0.0,
+        rms=done.rms,
+        priced_rms=done.corrected_rms,
+        left_out_rms=done.left_out_rms,
+        sheet_rotation=done.sheet_rotation,
+    )
+    return board.machine, replace(done.settings, fitted=record)
 
 
 def touched(number, *, links=NO_LINKS, moved=(0.0, 0.0), seed, holes=HOLES):

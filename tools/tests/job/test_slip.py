@@ -78,7 +78,12 @@ def test_a_single_hole_tells_only_if_it_cannot_move(links):
 
 
 def test_a_taped_hole_is_as_good_as_the_fit():
-    fitted = replace(MAKER, fitted=FitRecord(5.0, 1.0, 1.1, 2.0, 0.0))
+    fitted = replace(
+        MAKER,
+        fitted=FitRecord(
+            start_rms=5.0, rms=1.0, priced_rms=1.1, left_out_rms=2.0, sheet_rotation=0.0
+        ),
+    )
     assert sigma_of(fitted, taped=False) == 0.5
     assert sigma_of(fitted, taped=True) == pytest.approx(2.0 / 2**0.5)
     assert sigma_of(MAKER, taped=True) == 0.5
@@ -87,7 +92,12 @@ def test_a_taped_hole_is_as_good_as_the_fit():
 
 @pytest.mark.parametrize("turn", [0.004, -0.004])
 def test_a_tape_on_a_turned_sheet_finds_the_holes_where_the_fit_has_them(turn):
-    fitted = replace(MAKER, fitted=FitRecord(5.0, 1.0, 1.1, 0.6, sheet_rotation=turn))
+    fitted = replace(
+        MAKER,
+        fitted=FitRecord(
+            start_rms=5.0, rms=1.0, priced_rms=1.1, left_out_rms=0.6, sheet_rotation=turn
+        ),
+    )
     holes = np.array([(-900.0, 400.0), (900.0, 400.0), (-900.0, -400.0), (900.0, -400.0)])
     # The sheet hangs as it did, or straight.
     for moved in ((0.0, 0.0, -turn), (0.0, 0.0, 0.0)):

@@ -10,10 +10,10 @@ import pytest
 from attacks import Try, answered, status
 from folder import EXAMPLE, asked, with_settings
 from plumb.diary.file import NUMBERS, append, keep, read_diary
-from plumb.grid.cut_with import digest_of, settings_as_they_were
 from plumb.lab import server
 from plumb.lab.app import schema
 from plumb.lab.server import TOKEN_FILE
+from plumb.settings.cut_with import digest_of, settings_as_they_were
 from plumb.text.errors import InputError
 from plumb.text.files import links_refused, read_bytes, read_text, write_all, write_whole
 from screens import measured_machine, walk

@@ -9,7 +9,7 @@ from folder import asked, finished, got, type_in, until
 from plumb.cli.main import main
 from plumb.lab.broken_cut import digest_of_sent
 from plumb.lab.project import CUT
-from plumb.marks.form import head_of, read_form, toml_text
+from plumb.marks.form import marks_toml, read_form
 from plumb.marks.read import Measurements
 from plumb.settings.toml import write_machine_toml
 from plumb.vm.owner import VirtualOwner
@@ -25,7 +25,7 @@ def folder(tmp_path_factory):
     path = tmp_path_factory.mktemp("garage")
     write_machine_toml(path / "machine.toml", BELIEVED)
     marks = marks_on(TRUE, BELIEVED, grid(3, 3), noise=0.3, seed=2)
-    (path / MARKS).write_text(toml_text(head_of(Measurements(marks))))
+    (path / MARKS).write_text(marks_toml(Measurements(marks)))
     return path
 
 

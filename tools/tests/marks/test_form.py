@@ -3,7 +3,14 @@
 import tomllib
 
 import pytest
-from plumb.marks.form import BLANK, head_of, read_form, toml_text, with_distances, with_readings
+from plumb.marks.form import (
+    BLANK,
+    marks_toml,
+    read_form,
+    with_distances,
+    with_readings,
+    with_tape_sigma,
+)
 
 SHEET = (2438.4, 1219.2)  # 96 by 48 inch
 TEXT = """# Cut on a Sunday.
@@ -15,7 +22,7 @@ units = "inch"
 tape_sigma_mm = 0.5
 
 [[mark]]
-name = "A"
+name = "A"  # the corner
 target = [48.0, 24.0]
 measured = [48.5, 23.75]
 
@@ -32,43 +39,62 @@ unread = true
 
 [[distance]]
 between = ["A", "B"]
-mm = 254.25
+mm = 254.25  # hook at A
 """
+
+
+def form_in(folder, text):
+    path = folder / "marks.toml"
+    path.write_bytes(text.encode())
+    return read_form(path, sheet=SHEET)
 
 
 @pytest.fixture
 def form(tmp_path):
-    path = tmp_path / "marks.toml"
-    path.write_text(TEXT)
-    return read_form(path, sheet=SHEET)
+    return form_in(tmp_path, TEXT)
 
 
 def test_a_distance_that_stays_keeps_its_table_and_another_is_added(form):
     stays = (("A", "B"), 254.25)
-    head = with_distances(form, [stays, (("A", "C"), 253.00004)])
-    assert head["distance"] == [
+    text = with_distances(form, [stays, (("A", "C"), 253.00004)])
+    assert tomllib.loads(text)["distance"] == [
         {"between": ["A", "B"], "mm": 254.25},
         {"between": ["A", "C"], "mm": 253.0},
     ]
-    assert head["distance"][0] is form.head["distance"][0]
-    assert with_distances(form, [])["distance"] == []
+    assert "mm = 254.25  # hook at A\n" in text
+    assert "distance" not in tomllib.loads(with_distances(form, []))
 
 
-def test_the_text_reads_back_as_what_was_said(form):
-    head = with_readings(form, {1: (254.0, 0.0)})
-    text = toml_text({**head, "cut": {"on": "2020"}, "columns": [1, 2], "none": []}, form.comment)
-    assert text.startswith("# Cut on a Sunday.\n\n# Blue tape.\nframe = ")
-    assert tomllib.loads(text) == {**head, "cut": {"on": "2020"}, "columns": [1, 2], "none": []}
-    assert text.count(BLANK) == 1  # for C, the only mark that waits
+def test_only_what_was_said_changes(form):
+    assert with_readings(form, {}) == TEXT.replace(
+        "[48.0, 14.0]\nunread = true\n", f"[48.0, 14.0]\nunread = true\n{BLANK}\n"
+    )
+    text = with_readings(form, {0: None, 1: (254.0, 0.0)})
+    said = tomllib.loads(text)
+    assert [mark.get("measured") for mark in said["mark"]] == [None, [58.0, 24.0], None]
+    changed = "# measured", "measured", "unread", ""
+    kept = [line for line in TEXT.splitlines() if not line.startswith(changed)]
+    assert [line for line in text.splitlines() if not line.startswith(changed)] == kept
+    assert text.count(BLANK) == 2  # for A and C, the marks that wait
     assert text.endswith("\n") and not text.endswith("\n\n")
 
 
+def test_line_ends_stay(form, tmp_path):
+    windows = with_readings(form, {}).replace("\n", "\r\n")
+    assert with_readings(form_in(tmp_path, windows), {}) == windows
+
+
+def test_the_tape_is_stated_and_forgotten(form):
+    assert with_tape_sigma(form, 0.4) == with_readings(form, {}).replace("= 0.5", "= 0.4")
+    assert "tape_sigma_mm" not in with_tape_sigma(form, None)
+
+
 def test_measurements_of_another_form_are_written_without_what_was_not_said(form):
-    head = head_of(form.measurements)
-    assert head["frame"] == "machine" and head["tape_sigma_mm"] == 0.5
-    assert "steered" not in head and "controller" not in head
-    marks = {mark["name"]: mark for mark in head["mark"]}
+    said = tomllib.loads(marks_toml(form.measurements))
+    assert said["frame"] == "machine" and said["tape_sigma_mm"] == 0.5
+    assert "steered" not in said and "controller" not in said
+    marks = {mark["name"]: mark for mark in said["mark"]}
     assert set(marks["B"]) == {"name", "target", "unread"}
     assert marks["A"]["measured"] == pytest.approx([12.7, 6.35])
     assert "unread" not in marks["A"]
-    assert head["distance"] == [{"between": ["A", "B"], "mm": 254.25}]
+    assert said["distance"] == [{"between": ["A", "B"], "mm": 254.25}]

@@ -55,9 +55,15 @@ HEADER = "target_x_mm,target_y_mm,measured_x_mm,measured_y_mm"
         (f"{HEADER}\n#x\n1,2,x,4\n", "line 3, measured_x_mm: 'x' is not a number"),
         (f"{HEADER}\n1,2,nan,4\n", "line 2, measured_x_mm: 'nan'"),
         (f'{HEADER}\n1,2,"3,4\n', "line 2: cannot be split|line 2: 3 values"),
-        (f"{HEADER},approach_x\n1,2,3,4,1\n", "approach_x and approach_y go together"),
-        (f"{HEADER},approach_x,approach_y\n1,2,3,4,0,0\n", "line 2: approach 0, 0"),
-        (f"{HEADER},chain_left_mm,chain_right_mm\n1,2,3,4,5,-6\n", "line 2: -6 is out of range"),
+        (f"{HEADER},approach_x\n1,2,3,4,1\n", "line 2, approach_y: a number is missing"),
+        (
+            f"{HEADER},approach_x,approach_y\n1,2,3,4,0,0\n",
+            "line 2, approach: .0, 0. is no direction",
+        ),
+        (
+            f"{HEADER},chain_left_mm,chain_right_mm\n1,2,3,4,5,-6\n",
+            "line 2, chains: -6 is out of range",
+        ),
         (f"{HEADER}\n900,400,100,100\n", "check the frame"),
     ],
 )

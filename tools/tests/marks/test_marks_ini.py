@@ -37,7 +37,7 @@ def spoilt(tmp_path, old, new, name="marks.ini"):
 @pytest.mark.parametrize(
     ("old", "new", "hint"),
     [
-        ("numpositions = 9\n", "", "numpositions is missing"),
+        ("numpositions = 9\n", "", "numpositions is missing in .global."),
         ("numpositions = 9", "numpositions = nine", "is not a count"),
         ("numpositions = 9", "numpositions = 8", "x8: is beyond numpositions = 8"),
         ("numpositions = 9", "numpositions = 10", "tx9 is missing"),

@@ -86,7 +86,7 @@ def test_distances_alone_are_measurements_too():
         (
             "measured = [201.5, 98]",
             "mesured = [201.5, 98]",
-            "number 1: unknown name 'mesured'; did ",
+            "mark A: unknown name 'mesured'; did ",
         ),
         ("measured = [201.5, 98]", "measured = [201.5]", "mark A measured: two numbers"),
         (
@@ -96,12 +96,16 @@ def test_distances_alone_are_measurements_too():
         ),
         ("approach = [1, 2]", "approach = [0, 0.0]", "no direction"),
         ("chains = [1500.25, 1600]", "chains = [-1, 1600]", "chains: -1 is out of range"),
-        ("target = [1200.0, 600.0]", "", "number 3: target is missing"),
+        (
+            "target = [1200.0, 600.0]",
+            "",
+            "mark 2: target is missing; write target = ... .a place, as .x, y..",
+        ),
         ("name = 2", 'name = ""', "the name is empty"),
         ("name = 2", "name = 2.5", "text in quotes"),
         ("name = 2", "name = 3", "there is no mark named '2'"),
         ("[[distance]]", "[distance]", "needs double brackets"),
-        ('between = ["A", 2]', 'between = ["A"]', "between needs two names"),
+        ('between = ["A", 2]', 'between = ["A"]', "between: two names"),
         ('between = ["A", 2]', 'between = ["A", "A"]', "named twice"),
         ('between = ["A", 2]', "", "between is missing"),
         ("mm = 1119.5", "feet = 4", "unknown name 'feet'"),

@@ -57,11 +57,11 @@ def test_a_toml_in_inches_holds_the_same_marks(tmp_path):
     ("old", "new", "hint"),
     [
         ('units = "inch"', 'units = "feet"', "units: 'feet' is not known; write one of mm, inch"),
-        ("[5, 5.0]", '[5, "5 1/0"]', "target: '5 1/0' divides by zero"),
+        ("[5, 5.0]", '[5, "5 1/0"]', "mark 1 target: '5 1/0' divides by zero"),
         ("[5, 5.0]", "[5, 0, 5, 0]", "target: two numbers are needed, as [x, y]; is a comma"),
         ('inch = "45 1/16"', "", "mm or inch is missing"),
         ('inch = "45 1/16"', 'inch = "45 1/16"\nmm = 3', "mm or inch is missing"),
-        ('inch = "45 1/16"', "inch = -2", "inch = -2; a distance is above zero"),
+        ('inch = "45 1/16"', "inch = -2", "inch: a distance is above zero"),
     ],
 )
 def test_what_is_no_length_is_named(old, new, hint, tmp_path):

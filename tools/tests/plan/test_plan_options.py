@@ -109,5 +109,5 @@ def test_checks_of_suspects_bring_their_numbers_and_words():
     assert {each.name: each.sigma for each in check.checks} == {
         f"chain_pitch.{side}": sigma for side, sigma in direct.sigmas.items()
     }
-    assert (check.title, check.minutes) == (direct.direct.title, direct.direct.minutes)
-    assert check.do == (direct.direct.steps,) and check.value == direct.direct.value
+    assert (check.title, check.minutes) == (direct.title, direct.minutes)
+    assert check.do == (direct.steps,) and check.value == direct.value

@@ -4,7 +4,6 @@ import ast
 from pathlib import Path
 from types import ModuleType
 
-import numpy as np
 import plumb
 import pytest
 from nanobind.stubgen import StubGen
@@ -19,18 +18,13 @@ def stub_of(module: ModuleType) -> str:
 
 
 TYPES = stub_of(_core) + Path(effect_words.__file__).read_text()
-VALUES = np.array([field["usual"] for field in _core.frame()] + [0.0] * 100)
-VALUES = VALUES[: len(_core.settings())]
-POINT = np.zeros((1, 2))
 RESULTS = {
     "FrameWords": _core.frame()[0],
     "EffectWords": _core.effects()[0],
     "CheckWords": _core.effects()[0]["check"],
     "ExampleWords": _core.effects()[0]["examples"][0],
     "ParameterWords": _core.effects()[0]["parameters"][0],
-    "SettingRow": _core.settings_table()[0],
     "Effective": _core.effective({}),
-    "Reach": _core.reach(VALUES, True, POINT),
 }
 PLAIN = {"int": int, "str": str, "bool": bool, "float": float}
 

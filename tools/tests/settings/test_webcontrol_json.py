@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 from plumb.cli.main import main
 from plumb.firmware.client_files import client_numbers
-from plumb.grid.cut_with import digest_of
+from plumb.settings.cut_with import digest_of
 from plumb.settings.files import (
     changed_client_file,
     parse_webcontrol,

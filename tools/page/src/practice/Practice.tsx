@@ -11,7 +11,7 @@ const SECRET = "practice.json";
 
 export function Practice() {
   const { project } = useProject();
-  const [revealed, setRevealed] = useState<Schemas["Revealed"]>();
+  const [revealed, setRevealed] = useState<Schemas["Score"]>();
   const hides = SECRET in project.files;
   const reveal = async () => setRevealed(await send("POST", "practice/reveal"));
   return (
@@ -47,7 +47,7 @@ export function Practice() {
   );
 }
 
-function Score({ hidden, sentence, before_mm, after_mm }: Schemas["Revealed"]) {
+function Score({ hidden, sentence, before_mm, after_mm }: Schemas["Score"]) {
   const units = useUnits();
   return (
     <section aria-label="Score">

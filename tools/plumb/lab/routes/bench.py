@@ -47,6 +47,7 @@ from plumb.lab.routes.project import ProjectAnswer, TheProject, show
 from plumb.model.catalogue import every_effect, parameter_words
 from plumb.model.plain import noun_of, plain_size, plainly
 from plumb.model.predict import Array
+from plumb.text.answers import like
 from plumb.text.errors import InputError
 from plumb.text.values import shown_in
 
@@ -258,13 +259,7 @@ def climb(choice: BenchChoice, project: TheProject, warm: Warm) -> BenchStairs:
         noun="as set", fit_rms=shown.fit_rms, noise_rms=None, left_out_rms=None, only_fit=False
     )
     stairs = [
-        BenchStair(
-            noun=noun,
-            fit_rms=quality.fit_rms,
-            noise_rms=quality.noise_rms,
-            left_out_rms=quality.left_out_rms,
-            only_fit=only_fit,
-        )
+        like(BenchStair, quality, noun=noun, only_fit=only_fit)
         for noun, quality, only_fit in qualities
     ]
     return BenchStairs(
@@ -310,11 +305,9 @@ def save(change: BenchSave, project: TheProject, warm: Warm) -> ProjectAnswer:
 def _effects(warm: WarmBoard) -> list[BenchEffect]:
     settings = warm.live.model
     return [
-        BenchEffect(
-            name=effect["name"],
-            noun=effect["noun"],
-            summary=effect["summary"],
-            where=effect["where"],
+        like(
+            BenchEffect,
+            effect,
             in_settings=any(settings.effects.get(effect["name"], {}).values()),
             parameters=[
                 _parameter(f"{effect['name']}.{each['name']}", warm)
@@ -345,10 +338,10 @@ def covariates_of(warm: WarmBoard) -> list[BenchCovariate]:
 
 
 def _covariate(covariate: Covariate, doubted: Collection[int]) -> BenchCovariate:
-    return BenchCovariate(
-        name=covariate.name,
+    return like(
+        BenchCovariate,
+        covariate,
         unit="°" if covariate.unit == "rad" else covariate.unit,
-        of_chain=covariate.of_chain,
         values=among_all(ends(_in_degrees(covariate.name, covariate.values)), doubted, NO_ENDS),
     )
 

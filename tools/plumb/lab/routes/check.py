@@ -15,7 +15,7 @@ from plumb.diary.file import append, read_diary
 from plumb.fit.inputs import Inputs, settings_in
 from plumb.grid import program
 from plumb.lab.broken_cut import GoOnRequest, HowFar, begin, go_on, how_far
-from plumb.lab.machine_line import MachineLine, TheLine, refuse_other_machine
+from plumb.lab.machine_line import MachineLine, TheLine, refuse_other_machine, refuse_unknown_place
 from plumb.lab.project import Choices, Project, save_choices
 from plumb.lab.rounds import (
     Planned,
@@ -113,8 +113,7 @@ def save_check(project: TheProject) -> ProjectAnswer:
 @router.post("/check/cut")
 def cut_check(project: TheProject, line: TheLine) -> MachineAnswer:
     """Write both, and send the program. The machine moves."""
-    if not line.state.knows_place:
-        raise InputError("where the sled is, is not known: set its chains first")
+    refuse_unknown_place(line)
     refuse_other_machine(project, line)
     name, text = _save(project)
     if owner := line.virtual:
@@ -126,8 +125,7 @@ def cut_check(project: TheProject, line: TheLine) -> MachineAnswer:
 @router.post("/check/go-on")
 def go_on_with_check(request: GoOnRequest, project: TheProject, line: TheLine) -> MachineAnswer:
     """Send the mark that is not on the sheet. The machine moves."""
-    if not line.state.knows_place:
-        raise InputError("where the sled is, is not known: set its chains first")
+    refuse_unknown_place(line)
     name = f"{CHECK}{_newest(project)}.nc"
     refuse_other_machine(project, line)
     go_on(project, line, name, _text(project, name), request.cut)

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from datetime import datetime
 
 from fastapi import APIRouter
 from pydantic import BaseModel
 
 from plumb.diary.file import FIT, Diary, noted, read_diary
-from plumb.diary.history import Course, DiaryFit, history_of
+from plumb.diary.history import Course, DiaryFit, Point, history_of
 from plumb.lab.routes.project import TheProject
 from plumb.model.plain import plain_change, plainly
 from plumb.text.values import shown_in
@@ -24,13 +25,10 @@ class Round(BaseModel):
     said: str
 
 
-class CoursePoint(BaseModel):
-    """A number after a fit, as text and as number."""
+@dataclass(frozen=True)
+class CoursePoint(Point):
+    """A number after a fit, as text too."""
 
-    at: datetime
-    value: float
-    low: float
-    high: float
     said: str
 
 
@@ -85,10 +83,7 @@ def _course(course: Course) -> NumberCourse:
         unit=words.unit,
         points=[
             CoursePoint(
-                at=point.at,
-                value=point.value,
-                low=point.low,
-                high=point.high,
+                **vars(point),
                 said=plain_change(
                     course.name, point.value, point.value, point.low, point.high
                 ).after,

@@ -8,7 +8,7 @@ from pathlib import Path
 from fastapi import APIRouter
 from pydantic import BaseModel
 
-from plumb.grid import program, spans_in, touches_of
+from plumb.grid import program, touches_of
 from plumb.lab.broken_cut import (
     GoOnRequest,
     HowFar,
@@ -17,7 +17,7 @@ from plumb.lab.broken_cut import (
     how_far,
     plunges_in,
 )
-from plumb.lab.machine_line import MachineLine, TheLine, refuse_other_machine
+from plumb.lab.machine_line import MachineLine, TheLine, refuse_other_machine, refuse_unknown_place
 from plumb.lab.project import (
     FILE,
     Choices,
@@ -45,7 +45,7 @@ from plumb.lab.routes.machine import MachineAnswer, machine
 from plumb.lab.routes.project import ProjectAnswer, TheProject, show
 from plumb.lab.routes.readings import CHECK
 from plumb.line.progress import Wait
-from plumb.marks.form import BLANK, read_form, toml_text, with_distances
+from plumb.marks.form import BLANK, read_form, with_distances
 from plumb.model.predict import known_effects
 from plumb.plan.options import HANGING, MARK, ROUND
 from plumb.plan.planned_visits import refuse_way
@@ -175,7 +175,7 @@ def save_grid(project: TheProject) -> ProjectAnswer:
 @router.post("/grid/cut")
 def cut_grid(project: TheProject, line: TheLine) -> MachineAnswer:
     """Write both, and send the program. The machine moves."""
-    _refuse_unknown_place(line)
+    refuse_unknown_place(line)
     choices = project.choices
     taken = taken_marks(project, choices)
     if taken:
@@ -193,7 +193,7 @@ def cut_grid(project: TheProject, line: TheLine) -> MachineAnswer:
 @router.post("/grid/go-on")
 def go_on_with_grid(request: GoOnRequest, project: TheProject, line: TheLine) -> MachineAnswer:
     """Send the marks that are not on the sheet. The machine moves."""
-    _refuse_unknown_place(line)
+    refuse_unknown_place(line)
     answer = show_grid(project, line)
     if not answer.goes_on:
         raise InputError("no cut broke off that could go on: begin with the first mark")
@@ -208,11 +208,6 @@ def go_on_with_grid(request: GoOnRequest, project: TheProject, line: TheLine) ->
         paused=_weighing(taken, line.virtual, on_sheet=request.cut),
     )
     return machine(line)
-
-
-def _refuse_unknown_place(line: MachineLine) -> None:
-    if not line.state.knows_place:
-        raise InputError("where the sled is, is not known: set its chains first")
 
 
 def _cut_taken(taken: Taken, project: Project, line: MachineLine) -> MachineAnswer:
@@ -275,12 +270,10 @@ def read_with_tape(request: FormRequest, project: TheProject, line: TheLine) -> 
 def _as_asked(filled: str, form: Path, settings: MachineSettings, owner: VirtualOwner) -> bytes:
     """Return what the tape filled in; where distances are asked, these instead of places."""
     blank = read_form(form, sheet=settings.sheet, known=known_effects())
-    spans = spans_in(blank.comment)
-    if not spans:
+    if not blank.spans:
         return filled.encode()
-    lengths = [round(length, 1) for length in owner.tape.lengths(spans)]
-    head = with_distances(blank, list(zip(spans, lengths, strict=True)))
-    return toml_text(head, blank.comment).encode()
+    lengths = [round(length, 1) for length in owner.tape.lengths(blank.spans)]
+    return with_distances(blank, list(zip(blank.spans, lengths, strict=True))).encode()
 
 
 def _lay(owner: VirtualOwner, raised: float, *, new_sheet: bool) -> None:

@@ -10,8 +10,8 @@ from pydantic import BaseModel, Field
 from plumb.firmware.settings import machine_of_numbers
 from plumb.fit.inputs import settings_in
 from plumb.guide.steps import SETTINGS, STEPS, GuideVisit, open_step
-from plumb.guide.talk import progress_in
-from plumb.lab.guide_desk import GuideDesk, Question
+from plumb.guide.talk import Question, progress_in
+from plumb.lab.guide_desk import GuideDesk
 from plumb.lab.machine_line import MachineLine, TheLine
 from plumb.lab.project import Choices, Number, Project, save_choices
 from plumb.lab.routes.project import TheProject

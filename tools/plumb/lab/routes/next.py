@@ -35,7 +35,9 @@ from plumb.plan.proposal import (
     propose,
     steps_of,
 )
+from plumb.text.answers import like
 from plumb.text.errors import InputError
+from plumb.text.files import numbered
 from plumb.text.values import shown_in
 
 router = APIRouter(tags=["next"])
@@ -191,12 +193,7 @@ def measurement_of(advice: Next, taking: Callable[[int], Taking | None]) -> Next
 
 
 def _other(proposal: Proposal, taking: Taking | None) -> Other:
-    return Other(
-        title=proposal.option.title,
-        minutes=proposal.option.minutes,
-        promise=promise_of(proposal),
-        taking=taking,
-    )
+    return like(Other, proposal.option, promise=promise_of(proposal), taking=taking)
 
 
 @dataclass(frozen=True)
@@ -221,13 +218,11 @@ def _taking(project: Project, inputs: api.Inputs, advice: Next, place: int) -> T
     written = _written(project, advice, place)
     if written is None:
         return None
-    return Taking(
+    return like(
+        Taking,
+        written,
         choose=place,
-        digest=written.digest,
         marks=len(advice.proposals[place - 1].option.visits),
-        form=written.form,
-        program=written.program,
-        is_saved=written.is_saved,
         command=_command(project, inputs, advice, written, place),
     )
 
@@ -246,15 +241,12 @@ def _written(project: Project, advice: Next, place: int) -> _Written | None:
             settings=settings,
             sheet=settings_in(settings).sheet,
         )
-    count = 1
-    while True:
-        name = f"{STEM}.toml" if count == 1 else f"{STEM}-{count}.toml"
-        cut_by = program_name(name)
+    for stem in numbered(STEM):
+        name, cut_by = f"{stem}.toml", f"{stem}.nc"
         program = program_of(advice, place, cut_by, form=name) if option.is_cut else None
         there = project.read(name), project.read(cut_by)
         if there in ((None, None), (form, program)):
             break
-        count += 1
     files = {name: form} if program is None else {name: form, cut_by: program}
     return _Written(name, cut_by if program else "", files, is_saved=there[0] is not None)
 

@@ -32,6 +32,7 @@ from plumb.model.predict import REACH_WORDS
 from plumb.model.reach import Give, Pull, Survey, conclusion_of, percent, survey_sheet
 from plumb.plan.preview import Preview, as_read, preview
 from plumb.settings.machine import MachineSettings
+from plumb.text.answers import like
 from plumb.text.errors import InputError
 from plumb.text.values import shown_in, worded
 
@@ -229,14 +230,13 @@ def preview_plan(request: PlanRequest, project: TheProject) -> PlanAnswer:
     outlook = DESK.look(settings, choices, request)
     form, file = next_names(project)
     made = grid_command(project, possible(choices, settings), plan, form=form, program=file)
-    return PlanAnswer(
+    return like(
+        PlanAnswer,
+        outlook,
         marks=len(plan.touches),
         distances=len(plan.spans),
         minutes=plan.minutes,
-        sigma=outlook.sigma,
         effects=_effects(outlook),
-        seen=outlook.seen,
-        named=outlook.named,
         trouble=_trouble(settings, request),
         command=made,
     )
@@ -287,14 +287,14 @@ def _trouble(settings: MachineSettings, request: PlanRequest) -> str:
 
 def _effects(outlook: Preview) -> list[PlannedEffect]:
     return [
-        PlannedEffect(
+        like(
+            PlannedEffect,
+            outline,
             name=outline.effect,
             noun=noun_of(outline.effect),
-            is_seen=outline.is_seen,
-            is_distinct=outline.is_distinct,
             alike=[noun_of(name) for name in outline.alike],
         )
-        for i, outline in enumerate(outlook.outlines)
+        for outline in outlook.outlines
     ]
 
 
@@ -306,10 +306,4 @@ def _extremes(survey: Survey) -> Iterable[ExtremeAnswer]:
     ]
     for title, extreme, unit in each:
         if extreme:
-            yield ExtremeAnswer(
-                title=title,
-                place=extreme.place,
-                value=extreme.value,
-                unit=unit,
-                side=extreme.side,
-            )
+            yield like(ExtremeAnswer, extreme, title=title, unit=unit)

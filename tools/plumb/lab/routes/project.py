@@ -31,9 +31,10 @@ from plumb.marks.form import read_form
 from plumb.marks.plausible import from_edges
 from plumb.model.predict import known_effects
 from plumb.settings.machine import MachineSettings
+from plumb.text.answers import like
 from plumb.text.errors import InputError
 from plumb.text.values import shown_in
-from plumb.vm.practice import score, secret_in
+from plumb.vm.practice import Score, score, secret_in
 
 router = APIRouter(tags=["project"])
 # A settings' file gets a name of ours, whatever its owner calls it.
@@ -150,13 +151,7 @@ def laid_down(project: Project, file: UploadFile, ending: str) -> Iterator[Path]
 
 def machine_of(settings: MachineSettings, file: str) -> Machine:
     """Return a machine as the page shows it."""
-    return Machine(
-        file=file,
-        controller=settings.controller,
-        sheet=settings.sheet,
-        frame=dict(settings.frame),
-        effects={name: dict(numbers) for name, numbers in settings.effects.items()},
-    )
+    return like(Machine, settings, file=file)
 
 
 # Readings that disagree, asked for after each that is typed.
@@ -208,22 +203,7 @@ def _from_edges(doubt: Doubted, sheet: tuple[float, float], corner: str) -> Doub
 # Practice: what the folder's virtual machine hides, and what the opened settings are worth.
 
 
-class Revealed(BaseModel):
-    """The hidden effect; error of the sled all over the sheet [mm RMS]."""
-
-    hidden: str
-    sentence: str
-    before_mm: float
-    after_mm: float | None  # by the opened settings; None where a place is out of their reach
-
-
 @router.post("/practice/reveal")
-def reveal(project: TheProject) -> Revealed:
+def reveal(project: TheProject) -> Score:
     """Reveal the secret of the folder."""
-    result = score(secret_in(project.folder), opened(project))
-    return Revealed(
-        hidden=result.hidden,
-        sentence=result.sentence,
-        before_mm=result.before_mm,
-        after_mm=result.after_mm,
-    )
+    return score(secret_in(project.folder), opened(project))

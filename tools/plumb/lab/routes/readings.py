@@ -4,28 +4,27 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any
 
 from fastapi import APIRouter, UploadFile
 from pydantic import BaseModel
 
 from plumb.fit.inputs import settings_in
-from plumb.grid import spans_in
 from plumb.lab.project import Choices, Edges, Project, save_choices, with_marks
 from plumb.lab.rounds import command, is_read_again, known_words, opened, unit_words
 from plumb.lab.routes.project import TheProject, laid_down
 from plumb.marks.form import (
     Form,
-    head_of,
+    marks_toml,
     read_form,
-    toml_text,
     with_distances,
     with_readings,
+    with_tape_sigma,
 )
 from plumb.marks.model import Measurements, tape_sigma
 from plumb.marks.plausible import from_edges, in_machine
 from plumb.marks.read import read_marks
 from plumb.model.predict import known_effects
+from plumb.text.answers import like
 from plumb.text.errors import InputError
 
 router = APIRouter(tags=["readings"])
@@ -134,11 +133,8 @@ def show_readings(project: TheProject, file: str = "") -> ReadingsAnswer:
         edges=choices.edges,
         sheet=sheet,
         marks=_marks(measurements, sheet, choices.edges),
-        distances=[
-            AskedDistance(between=distance.between, length=distance.length)
-            for distance in measurements.distances
-        ],
-        spans=spans_in(form.comment) if form else [],
+        distances=[like(AskedDistance, distance) for distance in measurements.distances],
+        spans=form.spans if form else [],
         tape_sigma=measurements.tape_sigma,
         again=_waiting(form) if form and is_read_again(project, name) else 0,
         command=_command(choices, name, measurements)
@@ -157,7 +153,7 @@ def save_readings(typed: TypedReadings, project: TheProject) -> ReadingsAnswer:
         each.index: each.read and in_machine(each.read, sheet=sheet, corner=typed.edges)
         for each in typed.readings
     }
-    return _saved(project, typed.file, typed.digest, with_readings(form, places), form.comment)
+    return _saved(project, typed.file, typed.digest, with_readings(form, places))
 
 
 @router.put("/distances")
@@ -166,23 +162,20 @@ def save_distances(typed: TypedDistances, project: TheProject) -> ReadingsAnswer
     form = form_of(project, project.choices, typed.file)
     _refuse_two_places(form, [name for each in typed.distances for name in each.between])
     distances = [(each.between, each.length) for each in typed.distances]
-    head = with_distances(form, distances)
-    return _saved(project, typed.file, typed.digest, head, form.comment)
+    return _saved(project, typed.file, typed.digest, with_distances(form, distances))
 
 
 @router.put("/fineness")
 def save_fineness(stated: Fineness, project: TheProject) -> ReadingsAnswer:
     """State how fine the tape is."""
     form = form_of(project, project.choices, stated.file)
-    head = {key: value for key, value in form.head.items() if key != "tape_sigma_mm"}
-    chosen: dict[str, float] = {}
-    if stated.finest is not None:
-        head = {"frame": head.pop("frame"), "tape_sigma_mm": tape_sigma(stated.finest), **head}
-        chosen["fineness"] = stated.finest
+    finest = stated.finest
+    chosen = {} if finest is None else {"fineness": finest}
+    text = with_tape_sigma(form, None if finest is None else tape_sigma(finest))
     save_choices(
         project,
         lambda now: now.model_copy(update=chosen),
-        files={stated.file: toml_text(head, form.comment).encode()},
+        files={stated.file: text.encode()},
         read={stated.file: stated.digest},
     )
     return show_readings(project, stated.file)
@@ -218,14 +211,12 @@ def _as_toml(path: Path, content: bytes, sheet: tuple[float, float]) -> bytes:
         except InputError:
             read_marks(path, sheet=sheet, known=known_effects())
     measurements = read_marks(path, sheet=sheet, known=known_effects())
-    return toml_text(head_of(measurements)).encode()
+    return marks_toml(measurements).encode()
 
 
-def _saved(
-    project: Project, name: str, digest: str, head: Mapping[str, Any], comment: tuple[str, ...]
-) -> ReadingsAnswer:
+def _saved(project: Project, name: str, digest: str, text: str) -> ReadingsAnswer:
     """Save a form; from its first reading on the verdict goes by it."""
-    files, read = {name: toml_text(head, comment).encode()}, {name: digest}
+    files, read = {name: text.encode()}, {name: digest}
     if name in project.choices.marks or name.startswith(CHECK):
         project.save(files, read=read)
     else:
@@ -291,7 +282,7 @@ def _waiting(form: Form) -> int:
 
 def _lengths_asked(form: Form) -> list[tuple[str, str]]:
     """Return the spans of a form that waits for distances and for no places."""
-    return [] if form.measurements.measured_marks else spans_in(form.comment)
+    return [] if form.measurements.measured_marks else form.spans
 
 
 def _form_file(name: str, form: Form, choices: Choices) -> FormFile:

@@ -25,6 +25,7 @@ from plumb.lab.rounds import board_words, command, inputs_of, known_words, unit_
 from plumb.lab.routes.project import TheProject
 from plumb.model.catalogue import every_effect
 from plumb.model.plain import plain_range, plain_size, plainly, ranked
+from plumb.text.answers import like
 from plumb.text.values import shown_in, worded
 
 router = APIRouter(tags=["verdict"])
@@ -235,13 +236,11 @@ def _effect(diagnosis: Diagnosis, name: str, together: Together) -> EffectAnswer
     words = next(each for each in every_effect() if each["name"] == name)
     ranked = next(each for each in diagnosis.ranking if each.effect == name)
     check = words["check"]
-    return EffectAnswer(
-        name=name,
-        noun=words["noun"],
-        summary=words["summary"],
+    return like(
+        EffectAnswer,
+        words,
         sizes=[_size(name, size) for size in together.sizes[name]],
         taken_up=share_words(ranked.hidden_share),
-        remedy=words["remedy"],
         check=f"{check['title']}, about {check['minutes']:.0f} minutes"
         if check and check["title"]
         else "",
@@ -252,13 +251,11 @@ def _size(effect: str, size: Size) -> SizeAnswer:
     name = f"{effect}.{size.name}"
     known = plausible_range(name)
     low, high = known.limits
-    return SizeAnswer(
+    return like(
+        SizeAnswer,
+        size,
         said=plain_size(name, size.value, size.low, size.high),
         range_said=plain_range(name, low, high) if low is not None and high is not None else "",
-        value=size.value,
-        low=size.low,
-        high=size.high,
         plausible_low=low,
         plausible_high=high,
-        possible=size.possible,
     )

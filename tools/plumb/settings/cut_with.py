@@ -7,31 +7,17 @@ the sled hangs.
 
 from __future__ import annotations
 
-import configparser
 import hashlib
 import json
 import os
 import re
 
-# Keys of a groundcontrol.ini, small, that say how long the chains are for a place.
-KEYS = (
-    "motorspacingx",
-    "bedwidth",
-    "bedheight",
-    "motoroffsety",
-    "rotationradius",
-    "gearteeth",
-    "chainpitch",
-    "chainsagcorrection",
-    "chainoversprocket",
-    "kinematicstype",
-    "leftchaintolerance",
-    "rightchaintolerance",
-    "chainelasticity",
-    "sledweight",
-    "topbeamtilt",
-)
+from plumb.settings.files import parse_client_file
+from plumb.settings.ini import SOURCES
+from plumb.text.errors import InputError
 
+# Keys of a client's file that say how long the chains are for a place; one bounds a search alone.
+KEYS = {key.lower() for name, (_, key) in SOURCES.items() if name != "chain_length"}
 ENDINGS = (".ini", ".json", ".toml")  # of settings
 LONGEST = 60  # characters of a form's name in a comment
 FORM = re.compile(r"^\(form: (.+)\)$", re.MULTILINE)
@@ -67,24 +53,15 @@ def digest_of(settings: str | os.PathLike[str]) -> str:
     """Return the SHA-256 of what a client's file says of the chains, or of a whole machine.toml."""
     with open(settings, "rb") as file:
         content = file.read()
-    parser = configparser.RawConfigParser(strict=False)
     try:
-        text = content.decode("utf-8-sig")
-        if text.lstrip().startswith("{"):
-            parser = _as_ini(text)
-        else:
-            parser.read_string(text)
-    except (configparser.Error, ValueError, LookupError, TypeError, AttributeError):
-        return hashlib.sha256(content).hexdigest()
+        entries = parse_client_file(content, source=os.fspath(settings)).entries
+    except InputError:
+        entries = ()
     said = {
-        key: _plain(value)
-        for section in parser.sections()
-        for key, value in parser.items(section)
-        if key in KEYS
+        entry.key.lower(): _plain(entry.value) for entry in entries if entry.key.lower() in KEYS
     }
-    if not said:
-        return hashlib.sha256(content).hexdigest()
-    return hashlib.sha256(json.dumps(said, sort_keys=True).encode()).hexdigest()
+    text = json.dumps(said, sort_keys=True).encode() if said else content
+    return hashlib.sha256(text).hexdigest()
 
 
 def settings_as_they_were(named: str | os.PathLike[str], digest: str) -> str | None:
@@ -109,15 +86,3 @@ def _plain(value: str) -> str:
         return repr(float(value))
     except ValueError:
         return value.strip().lower()
-
-
-def _as_ini(text: str) -> configparser.RawConfigParser:
-    """Return the values of a webcontrol.json; a ValueError if it is none."""
-    parser = configparser.RawConfigParser(strict=False)
-    document = json.loads(text)
-    for section, options in document.items():
-        if not isinstance(options, list):
-            raise ValueError("a section of WebControl is a list")
-        said = {str(each["key"]): str(each["value"]) for each in options if "value" in each}
-        parser.read_dict({section: said})
-    return parser
