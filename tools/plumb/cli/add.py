@@ -304,9 +304,9 @@ EXAMPLES = (
     "plumb add groundcontrol.ini marks.toml --effect none -o machine.toml",
 )
 EXIT = (
-    "Exit: 0 done; 1 done, but marks left out of the fit are not predicted better than without the "
-    "effects, or auto cannot explain the marks (nothing is written for a slip); 2 an input cannot "
-    "be used, and nothing was written."
+    "Exit: 0 done; 1 done, but the effects do not help to predict marks that the fit did not see, "
+    "or auto cannot explain the marks (nothing is written for a slip); 2 an input cannot be used, "
+    "and nothing was written."
 )
 
 
@@ -335,7 +335,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--patch",
         action="store_true",
-        help="also fit a smooth map of the errors that no effect explains; it is no physics",
+        help="also fit a smooth map of the errors that no effect explains",
     )
     add_without(parser)
     parser.add_argument(
@@ -345,7 +345,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_firmware(parser)
     add_stated(parser, sigma="tape_sigma_mm of MARKS and their scatter")
     add_picture(parser, "draw how the error falls")
-    add_details(parser, "how the error falls, and all that is to be known of the numbers")
+    add_details(parser, "how the error falls with each effect, and more about each number")
     add_force(parser)
     add_units(parser)
     add_json(parser)

@@ -29,7 +29,7 @@ def add_marks(parser: argparse.ArgumentParser) -> None:
         metavar="MARKS",
         type=file,
         nargs="+",
-        help="Calibration Measurements.ini, marks.toml or marks.csv; several make a single board",
+        help="Calibration Measurements.ini, marks.toml or marks.csv; several files count together",
     )
     add_cut_with(parser)
     add_controller(parser)
@@ -89,7 +89,7 @@ def add_without(parser: argparse.ArgumentParser) -> None:
         metavar="MARK",
         action="append",
         default=[],
-        help="leave this mark out, for example because its reading is a slip",
+        help="leave this mark out, for example because its reading is wrong",
     )
 
 

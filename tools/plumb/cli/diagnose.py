@@ -219,5 +219,5 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_marks(parser)
     add_stated(parser, sigma="tape_sigma_mm of MARKS and their scatter")
     add_units(parser)
-    add_details(parser, "all accounts with their sizes, and what these marks cannot show")
+    add_details(parser, "all explanations with their sizes, and what these marks cannot show")
     add_json(parser)

@@ -328,7 +328,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="the settings that the machine has now, if they are not those of MARKS; the form "
         "names them",
     )
-    add_details(parser, "all proposals, and how their order comes about")
+    add_details(parser, "all proposals, and why they are in this order")
     add_force(parser)
     add_units(parser)
     add_json(parser)
