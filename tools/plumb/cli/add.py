@@ -296,9 +296,9 @@ EXAMPLES = (
     "plumb add groundcontrol.ini marks.toml --effect none -o machine.toml",
 )
 EXIT = (
-    "Exit: 0 done; 1 done, but marks left out of the fit are not predicted better than without the "
-    "effects, or auto cannot explain the marks (nothing is written for a slip); 2 an input cannot "
-    "be used, and nothing was written."
+    "Exit: 0 done; 1 done, but the effects do not help to predict marks that the fit did not see, "
+    "or auto cannot explain the marks (nothing is written for a slip); 2 an input cannot be used, "
+    "and nothing was written."
 )
 
 
@@ -327,12 +327,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--patch",
         action="store_true",
-        help="also fit a smooth map of the errors that no effect explains; it is no physics",
+        help="also fit a smooth map of the errors that no effect explains",
     )
     add_shared(parser, "--without", output="write the fitted machine to this file")
     add_client(parser)
     add_firmware(parser)
     add_stated(parser, sigma="tape_sigma_mm of MARKS and their scatter")
     add_shared(parser, picture="draw how the error falls")
-    add_shared(parser, details="how the error falls, and all that is to be known of the numbers")
+    add_shared(parser, details="how the error falls with each effect, and more about each number")
     add_shared(parser, "--force", "--units", "--json")

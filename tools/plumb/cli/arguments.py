@@ -83,7 +83,7 @@ SHARED: Mapping[str, Mapping[str, Any]] = {
         "type": file,
         "nargs": "+",
         "help": "Calibration Measurements.ini, marks.toml or marks.csv; "
-        "several make a single board",
+        "several files count together",
     },
     "job": {"metavar": "JOB", "type": file, "help": "a program of G-code"},
     "--cut-with": {
@@ -127,7 +127,7 @@ SHARED: Mapping[str, Mapping[str, Any]] = {
         "metavar": "MARK",
         "action": "append",
         "default": [],
-        "help": "leave this mark out, for example because its reading is a slip",
+        "help": "leave this mark out, for example because its reading is wrong",
     },
     "--port": {
         "metavar": "PATH",

@@ -127,7 +127,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--boards", metavar="N", type=count, default=BOARDS, help=f"boards of each kind [{BOARDS}]"
     )
-    parser.add_argument("--marks", type=int, choices=GRIDS, default=25, help="of a board [25]")
+    parser.add_argument(
+        "--marks", type=int, choices=GRIDS, default=25, help="marks on each board [25]"
+    )
     parser.add_argument(
         "--seed",
         metavar="S",
@@ -140,6 +142,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--cluster",
         metavar="ADDRESS",
         default="",
-        help="a Dask scheduler that has the boards played",
+        help="a Dask scheduler whose workers play the boards",
     )
     add_shared(parser, "--json")

@@ -152,9 +152,9 @@ EXAMPLES = (
     "plumb calibrate groundcontrol.ini marks.toml --client groundcontrol -o machine.toml",
 )
 EXIT = (
-    "Exit: 0 done, the new settings are written, or the machine is as it was fitted; 1 something "
-    "changed, or a reading has to be looked at, or something measured, first, and nothing was "
-    "written; 2 an input cannot be used, and nothing was written."
+    "Exit: 0 the new settings are written, or the machine is good as it is; 1 something changed, "
+    "or you should measure something first, and nothing was written; 2 an input cannot be used, "
+    "and nothing was written."
 )
 
 

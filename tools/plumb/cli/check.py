@@ -233,8 +233,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--fix",
         metavar="FILE",
-        help="write an equal program that this machine runs, and list what was changed; refused "
-        "where none is known",
+        help="write a program that cuts the same on this machine, and list what was changed",
     )
     add_shared(parser, "--force", "--units", "--json")
 

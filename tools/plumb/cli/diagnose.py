@@ -219,5 +219,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_shared(parser, *BOARD)
     add_stated(parser, sigma="tape_sigma_mm of MARKS and their scatter")
     add_shared(parser, "--units")
-    add_shared(parser, details="all accounts with their sizes, and what these marks cannot show")
+    add_shared(
+        parser, details="all explanations with their sizes, and what these marks cannot show"
+    )
     add_shared(parser, "--json")

@@ -44,7 +44,7 @@ EXAMPLES = (
     "plumb forward machine.toml --lengths lengths.csv",
     "plumb forward machine.toml --lengths lengths.csv --json",
 )
-EXIT = "Exit: 0 done; 1 some lengths lead nowhere; 2 an input cannot be used."
+EXIT = "Exit: 0 done; 1 some lengths fit no place; 2 an input cannot be used."
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

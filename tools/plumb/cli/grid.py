@@ -235,7 +235,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the arguments of `plumb grid`."""
     group = parser.add_argument_group("which marks [15, and 8 of them again 20 mm further in]")
     either = group.add_mutually_exclusive_group()
-    either.add_argument("--preset", choices=PRESETS, help="a way to measure, without repeats")
+    either.add_argument(
+        "--preset", choices=PRESETS, help="one of these sets of marks, without repeats"
+    )
     places = "marks there, in this order: from the sheet's middle (--places='-900,400 0,4in')"
     either.add_argument("--places", type=pairs, metavar="PLACES", help=places)
     _add_number(group, "margin")

@@ -30,49 +30,49 @@ GROUPS: Mapping[str, Mapping[str, str]] = {
     "first day": {
         "lab": "open the lab in your browser: measure, see why the machine errs, and cure it",
         "flash": "write the firmware to the Mega",
-        "reach": "which part of the sheet a machine can use",
+        "reach": "show which part of the sheet a machine can use",
     },
     "calibrate": {
-        "grid": "the G-code for a grid of calibration marks",
-        "calibrate": "compare, diagnose, then add what is likeliest or say what to measure next",
-        "compare": "how far the marks lie from where the settings predict them",
-        "diagnose": "which effects the settings miss, and how likely each is by the marks",
-        "next": "what to measure next, its chance to settle the question, and the minutes it costs",
+        "grid": "write the G-code for a grid of calibration marks",
+        "calibrate": "turn marks into new settings, or say what to measure first",
+        "compare": "show how far the marks lie from where the settings predict them",
+        "diagnose": "say which effects the settings lack, and how likely each is",
+        "next": "say what to measure next, how long it takes, and how likely it is to help",
         "add": "fit the frame and the named effects to the marks, and write the new settings",
-        "settings": "a fitted machine as $ lines, in its client's file, or as a table",
-        "report": "all that the marks say, as a page to read, print and keep",
+        "settings": "show a fitted machine as a table, or write it as $ lines and a client's file",
+        "report": "write all that the marks say as a page to read, print and keep",
     },
     "job": {
-        "check": "run a program dry: its faults, how long it takes, how well it will fit",
+        "check": "run a program dry: what is wrong, how long it takes, how well the parts will fit",
         "send": "send a program, a line of G-code or a machine's numbers to the machine",
         "resume": "write a program that goes on with a job after a halt",
     },
     "trouble": {
         "read": "read the machine's numbers and where its sled is",
-        "recover": "keep a hole as home mark, bring a lost place back, repair a slipped chain",
+        "recover": "keep holes as home marks, bring a lost position back, repair a slipped chain",
     },
     "engineers": {
         "vm": "start a virtual machine with a serial port, as if a board were plugged in",
-        "practice": "find what is hidden in a virtual machine",
-        "effects": "the library of effects: what each does, its units, and what looks like it",
-        "inverse": "chain lengths for places, by the controller's formula or by our model",
-        "forward": "places for chain lengths, by our model",
-        "bench": "how often the diagnosis is right: rates over boards with hidden effects",
+        "practice": "find an effect that is hidden in a virtual machine",
+        "effects": "list the effects: what each does, its units, and what looks like it",
+        "inverse": "turn places into chain lengths",
+        "forward": "turn chain lengths into places",
+        "bench": "measure how often the diagnosis is right, on boards with hidden effects",
     },
 }
 COMMANDS: Mapping[str, str] = {
     name: said for group in GROUPS.values() for name, said in group.items()
 }
-# Commands that went: a sentence that says what does it now.
+# Commands that are gone, and what to use instead.
 GONE: Mapping[str, str] = {
     "diary": "plumb lab shows the diary, and diary.jsonl is plain text",
     "gap": "measure the motor gap with a tape, and give it by --checked motor_gap=VALUE+-1mm",
     "guide": "plumb lab has it",
     "home": "plumb recover does it, with the same options",
     "preview": "plumb grid --settings FILE --details prints its table",
-    "recheck": "plumb calibrate says of marks cut with fitted settings whether they hold",
+    "recheck": "plumb calibrate says whether marks that were cut with fitted settings hold",
     "slip": "plumb recover does it, with the same options",
-    "telemetry": "plumb send says at the end of a program what deserves a look; docs/telemetry.md "
+    "telemetry": "plumb send says at the end of a program what deserves a look; docs/trouble.md "
     "explains an answer to B30",
 }
 

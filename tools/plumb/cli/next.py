@@ -186,7 +186,7 @@ def other_ways(advice: Next, shown: int = 1) -> list[str]:
 
 
 def details(diagnosis: Diagnosis, advice: Next) -> list[str]:
-    """Return what the marks say, all proposals, and how their order comes about."""
+    """Return what the marks say, all proposals, and why they are in this order."""
     parts = [sentences([diagnosis.sentence], mark="")]
     if len(advice.proposals) > 1:
         parts.append(_table(advice))
@@ -328,5 +328,5 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="the settings that the machine has now, if they are not those of MARKS; the form "
         "names them",
     )
-    add_shared(parser, details="all proposals, and how their order comes about")
+    add_shared(parser, details="all proposals, and why they are in this order")
     add_shared(parser, "--force", "--units", "--json")

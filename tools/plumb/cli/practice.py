@@ -140,7 +140,7 @@ EXAMPLES = (
     "plumb practice reveal game game/new.toml",
 )
 EXIT = (
-    "Exit: 0 done; 1 revealed, and something was missed or claimed that is not there; 2 it cannot "
+    "Exit: 0 done; 1 revealed, and you missed something or added what is not there; 2 it cannot "
     "be done."
 )
 
@@ -155,6 +155,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         nargs="?",
         help="reveal: your new machine.toml [FOLDER/machine.toml, as it was at the start]",
     )
-    parser.add_argument("--seed", metavar="N", type=int, help="start: a certain machine [drawn]")
+    parser.add_argument(
+        "--seed",
+        metavar="N",
+        type=int,
+        help="start: the same number gives the same machine [random]",
+    )
     add_pace(parser, "start: ")
     add_shared(parser, "--units", "--json")

@@ -42,13 +42,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--keep",
         metavar="NAME=X,Y",
         type=named_place,
-        help="keep the hole that the machine makes at this place [mm, from the middle of the "
-        "sheet, y up], with both chains there; -o writes the program that makes it",
+        help="keep a home mark at this place [mm, from the middle of the sheet, y up]; -o writes "
+        "the program that makes the hole",
     )
     parser.add_argument(
         "--at",
         metavar="NAME",
-        help="the bit is in this home mark: say how long the chains are; -o writes the program "
+        help="print how long the chains are with the bit in this home mark; -o writes the program "
         "that sets them",
     )
     parser.add_argument(
@@ -64,8 +64,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--taped",
         action="store_true",
-        help="the places of the holes were read with a tape [they are where the machine was sent "
-        "when it made them]",
+        help="you measured the places of the holes with a tape [else they are where the machine "
+        "was sent when it made them]",
     )
     parser.add_argument(
         "--fixed",

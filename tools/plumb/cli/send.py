@@ -372,7 +372,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="a program to run; a machine.toml, whose numbers are written and read back; or a line",
     )
     parser.add_argument(
-        "more", metavar="LINE", nargs="*", help="more lines, before the board is reset again"
+        "more", metavar="LINE", nargs="*", help="more lines, sent without another reset"
     )
     add_shared(parser, "--port")
     parser.add_argument(
@@ -383,7 +383,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--force",
         action="store_true",
-        help="send marks, or numbers, though the machine holds others than those that they were "
-        "made for",
+        help="send marks or numbers even if the machine does not hold those they were made for",
     )
     add_shared(parser, "--json")

@@ -266,7 +266,7 @@ def _add_brain(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--mega",
         metavar="ELF",
-        help="run this flashed program on a simulated Mega, not the firmware built for the host",
+        help="run this flashed program on a simulated Mega, not the firmware built for the PC",
     )
     add_pace(parser)
     parser.add_argument(

@@ -14,6 +14,8 @@ ROOT = Path(__file__).resolve().parents[3]
 FOLDERS = ("docs", "lib", "src", "test", "tools")
 # Files that a page tells the reader to write.
 READERS_FILES = {"lib/Kinematics/src/effects/mount_give.h"}
+# Tables that makers and engineers look things up in.
+FOR_BOTH = {ROOT / "docs/settings.md", ROOT / "lib/GCode/README.md"}
 LINK = re.compile(r"\]\(([^)\s]+)\)")
 # A path from the project's folder, as pages name files and as commands take them.
 NAMED = re.compile(r"(?<![\w./-])(?:docs|include|lib|src|test|tools)/[\w./-]*\w/?")
@@ -69,6 +71,16 @@ def missing_files(root: Path) -> Iterator[str]:
                     yield f"{page.relative_to(root)}:{number}: {name}"
 
 
+def listed_below(*headings: str) -> set[Path]:
+    """The pages that the contents list below these headings."""
+    contents = (ROOT / "docs/README.md").read_text(encoding="utf-8")
+    parts = [contents.split(f"\n## {each}\n")[1].split("\n## ")[0] for each in headings]
+    return {
+        (ROOT / "docs" / target.partition("#")[0]).resolve()
+        for target in LINK.findall("".join(parts))
+    }
+
+
 def commands() -> list[str]:
     """The commands of plumb."""
     choices = next(
@@ -81,6 +93,18 @@ def commands() -> list[str]:
 
 def test_every_link_leads_to_a_file_and_a_heading() -> None:
     assert list(broken_links(ROOT)) == []
+
+
+def test_no_page_for_makers_leads_to_a_page_for_engineers() -> None:
+    makers = {ROOT / "README.md", *listed_below("For makers", "Commands")} - FOR_BOTH
+    engineers = listed_below("For engineers")
+    assert [
+        f"{page.relative_to(ROOT)}: {target}"
+        for page in sorted(makers)
+        if page.suffix == ".md"
+        for target in LINK.findall(page.read_text(encoding="utf-8"))
+        if (page.parent / target.partition("#")[0]).resolve() in engineers
+    ] == []
 
 
 def test_every_file_that_a_page_names_exists() -> None:
