@@ -57,7 +57,7 @@ positive = kind(float, "a number above zero", lambda number: number > 0)
 limit = kind(float, "a number of zero or more", lambda number: number >= 0)
 count = kind(int, "a whole number from 1 on, like 100", lambda number: number > 0)
 prior = kind(_named, "NAME=SIGMA, like motor_gap=1.5", lambda named: named[1] >= 0)
-held_size = kind(_named, "NAME=SIZE, like chain_pitch.left=0.001")
+held_size = kind(_named, "NAME=SIZE, a name and a number")
 place = kind(_place, "X,Y, like 100,-50")  # [mm]
 number = kind(_numbered, "N=VALUE, like 15=800", lambda pair: 0 <= pair[0] <= 255)
 

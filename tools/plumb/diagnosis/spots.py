@@ -15,7 +15,7 @@ import numpy as np
 from plumb.diagnosis.explanation import Explanation, half_span, measured_columns, places_of
 from plumb.diagnosis.linear import Disturbance, LinearBoard
 from plumb.diagnosis.priors import FIELD_SPREADS, SPOT_WIDTHS
-from plumb.model.plain import ascending
+from plumb.model.plain import ascending, greatest
 
 Array = np.ndarray
 GRID = (9, 5)  # middles across and up
@@ -81,7 +81,7 @@ class _Seek:
         while True:
             near = spot + step * np.array(list(product((-1, 0, 1), repeat=3)))
             gains = self.gains(near)
-            place, spread = np.unravel_index(np.argmax(gains), gains.shape)
+            place, spread = np.unravel_index(greatest(gains.ravel()), gains.shape)
             if not gains[place, spread] > gain + np.log(FINER):
                 return found
             spot, gain = near[place], float(gains[place, spread])

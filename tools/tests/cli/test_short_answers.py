@@ -12,7 +12,7 @@ from plumb.model.catalogue import effect_names, parameter_words
 ROOT = Path(__file__).resolve().parents[3]
 BOARDS = {
     "simple": ROOT / "docs/example",
-    "holes": resources.files("plumb") / "examples/madgrizzle-2018-09-04",
+    "holes": resources.files("plumb") / "examples/madgrizzle-2018-09-02",
 }
 INI, MARKS = "groundcontrol.ini", "marks.toml"
 AUTO = ("add", INI, MARKS, "--effect", "auto")
@@ -29,6 +29,7 @@ COMMANDS = [
 ]
 DONE = ("calibrate", INI, MARKS, *checked())  # of the simple board
 EACH = [(board, command) for board in BOARDS for command in COMMANDS] + [("simple", DONE)]
+BOARDS["several"] = ROOT / "tools/tests/data/boards/real-25"
 SCREEN, TEN = 24, 10  # lines
 MOST_WORDS = 40
 # Words of the field, and riddles: no default answer has them.
@@ -118,7 +119,7 @@ def test_a_verdict_has_its_colour_where_the_screen_has_colours(command, colour, 
     [
         ("simple", (), ";33m"),  # several causes are left
         ("simple", checked(), ";32m"),  # a single cause
-        ("holes", (), ";31m"),  # nothing in the library
+        ("several", (), ";31m"),  # more than the library explains
     ],
 )
 def test_a_verdict_is_coloured_by_what_it_says(board, more, colour, run):
