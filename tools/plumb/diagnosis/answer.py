@@ -248,7 +248,7 @@ def _not_in_library(diagnosis: Diagnosis) -> str:
     return f"{what}. What comes nearest is {_named(nearest.effects)}: with that {left}."
 
 
-COUNTS = ("Two", "Three", "Four")
+COUNTS = {2: "Two", 3: "Three", 4: "Four"}  # more are written as a number
 
 
 def _finding(diagnosis: Diagnosis) -> str:
@@ -257,7 +257,7 @@ def _finding(diagnosis: Diagnosis) -> str:
     share = "Most" if diagnosis.takes_most else "Part"
     which = f"{share} of it is {plainly(diagnosis.likely)}"
     if len(falls) > 1:
-        which = f"{COUNTS[len(falls) - 2]} things are wrong at once"
+        which = f"{COUNTS.get(len(falls), len(falls))} things are wrong at once"
     steps = ", ".join(bare(each) for each in [diagnosis.rms_before, *(f.rms for f in falls[:-1])])
     said = f"{which}. The error falls from {steps} to {worded(falls[-1].rms)} RMS"
     return f"{said}; a pattern of {worded(diagnosis.pattern_mm)} stays that no effect draws."
