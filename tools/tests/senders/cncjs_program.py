@@ -6,6 +6,7 @@ import signal
 import socket
 import subprocess
 import threading
+import time
 import urllib.request
 from collections.abc import Sequence
 from pathlib import Path
@@ -20,6 +21,7 @@ SERVER = ROOT / ".build/senders/node_modules/cncjs/bin/cncjs"
 NODE = ROOT / ".venv/bin/node"
 BAUD = 57_600
 START = 60  # [s] in which its server must answer
+HELD = 2.0  # [s] after which a machine that still holds was not reset
 PING = 20.0  # [s] after which its server wants to hear from a page
 STEPS = {"feed": "feedOverride", "rapids": "rapidOverride", "spindle": "spindleOverride"}
 
@@ -185,7 +187,13 @@ class Cncjs:
         self._command("gcode:resume")
 
     def stop(self) -> None:
+        # It holds, and resets if it shows Hold half a second later. On a busy computer it may not
+        # show it by then, and stays so until Stop is pressed again.
         self._command("gcode:stop", {"force": True})
+        until(lambda: self.shown().state != "Run", "CNCjs shows that the machine holds")
+        time.sleep(HELD)
+        if self.shown().state == "Hold":
+            self._command("gcode:stop", {"force": True})
 
     def change(self, what: str, percent: int) -> None:
         step = percent if what == "rapids" else percent - 100
