@@ -16,7 +16,7 @@ ERROR = re.compile(r"[^:]+:\d+: error: ")
 
 def violations(root: Path) -> list[str]:
     """Return the errors as mypy prints them; its last words where it could not run."""
-    config, cache = tree.ROOT / "tools/pyproject.toml", root / ".build/mypy"
+    config, cache = tree.ROOT / "pyproject.toml", root / ".build/mypy"
     rooms = [name for name in ROOMS if (root / name).is_dir()]
     command = [sys.executable, "-m", "mypy", "--config-file", config, "--cache-dir", cache, *rooms]
     done = subprocess.run(command, cwd=root, capture_output=True, text=True)

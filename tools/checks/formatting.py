@@ -65,7 +65,7 @@ def clang_format() -> list:
 
 def ruff(verb: str) -> list:
     """Return the linter (`check`) or the formatter (`format`) of the .venv."""
-    return [TOOLS / "ruff", verb, "--no-cache", "--config", tree.ROOT / "tools/pyproject.toml"]
+    return [TOOLS / "ruff", verb, "--no-cache", "--config", tree.ROOT / "pyproject.toml"]
 
 
 def first_in_each_file(command: list, root: Path) -> Iterator[str]:

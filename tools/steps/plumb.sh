@@ -1,19 +1,19 @@
 # The Python package `plumb` and its compiled parts, from tools/ into .venv; sourced by tools/setup.
 
 # A build holds as long as what it was made of: these files, and what CMake found on this machine.
-plumb_sources=(tools/pyproject.toml tools/CMakeLists.txt tools/requirements_lab.txt)
+plumb_sources=(pyproject.toml tools/CMakeLists.txt tools/requirements_lab.txt)
 
 setup_plumb() {
   local wanted note=.venv/plumb.note
-  if [ ! -f tools/pyproject.toml ]; then
-    say "does not install the package plumb: tools/pyproject.toml is missing"
+  if [ ! -f pyproject.toml ]; then
+    say "does not install the package plumb: pyproject.toml is missing"
     return
   fi
   wanted=$(made_of)
   if same_as "$note" "$wanted"; then return; fi
 
   say "builds and installs the package plumb"
-  .venv/bin/pip install --disable-pip-version-check --no-build-isolation --no-deps -e tools \
+  .venv/bin/pip install --disable-pip-version-check --no-build-isolation --no-deps -e . \
     >"$log" 2>&1 ||
     stop "plumb does not build: $(grep -iE '(^|[ :])error' "$log" | head -n 1) (all of it in .setup.log)"
   printf '%s\n' "$wanted" >"$note"

@@ -7,7 +7,7 @@ class NumbersMachine:
     def __init__(self, *, forgets=(), speed=0.0):
         self.numbers = {12: 2978.4, 15: 8113.73, 38: 0.0}
         self.forgets, self.speed = forgets, speed  # [mm/s]
-        self.says = ["PCB v1.2 Detected", "Firmware Version 1.28", "Plumb v0.1"]
+        self.says = ["PCB v1.2 Detected", "Firmware Version 1.28", "Plumb v1.0.0"]
         self.time, self.x = 0.0, 0.0
         self.waiting = []
         self.written = []

@@ -1,4 +1,5 @@
 // The virtual machine for Python: a world, and a firmware that drives it.
+#include <dlfcn.h>
 #include <nanobind/nanobind.h>
 #include <nanobind/stl/map.h>
 #include <nanobind/stl/optional.h>
@@ -12,9 +13,6 @@
 #include <tuple>
 
 #include "brain/host_brain.h"
-#ifdef PLUMB_HAS_SIMAVR
-#include "brain/mega_brain.h"
-#endif
 
 namespace nb = nanobind;
 
@@ -23,19 +21,29 @@ namespace {
 using Pair = std::pair<double, double>;
 using CutRow = std::tuple<int, double, double, double, double>;
 
+/// Makes the brain of a simulated Mega; mega.so holds it, beside this module.
+std::unique_ptr<brain::Brain> megaFor(world::World& world, const std::string& elf) {
+  Dl_info here;
+  dladdr(reinterpret_cast<void*>(&megaFor), &here);
+  const std::string module = here.dli_fname;
+  const std::string path = module.substr(0, module.rfind('/') + 1) + "mega.so";
+  void* const mega = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
+  void* const make = mega ? dlsym(mega, "megaBrain") : nullptr;
+  if (!make)
+    throw std::runtime_error(
+        "the lab has no simulated Mega here; install libsimavr-dev and libelf-dev, and build the "
+        "lab again (tools/setup does both)");
+  using Make = brain::Brain*(world::World&, const char*);
+  return std::unique_ptr<brain::Brain>(reinterpret_cast<Make*>(make)(world, elf.c_str()));
+}
+
 std::unique_ptr<brain::Brain> brainFor(world::World& world, const std::optional<std::string>& elf,
                                        int shield) {
   if (shield != 2 && shield != 3) throw nb::value_error("a shield is 2 or 3");
   if (!elf) return std::make_unique<brain::HostBrain>(world);
-#ifdef PLUMB_HAS_SIMAVR
-  auto mega = std::make_unique<brain::MegaBrain>(world, *elf);
+  std::unique_ptr<brain::Brain> mega = megaFor(world, *elf);
   mega->setShield(shield);
   return mega;
-#else
-  throw std::runtime_error(
-      "the lab was built without the simulated Mega; run tools/setup, or install libsimavr-dev and "
-      "libelf-dev and build the lab again");
-#endif
 }
 
 world::Axis axisNamed(const std::string& name) {

@@ -112,7 +112,7 @@ def _handed_out(cluster: str) -> Iterator[None]:
     try:
         from distributed import Client
     except ModuleNotFoundError:
-        raise InputError("--cluster needs Dask: pip install 'plumb[cluster]'") from None
+        raise InputError("--cluster needs Dask: pip install 'plumb-maslow[cluster]'") from None
     try:
         client = Client(cluster, timeout=10)  # type: ignore[no-untyped-call]  # it has no types
     except (OSError, ValueError) as error:

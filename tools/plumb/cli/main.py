@@ -12,7 +12,6 @@ import signal
 import sys
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from difflib import get_close_matches
-from importlib import import_module
 from importlib import import_module as loaded
 from itertools import takewhile
 from textwrap import wrap
@@ -230,7 +229,7 @@ class Version(argparse.Action):
 
     def __call__(self, parser: argparse.ArgumentParser, *_: object) -> None:
         """Print it and stop."""
-        version = import_module("importlib.metadata").version("plumb")
+        version = loaded("plumb.text.version").version()
         print(f"{parser.prog} {version}")
         parser.exit()
 

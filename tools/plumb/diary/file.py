@@ -13,7 +13,6 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from datetime import datetime
 from hashlib import sha256
-from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
@@ -24,6 +23,7 @@ from plumb.line.sender import Sender
 from plumb.text.answers import Internal, Moment, plain
 from plumb.text.errors import InputError, Source
 from plumb.text.files import opened, write_whole
+from plumb.text.version import version
 
 NAME = "diary.jsonl"
 DIGITS = 16  # of a line's digest
@@ -177,7 +177,7 @@ def fit_entry(
     """
     fitted = result.after_fit
     return {
-        "plumb": version("plumb"),
+        "plumb": version(),
         "machine": machine,
         "settings": settings,
         "firmware": firmware,
@@ -316,7 +316,7 @@ def write_and_keep(
             raise
         raise InputError(f"{error}. The old numbers are in {kept}") from None
     entry = {
-        "plumb": version("plumb"),
+        "plumb": version(),
         "machine": Path(path).name,
         "lines": lines,
         "changed": {f"${number}": list(both) for number, both in written.changed.items()},

@@ -29,7 +29,7 @@ from plumb.plan import Next, propose
 from plumb.text.values import unit, worded
 
 PAGE = Path(__file__).parent / "page"
-PACKAGES = ("plumb", "numpy", "scipy")
+PACKAGES = ("plumb-maslow", "numpy", "scipy")
 
 
 @dataclass(frozen=True)

@@ -87,7 +87,7 @@ def test_a_type_checker_knows_the_functions(tmp_path):
     )
     options = [
         "--config-file",
-        TOOLS / "pyproject.toml",
+        TOOLS.parent / "pyproject.toml",
         "--cache-dir",
         TOOLS.parent / ".build/mypy",
     ]

@@ -103,5 +103,5 @@ def test_a_cluster_of_two_workers_gives_the_same_rates(alone):
 
 def test_a_cluster_needs_dask(monkeypatch):
     monkeypatch.setitem(sys.modules, "distributed", None)
-    with pytest.raises(InputError, match=r"pip install 'plumb\[cluster\]'"):
+    with pytest.raises(InputError, match=r"pip install 'plumb-maslow\[cluster\]'"):
         play(WantedBoards((NONE,), boards=1, marks=9, seed=2), cluster="tcp://localhost:1")

@@ -13,7 +13,7 @@ CUT_OFF = (
 )
 UNSET = "Chain lengths are not known yet: send your settings, then set the chains."
 NOWHERE = "Message: Unable to find valid machine position for chain lengths 0.00, 0.00 . Please set"
-FOUND = ["Plumb v0.1", "position loaded at:", "0.00", "0.00"]
+FOUND = ["Plumb v1.0.0", "position loaded at:", "0.00", "0.00"]
 
 
 class Greeting(NumbersMachine):
@@ -46,11 +46,11 @@ def asked(monkeypatch, capsys):
 
 @pytest.mark.parametrize("lost", [CUT_OFF, UNSET, NOWHERE])
 def test_a_lost_place_is_said_in_the_machines_words_and_no_place_is_shown(asked, lost):
-    said = " ".join(asked("Plumb v0.1", lost, "ready").split())
+    said = " ".join(asked("Plumb v1.0.0", lost, "ready").split())
     assert f"The machine does not know where its sled is. It says: {lost}" in said
     assert "plumb recover --at" in said and "B06 or B08" in said and "G10 Z0" in said
     assert "The sled is at" not in said
-    answer = json.loads(asked("Plumb v0.1", lost, options=["--json"]))
+    answer = json.loads(asked("Plumb v1.0.0", lost, options=["--json"]))
     assert answer["place"] is None and answer["lost"] == lost
 
 

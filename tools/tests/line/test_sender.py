@@ -154,7 +154,7 @@ def test_the_late_answer_of_a_machine_that_was_asked_to_report_belongs_to_no_lin
 def test_a_greeting_counts_for_no_line():
     said = []
     board = Board()
-    board.read = iter([b"Plumb v0.1\r\nready\r\nok\r\n", REPORT.encode()]).__next__
+    board.read = iter([b"Plumb v1.0.0\r\nready\r\nok\r\n", REPORT.encode()]).__next__
     sender = Sender(board, said.append)
     sender.await_start()
     assert said == []

@@ -90,7 +90,7 @@ def build(tmp_path):
         program.write_text(f"#!/bin/sh\n{script}\n")
         program.chmod(0o755)
     (tmp_path / "tools").mkdir()
-    for name in ("tools/pyproject.toml", "compiler", "sources"):
+    for name in ("pyproject.toml", "compiler", "sources"):
         (tmp_path / name).write_text(name)
 
     def step() -> bool:

@@ -26,7 +26,7 @@ JOB += [f"G1 X{40 - 2 * step} Y{30 - step} " for step in range(9)] + ["G4 P200 "
 CALIBRATION = ["$42=2000 ", "B11 S100 T1 R ", "$42=2.0 ", "G91 ", "B09 L5 ", "B09 R-5 ", "G90 "]
 PER_SECOND = 5  # reports of the machine
 # What the machine sent in these sessions before it knew the dialect of Grbl. Changed by hand since:
-# `Grbl v1.00` is gone, because bCNC stops at it, `Plumb 0.1` is v0.1, and $78 is new. Where these
+# `Grbl v1.00` is gone, because bCNC stops at it, the version is 1.0.0, and $78 is new. Where these
 # bytes are meant to change, `python tools/tests/vm/test_clients.py` writes them again.
 RECORDED = Path(__file__).resolve().parents[1] / "data/sessions"
 REPORTS = ("<", "[PE:")

@@ -94,3 +94,8 @@ std::string MegaBrain::takeSaid() {
 }
 
 }  // namespace brain
+
+/// For programs that load this when it is asked for: they need no simavr until then.
+extern "C" brain::Brain* megaBrain(world::World& world, const char* elf) {
+  return new brain::MegaBrain(world, elf);
+}
