@@ -10,6 +10,7 @@ class VirtualMachine:
         seed: int = ...,
         paid_out: float = ...,
         elf: str | None = ...,
+        bootloader: bytes = ...,
         over_top: bool = ...,
         shield: int = ...,
     ) -> None: ...

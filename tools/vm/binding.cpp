@@ -22,7 +22,8 @@ using Pair = std::pair<double, double>;
 using CutRow = std::tuple<int, double, double, double, double>;
 
 /// Makes the brain of a simulated Mega; mega.so holds it, beside this module.
-std::unique_ptr<brain::Brain> megaFor(world::World& world, const std::string& elf) {
+std::unique_ptr<brain::Brain> megaFor(world::World& world, const std::string& elf,
+                                      const std::string& bootloader) {
   Dl_info here;
   dladdr(reinterpret_cast<void*>(&megaFor), &here);
   const std::string module = here.dli_fname;
@@ -33,15 +34,15 @@ std::unique_ptr<brain::Brain> megaFor(world::World& world, const std::string& el
     throw std::runtime_error(
         "the lab has no simulated Mega here; install libsimavr-dev and libelf-dev, and build the "
         "lab again (tools/setup does both)");
-  using Make = brain::Brain*(world::World&, const char*);
-  return std::unique_ptr<brain::Brain>(reinterpret_cast<Make*>(make)(world, elf.c_str()));
+  using Make = brain::Brain*(world::World&, const std::string&, const std::string&);
+  return std::unique_ptr<brain::Brain>(reinterpret_cast<Make*>(make)(world, elf, bootloader));
 }
 
 std::unique_ptr<brain::Brain> brainFor(world::World& world, const std::optional<std::string>& elf,
-                                       int shield) {
+                                       const std::string& bootloader, int shield) {
   if (shield != 2 && shield != 3) throw nb::value_error("a shield is 2 or 3");
   if (!elf) return std::make_unique<brain::HostBrain>(world);
-  std::unique_ptr<brain::Brain> mega = megaFor(world, *elf);
+  std::unique_ptr<brain::Brain> mega = megaFor(world, *elf, bootloader);
   mega->setShield(shield);
   return mega;
 }
@@ -67,9 +68,10 @@ world::Parts partsOf(const std::map<std::string, double>& numbers, double fricti
 class VirtualMachine {
  public:
   VirtualMachine(const std::map<std::string, double>& numbers, double friction, unsigned seed,
-                 double paid_out, const std::optional<std::string>& elf, bool over_top, int shield)
+                 double paid_out, const std::optional<std::string>& elf,
+                 const nb::bytes& bootloader, bool over_top, int shield)
       : world_(partsOf(numbers, friction, seed, over_top), paid_out),
-        brain_(brainFor(world_, elf, shield)) {}
+        brain_(brainFor(world_, elf, {bootloader.c_str(), bootloader.size()}, shield)) {}
 
   void advance(int milliseconds) { brain_->advance(milliseconds); }
   void start() { brain_->start(); }
@@ -166,15 +168,17 @@ NB_MODULE(_vm, module) {
       "A machine in its garage. numbers: what differs from the judge's "
       "default machine; friction [N] of the sled; seed draws the motors, 0: "
       "as they are meant to be; paid_out [mm] of both chains at first; elf: "
-      "the flashed program, else the firmware built for the host; over_top: the chains leave over "
+      "the flashed program, else the firmware built for the host; bootloader: the HEX file of what "
+      "the "
+      "Mega starts first, so that it can be flashed over its line; over_top: the chains leave over "
       "the top of the sprockets, else below; shield: N of v1.N, 2 or 3, whose drivers the firmware "
       "hears complain. The host's build hears them on every shield.");
   machine
       .def(nb::init<const std::map<std::string, double>&, double, unsigned, double,
-                    const std::optional<std::string>&, bool, int>(),
+                    const std::optional<std::string>&, const nb::bytes&, bool, int>(),
            arg("numbers"), nb::kw_only(), arg("friction") = 0.0, arg("seed") = 0,
-           arg("paid_out") = 1651.0, arg("elf") = nb::none(), arg("over_top") = true,
-           arg("shield") = 2)
+           arg("paid_out") = 1651.0, arg("elf") = nb::none(), arg("bootloader") = nb::bytes("", 0),
+           arg("over_top") = true, arg("shield") = 2)
       .def("advance", &VirtualMachine::advance, arg("milliseconds"),
            nb::call_guard<nb::gil_scoped_release>(), "Lets time pass.")
       .def("start", &VirtualMachine::start, "Power comes, or the reset button is let go.")

@@ -14,6 +14,7 @@ from rich.live import Live
 
 from plumb.cli.arguments import add_shared, length, positive
 from plumb.cli.screen import console, print_json
+from plumb.firmware.hex_file import hex_bytes
 from plumb.line.sender import Sender
 from plumb.settings.machine import MachineSettings
 from plumb.text.errors import InputError
@@ -28,7 +29,7 @@ from plumb.vm.garage import (
     set_up,
 )
 from plumb.vm.owner import InProcessPort
-from plumb.vm.pseudo_terminal import Pace, PseudoTerminal, preload
+from plumb.vm.pseudo_terminal import BOOTLOADER, Pace, PseudoTerminal, preload
 from plumb.vm.tape import BLANK, Tape
 
 EEPROM_BYTES = 4096
@@ -86,9 +87,15 @@ def serve(
 ) -> int:
     """Serve the machine of a garage until Ctrl-C, and return the exit code; `look` is called all
     the time, `announce` once with the machine's port."""
-    machine = garage.machine(elf=arguments.mega)
+    bootloader = getattr(arguments, "bootloader", None)
+    if bootloader and not arguments.mega:
+        raise InputError("--bootloader needs a program for the simulated Mega: give --mega too")
+    machine = garage.machine(
+        elf=arguments.mega, bootloader=hex_bytes(bootloader) if bootloader else b""
+    )
     _wake(machine, garage.settings, arguments)
-    terminal = _terminal(machine, arguments.link)
+    boot_time = 0 if bootloader else BOOTLOADER
+    terminal = _terminal(PseudoTerminal(machine, boot_time=boot_time), arguments.link)
     try:
         announce(str(terminal.link or terminal.path))
         _serve(terminal, arguments, lambda: look(machine))
@@ -101,9 +108,8 @@ def serve(
     return 0
 
 
-def _terminal(machine: VirtualMachine, link: str | None) -> PseudoTerminal:
-    """Return the machine's port, under its name. A machine whose name is taken leaves no trace."""
-    terminal = PseudoTerminal(machine)
+def _terminal(terminal: PseudoTerminal, link: str | None) -> PseudoTerminal:
+    """Return a machine's port, under its name. A machine whose name is taken leaves no trace."""
     if link:
         try:
             terminal.link_as(link)
@@ -267,6 +273,11 @@ def _add_brain(parser: argparse.ArgumentParser) -> None:
         "--mega",
         metavar="ELF",
         help="run this flashed program on a simulated Mega, not the firmware built for the PC",
+    )
+    parser.add_argument(
+        "--bootloader",
+        metavar="HEX",
+        help="what the simulated Mega starts first, so that plumb flash can write its port",
     )
     add_pace(parser)
     parser.add_argument(

@@ -61,9 +61,11 @@ class Garage:
         middle = np.array([[0.0, self.numbers["motor_height"]]])
         return float(self.on_sheet(middle)[0, 1])
 
-    def machine(self, *, elf: str | None = None, shield: int = SHIELD) -> VirtualMachine:
-        """Return the machine with an empty memory, its chains laid, without power; `shield`: N of
-        v1.N.
+    def machine(
+        self, *, elf: str | None = None, bootloader: bytes = b"", shield: int = SHIELD
+    ) -> VirtualMachine:
+        """Return the machine with an empty memory, its chains laid, without power; `bootloader`:
+        the bytes of what a simulated Mega starts first; `shield`: N of v1.N.
 
         InputError where the simulated Mega cannot run `elf`, or was not there when the lab was
         built.
@@ -75,6 +77,7 @@ class Garage:
                 seed=self.seed,
                 paid_out=EXTENDED,
                 elf=elf,
+                bootloader=bootloader,
                 over_top=self.settings.feed == "top",
                 shield=shield,
             )

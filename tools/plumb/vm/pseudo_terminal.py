@@ -39,8 +39,9 @@ class PseudoTerminal:
     Opening it resets the board, as the line DTR does on a Mega.
     """
 
-    def __init__(self, machine: VirtualMachine) -> None:
-        self.machine = machine
+    def __init__(self, machine: VirtualMachine, *, boot_time: int = BOOTLOADER) -> None:
+        """boot_time [ms]: 0 for a machine with a bootloader of its own."""
+        self.machine, self.boot_time = machine, boot_time
         self._master, slave = pty.openpty()
         tty.setraw(slave)
         self.path = os.ttyname(slave)
@@ -130,7 +131,9 @@ class PseudoTerminal:
         self.machine.stop()
         # Who opened the port hears nothing that was said before.
         self._lines, self._waiting = WholeLines(), b""
-        self._booting = BOOTLOADER
+        self._booting = self.boot_time
+        if not self.boot_time:
+            self.machine.start()
 
     def _hand_over(self) -> None:
         """Give the client what it has room for."""

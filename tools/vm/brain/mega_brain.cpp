@@ -9,14 +9,16 @@ const int kFineSlices = 20;  // in each of them at most a character comes
 
 }  // namespace
 
-MegaBrain::MegaBrain(world::World& world, std::string elf) : world_(world), elf_(std::move(elf)) {
+MegaBrain::MegaBrain(world::World& world, std::string elf, std::string bootloader)
+    : world_(world), elf_(std::move(elf)), bootloader_(std::move(bootloader)) {
   // Loads the file once, so that an unreadable file is refused here.
-  vm::VirtualBoard try_it(elf_);
+  vm::VirtualBoard try_it(elf_, bootloader_);
 }
 
 void MegaBrain::start() {
   stop();
-  board_ = std::make_unique<vm::VirtualBoard>(elf_);
+  board_ = std::make_unique<vm::VirtualBoard>(elf_, bootloader_);
+  board_->setFlash(flash_);
   board_->setEeprom(eeprom_);
   board_->setSupply(supply_);
   board_->strap(uint8_t(shield_->straps));
@@ -30,6 +32,7 @@ void MegaBrain::start() {
 
 void MegaBrain::stop() {
   if (board_) eeprom_ = board_->eeprom();
+  if (board_ && !bootloader_.empty()) flash_ = board_->flash();
   spindle_.reset();
   laser_.reset();
   board_.reset();
@@ -87,15 +90,16 @@ void MegaBrain::turnEncoders() {
 
 std::string MegaBrain::takeSaid() {
   std::string said;
-  said.swap(said_);
   if (!board_) return said;
-  for (; !board_->lines.empty(); board_->lines.pop_front()) said += board_->lines.front() + "\r\n";
+  said.swap(board_->said);
+  board_->lines.clear();
   return said;
 }
 
 }  // namespace brain
 
 /// For programs that load this when it is asked for: they need no simavr until then.
-extern "C" brain::Brain* megaBrain(world::World& world, const char* elf) {
-  return new brain::MegaBrain(world, elf);
+extern "C" brain::Brain* megaBrain(world::World& world, const std::string& elf,
+                                   const std::string& bootloader) {
+  return new brain::MegaBrain(world, elf, bootloader);
 }

@@ -14,9 +14,10 @@ namespace brain {
 /// A Mega with a motor shield.
 class MegaBrain : public Brain {
  public:
-  /// `elf` is the file to flash. `world` must live as long as this object. Throws
-  /// std::runtime_error if the file cannot be read.
-  MegaBrain(world::World& world, std::string elf);
+  /// `elf` is the file to flash, `bootloader` the bytes of what starts first and may flash another.
+  /// `world` must live as long as this object. Throws std::runtime_error if the file cannot be
+  /// read.
+  MegaBrain(world::World& world, std::string elf, std::string bootloader = "");
   ~MegaBrain() override = default;
 
   using Brain::advance;
@@ -50,7 +51,8 @@ class MegaBrain : public Brain {
 
   world::World& world_;
   const vm::ShieldPins* shield_ = &vm::kShield2;
-  std::string elf_, said_;
+  std::string elf_, bootloader_;
+  std::vector<uint8_t> flash_;  ///< what the bootloader left; empty: as in the file
   std::vector<uint8_t> eeprom_ = std::vector<uint8_t>(4096, 0xff);
   std::unique_ptr<vm::VirtualBoard> board_;
   std::unique_ptr<vm::PulseMeter> spindle_, laser_;

@@ -9,7 +9,6 @@
 namespace vm {
 namespace {
 
-const avr_cycle_count_t kPerCharacter = 10 * 16 * 17;  // 58,824 baud, ten bits
 // Everything that is read between two runs of the simulator is at most this old.
 const avr_cycle_count_t kMostAtOnce = 500;
 const uint16_t kOutlivesReset = 16;  // [bytes] most above .bss, for variables that no start clears
@@ -43,6 +42,7 @@ const PinPlace& placeOf(int pin) {
 }
 
 const uint16_t kWdtcsr = 0x60, kMcusr = 0x54;
+const uint16_t kUbrr0l = 0xc4, kUbrr0h = 0xc5, kUcsr0a = 0xc0;
 const uint16_t kFirstTimerMask = 0x6e, kLastTimerMask = 0x73;  // TIMSK0 to TIMSK5
 const uint16_t kTickMask = 0x6f;                               // TIMSK1
 const uint8_t kTickBit = 2;                                    // OCIE1A
@@ -95,7 +95,7 @@ void logNothing(avr_t*, const int, const char*, va_list) {}
 
 }  // namespace
 
-VirtualBoard::VirtualBoard(const std::string& elf) {
+VirtualBoard::VirtualBoard(const std::string& elf, const std::string& bootloader) {
   avr_global_logger_set(logNothing);
   if (!std::ifstream(elf))
     throw std::runtime_error("cannot read " + elf + "; build it with pio run");
@@ -110,7 +110,12 @@ VirtualBoard::VirtualBoard(const std::string& elf) {
   avr_->frequency = kClock;
   setSupply(5);
   avr_load_firmware(avr_, &firmware);
-  markWideSkips(firmware.flashsize);
+  program_end_ = firmware.flashsize;
+  if (bootloader.empty())
+    markWideSkips();
+  else
+    loadBootloader(bootloader);
+  avr_register_io_write(avr_, kNoRegister, onWideSkip, this);
   for (uint16_t mask = kFirstTimerMask; mask <= kLastTimerMask; ++mask)
     avr_register_io_write(avr_, mask, onTimerMask, this);
   avr_->custom.data = this;
@@ -125,17 +130,39 @@ VirtualBoard::VirtualBoard(const std::string& elf) {
   avr_irq_register_notify(avr_io_getirq(avr_, port, UART_IRQ_OUTPUT), onCharacter, this);
 }
 
-void VirtualBoard::markWideSkips(uint32_t size) {
+void VirtualBoard::loadBootloader(const std::string& bytes) {
+  std::memcpy(avr_->flash + kBootloader, bytes.data(), bytes.size());
+  avr_->reset_pc = avr_->pc = program_end_ = kBootloader;
+  avr_->codeend = avr_->flashend;
+}
+
+std::vector<uint8_t> VirtualBoard::flash() {
+  unmarkWideSkips();
+  return {avr_->flash, avr_->flash + program_end_};
+}
+
+void VirtualBoard::setFlash(const std::vector<uint8_t>& bytes) {
+  std::copy(bytes.begin(), bytes.end(), avr_->flash);
+}
+
+void VirtualBoard::markWideSkips() {
+  are_skips_marked_ = true;
   const uint16_t kJump = 0x940c;
   // Before the code that a reset jumps to there are vectors and tables.
-  for (uint32_t at = word(0) == kJump ? 2u * word(2) : 0; at + 4 <= size; at += 2) {
+  for (uint32_t at = word(0) == kJump ? 2u * word(2) : 0; at + 4 <= program_end_; at += 2) {
     const uint16_t next = word(at + 2);
     const bool adds = (next & 0xfe00) == 0x9600, taken_for_call = (next & 0x000c) == 0x000c;
     if (!isSkip(word(at)) || !adds || !taken_for_call) continue;
     wide_skips_[at] = word(at);
     setWord(at, kOutToIt);
   }
-  avr_register_io_write(avr_, kNoRegister, onWideSkip, this);
+}
+
+void VirtualBoard::unmarkWideSkips() {
+  are_skips_marked_ = false;
+  for (const auto& marked : wide_skips_)
+    if (word(marked.first) == kOutToIt) setWord(marked.first, marked.second);
+  wide_skips_.clear();
 }
 
 void VirtualBoard::onWideSkip(avr_t* avr, avr_io_addr_t, uint8_t, void* parameter) {
@@ -165,6 +192,7 @@ int VirtualBoard::runWideSkip() {
 void VirtualBoard::onCharacter(avr_irq_t*, uint32_t value, void* parameter) {
   VirtualBoard& board = *static_cast<VirtualBoard*>(parameter);
   const char character = char(value);
+  board.said += character;
   if (character == '\n') {
     board.lines.push_back(board.partial_);
     board.partial_.clear();
@@ -180,10 +208,17 @@ void VirtualBoard::onSleep(avr_t* avr, avr_cycle_count_t cycles) {
 void VirtualBoard::send(const std::string& characters) {
   if (characters.empty()) return;
   // simavr counts eleven bits, so a line without a gap would overrun.
-  line_->cycles_per_byte = kPerCharacter;
+  line_->cycles_per_byte = characterCycles();
   const bool is_under_way = !to_send_.empty();
   to_send_ += characters;
   if (!is_under_way) awaitNextCharacter();
+}
+
+avr_cycle_count_t VirtualBoard::characterCycles() const {
+  const int divider = avr_->data[kUbrr0l] | avr_->data[kUbrr0h] << 8;
+  const bool is_doubled = avr_->data[kUcsr0a] & 2;
+  const int kUsual = 16;  // 58,824 baud
+  return avr_cycle_count_t(10 * (is_doubled ? 8 : 16) * ((divider > 0 ? divider : kUsual) + 1));
 }
 
 void VirtualBoard::awaitNextCharacter() {
@@ -195,7 +230,7 @@ avr_cycle_count_t VirtualBoard::onNextCharacter(avr_t* avr, avr_cycle_count_t, v
   VirtualBoard& board = *static_cast<VirtualBoard*>(parameter);
   const uint8_t character = uint8_t(board.to_send_.front());
   board.to_send_.erase(0, 1);
-  board.next_character_ = avr->cycle + kPerCharacter;
+  board.next_character_ = avr->cycle + board.characterCycles();
   avr_raise_irq(board.wire_in_, character);
   return board.to_send_.empty() ? 0 : board.next_character_;
 }
@@ -219,7 +254,9 @@ void VirtualBoard::step(avr_cycle_count_t most_cycles) {
   noteTick();
   if (is_stack_followed_) noteStack();
   watchWatchdog();
-  if (avr_->pc == 0) restoreOutside();
+  if (avr_->pc == avr_->reset_pc) restoreOutside();
+  // Who reads the flash back by the bootloader finds no marks in it.
+  if (!are_skips_marked_ && avr_->pc < program_end_) markWideSkips();
   if (state == cpu_Done || state == cpu_Crashed) throw std::runtime_error("the board crashed");
 }
 
@@ -339,6 +376,7 @@ void VirtualBoard::pull(char port, uint8_t mask, uint8_t levels) {
 
 void VirtualBoard::restoreOutside() {
   ++resets_;
+  if (avr_->reset_pc != 0) unmarkWideSkips();
   are_interrupts_held_ = false;
   if (!to_send_.empty()) awaitNextCharacter();
   for (const char port : {'A', 'B', 'C', 'D', 'E', 'F', 'G', 'H', 'J', 'K', 'L'})

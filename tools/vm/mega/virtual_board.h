@@ -21,14 +21,16 @@
 
 namespace vm {
 
-const uint32_t kClock = 16000000;  // [Hz]
+const uint32_t kClock = 16000000;      // [Hz]
+const uint32_t kBootloader = 0x3e000;  // as the fuses of an Arduino say
 const uint16_t kRamBegin = 0x200, kRamEnd = 0x2200;
 
 /// A Mega 2560 with a program in its flash.
 class VirtualBoard {
  public:
-  /// Loads an ELF file; throws std::runtime_error if it cannot be read.
-  explicit VirtualBoard(const std::string& elf);
+  /// Loads an ELF file; throws std::runtime_error if it cannot be read. `bootloader`: the bytes of
+  /// what starts first, from kBootloader on.
+  explicit VirtualBoard(const std::string& elf, const std::string& bootloader = "");
   ~VirtualBoard() { avr_terminate(avr_); }
   VirtualBoard(const VirtualBoard&) = delete;
   VirtualBoard& operator=(const VirtualBoard&) = delete;
@@ -42,8 +44,9 @@ class VirtualBoard {
   /// Whether a status report has just begun, so that the main program is busy with it.
   bool reports() const { return partial_ == "<"; }
 
-  /// Lines that the board sent since the last call, without their ends.
+  /// Lines that the board sent since the last call, without their ends; and all characters.
   std::deque<std::string> lines;
+  std::string said;
 
   /// Pulls an input of the Mega (Arduino's number) high or low.
   void setPin(int pin, bool high);
@@ -72,6 +75,9 @@ class VirtualBoard {
   /// Stops timer 1.
   void stopTickTimer();
 
+  /// The program, as a bootloader may have written it.
+  std::vector<uint8_t> flash();
+  void setFlash(const std::vector<uint8_t>& bytes);
   std::vector<uint8_t> eeprom() const;
   void setEeprom(const std::vector<uint8_t>& bytes);
 
@@ -121,7 +127,8 @@ class VirtualBoard {
   /// simavr takes some ADIW and SBIW for a call of two words, so a skip over such a word would skip
   /// the next one too. Each such skip is replaced by an OUT that ends a burst; runWideSkip() then
   /// runs the skip itself, with a NOP behind it.
-  void markWideSkips(uint32_t size);
+  void markWideSkips();
+  void unmarkWideSkips();
   static void onWideSkip(avr_t*, avr_io_addr_t, uint8_t, void* board);
   int runWideSkip();
   uint16_t word(uint32_t at) const { return uint16_t(avr_->flash[at] | avr_->flash[at + 1] << 8); }
@@ -130,6 +137,9 @@ class VirtualBoard {
     avr_->flash[at + 1] = uint8_t(code >> 8);
   }
   void awaitNextCharacter();
+  /// Cycles of a character at the speed to which the program set the line.
+  avr_cycle_count_t characterCycles() const;
+  void loadBootloader(const std::string& bytes);
   static avr_cycle_count_t onNextCharacter(avr_t*, avr_cycle_count_t, void* board);
   static avr_cycle_count_t onEndOfRun(avr_t*, avr_cycle_count_t, void*);
   static void onTimerMask(avr_t*, avr_io_addr_t address, uint8_t mask, void* board);
@@ -150,6 +160,8 @@ class VirtualBoard {
   std::string to_send_, partial_;
   avr_cycle_count_t next_character_ = 0;
   uint16_t data_end_;
+  uint32_t program_end_;
+  bool are_skips_marked_ = false;
   avr_flashaddr_t hung_at_ = 0;
   avr_cycle_count_t in_tick_ = 0, longest_tick_ = 0, tick_since_ = 0, watched_from_ = 0;
   avr_cycle_count_t longest_gap_ = 0, asleep_ = 0;
