@@ -1,4 +1,4 @@
-"""Who may include whom: an include that the table below does not name is refused."""
+"""The includes that are allowed: any that the table below does not name is refused."""
 
 import ast
 import os

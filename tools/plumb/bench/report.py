@@ -21,7 +21,7 @@ AT_ONCE = 4  # boards of a kind that a process takes
 
 @dataclass(frozen=True)
 class WantedBoards:
-    """Which boards are played."""
+    """The boards to play."""
 
     kinds: tuple[str, ...]
     boards: int  # of each kind
@@ -31,7 +31,7 @@ class WantedBoards:
 
 @dataclass(frozen=True)
 class Row:
-    """Rates over the boards of a kind: shares, and means a board."""
+    """Rates over the boards of one kind: shares, and means per board."""
 
     kind: str
     hidden: str

@@ -70,7 +70,7 @@ class JobAnswer:
     @computed_field
     @property
     def moves(self) -> int:
-        """How many moves the program has."""
+        """The number of moves in the program."""
         return len(self.checked.done.moves)
 
 

@@ -1,4 +1,4 @@
-"""How numbers of the machine are measured by hand: what is read, and how the number follows.
+"""Numbers that are measured by hand: what is read, and how the number follows.
 
 An effect brings its readings along; those of the frame are here. The steps and the accuracies are
 those of plumb next.

@@ -62,7 +62,7 @@ class Fit:
 
     @property
     def last_sheet_rotation(self) -> float:
-        """How the sheet is turned that was cut last [rad]: the first and what the last adds."""
+        """The rotation of the last sheet [rad]: that of the first and the difference."""
         last = last_turn_of(each.name for each in self.estimates)
         return self.sheet_rotation + sum(each.value for each in self.estimates if each.name == last)
 

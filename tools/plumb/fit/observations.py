@@ -47,7 +47,7 @@ class Observations:
 
     @property
     def count(self) -> int:
-        """How many numbers were measured."""
+        """The number of measured numbers."""
         return 2 * len(self.measured) + len(self.distances)
 
     def rms_of(self, numbers: Array) -> float:

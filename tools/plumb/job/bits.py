@@ -30,7 +30,7 @@ class Bit:
 
     @property
     def slope(self) -> float:
-        """How steeply its edge rises away from its axis."""
+        """The slope of its edge away from its axis."""
         return 0.0 if self.half_angle >= 90 else 1 / math.tan(math.radians(self.half_angle))
 
 

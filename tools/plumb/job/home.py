@@ -63,7 +63,7 @@ class HomeFile(Table):
 
 @dataclass(frozen=True)
 class HomeFit:
-    """How well a second home mark agrees with the first, by which the position was restored."""
+    """The agreement of a second home mark with the first, by which the position was restored."""
 
     name: Annotated[str, key("mark")]
     error: Point  # [mm] of the hole, against what the machine shows with the bit in it

@@ -43,7 +43,7 @@ class Phone:
 
 @dataclass(frozen=True)
 class Invitation:
-    """How the next phone is paired."""
+    """The code that pairs the next phone."""
 
     address: str  # for its browser; empty: this computer is in no network
     pin: str
@@ -85,7 +85,7 @@ class Phones:
 
     @property
     def invitation(self) -> Invitation:
-        """How the next phone is paired now; the network may be another than before."""
+        """The code that pairs the next phone; the network may have changed."""
         host = _own_address()
         return Invitation(f"http://{host}:{self._port}/" if host else "", self._pin)
 

@@ -30,7 +30,7 @@ FORM, PROGRAM = "marks{}.toml", "grid{}.nc"
 
 
 def on_new_sheet(choices: Choices) -> bool:
-    """Return whether the next round is cut on another sheet; the first is on no other."""
+    """Return whether the next round is cut on a new sheet; False for the first round."""
     return choices.new_sheet and bool(choices.marks)
 
 
@@ -128,7 +128,7 @@ class Planned:
 
     @property
     def minutes(self) -> float:
-        """How long it takes to cut and read them."""
+        """The time to cut and read them."""
         read = READING * len(self.spans)
         return ROUND + MARK * len(self.touches) + read
 

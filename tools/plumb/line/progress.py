@@ -1,4 +1,4 @@
-"""How far a program is on its way to the machine."""
+"""The progress of a program that is being sent."""
 
 from __future__ import annotations
 

@@ -342,7 +342,7 @@ class Sender:
 
 
 class Watch:
-    """How long a machine has been watched: by the clock, and by the reports that came.
+    """The time for which a machine has been watched: by the clock, and by its reports.
 
     A computer that is busy stands still for seconds, and the machine's last report looks as if
     nothing had moved since. So time counts only as far as reports came in it.

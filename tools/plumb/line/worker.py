@@ -52,7 +52,7 @@ class _Task:
 
 @dataclass(frozen=True)
 class LineState:
-    """How the line and the machine are."""
+    """The state of the line and the machine."""
 
     phase: Phase = "none"
     place: tuple[float, float, float] | None = None  # [mm] x, y, z
@@ -102,13 +102,13 @@ class LineWorker:
 
     @property
     def state(self) -> LineState:
-        """How things are now."""
+        """The present state."""
         with self._lock:
             return self._state
 
     @property
     def silence(self) -> float:
-        """How long ago the machine last reported [s]; 0 where no report is due."""
+        """The time since the machine last reported [s]; 0 where no report is due."""
         sender = self._sender
         due = sender and sender.reported_at and self.state.phase in ("ready", "busy", "stopping")
         return monotonic() - sender.reported_at if sender and due else 0.0
@@ -297,7 +297,7 @@ class LineWorker:
         self._press(sender)
 
     def _press(self, sender: Sender) -> None:
-        """Pass on what somebody pressed."""
+        """Pass on a key press."""
         if self._stop.is_set():
             self._stop.clear()
             self._held_at = -SURE

@@ -151,7 +151,7 @@ class PlainChange(NamedTuple):
 
     @property
     def shift(self) -> str:
-        """How far it moved, with its sign."""
+        """The signed distance that it moved."""
         digits = len(self.after.partition(".")[2])
         return f"{float(self.after) - float(self.before):+.{digits}f}"
 

@@ -46,7 +46,7 @@ QUESTIONS = {"cannot_tell": SETTLE, "one_suspect": CONFIRM, "nothing_provable": 
 
 @dataclass(frozen=True)
 class RoomThen:
-    """How large an effect could hide, RMS over the marks: by the marks so far, and afterwards."""
+    """The largest effect that could hide, RMS over the marks: so far, and afterwards."""
 
     effect: str
     now: Annotated[float, key("now_mm")]

@@ -28,7 +28,7 @@ MACHINES = 1_000_000  # that can be drawn
 
 @pydantic_dataclass(frozen=True)
 class Secret:
-    """How `plumb vm --hide` draws a machine."""
+    """The seed, size and effects of a machine drawn by `plumb vm --hide`."""
 
     seed: int
     millimetres: float = 3.0  # RMS by which what is hidden moves marks

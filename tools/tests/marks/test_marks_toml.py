@@ -39,7 +39,7 @@ def read(tmp_path, text):
     return read_marks(path, sheet=SHEET)
 
 
-def test_all_that_can_be_said_is_read(tmp_path):
+def test_every_key_is_read(tmp_path):
     measurements = read(tmp_path, GOOD)
     assert measurements.marks == (
         # x - 1200 and 600 - y; an approach with y down turns round as well.

@@ -33,7 +33,7 @@ class CoursePoint(Point):
 
 
 class NumberCourse(BaseModel):
-    """How a number went."""
+    """The history of a number."""
 
     noun: str
     unit: str
