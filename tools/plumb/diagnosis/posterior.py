@@ -138,7 +138,7 @@ class Posterior:
         return float(np.exp(self.turned - np.logaddexp(self.turned, self._whole)))
 
     def nothing_chance(self, *, with_field: bool = False) -> float:
-        """Return the probability that no effect acts, if nothing else is wrong, or if a field acts."""
+        """Return the probability that no effect acts, with nothing else wrong, or with a field."""
         chances = self._chances(with_field)
         return sum(
             chance
