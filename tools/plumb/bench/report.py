@@ -16,7 +16,7 @@ from plumb.text.answers import Number, key
 from plumb.text.errors import InputError
 
 Progress = Callable[[str], None]  # called with the kind of each board that is done
-AT_ONCE = 4  # boards of a kind that a process takes
+AT_ONCE = 4  # boards of one kind that a process takes
 
 
 @dataclass(frozen=True)

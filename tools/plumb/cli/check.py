@@ -240,7 +240,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 # What `plumb check` says to people.
 
-SHOWN = 12  # lines of a kind
+SHOWN = 12  # lines with the same fault
 PARTS = 12  # parts in the table
 
 

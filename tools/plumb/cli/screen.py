@@ -31,7 +31,7 @@ from plumb.text.values import unit
 WIDEST = 80  # [characters]
 PATIENCE = 2.0  # [s] before a bar shows how far the work is
 UNIT = re.compile(r"(?<=\d) (?=(?:%|mm|N)(?!\w))")  # a number and its unit stay together
-WARNED = ("impossible", "NOT ", "missed")  # how cells begin that nobody should overlook
+WARNED = ("impossible", "NOT ", "missed")  # beginnings of cells that must not be overlooked
 GOOD, OPEN, BAD = "good", "open", "bad"  # kinds of verdicts
 COLOURS = {GOOD: "bold green", OPEN: "bold yellow", BAD: "bold red"}
 
@@ -287,7 +287,7 @@ class Prompt:
 
     def __init__(self, text: str) -> None:
         self.answer: str | None = None  # None: not yet; empty: just Enter
-        self.is_unheard = False  # nobody can answer: the input has ended
+        self.is_unheard = False  # no answer can come: the input has ended
         print(text, end="", flush=True)
         Thread(target=self._listen, daemon=True).start()
 

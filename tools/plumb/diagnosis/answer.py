@@ -319,7 +319,7 @@ def _open(together: Together, sure: Sequence[str]) -> str:
     return _named(effects) if effects or not sure else "nothing else"
 
 
-MOST_ODDS = 100.0  # beyond which nobody checked them
+MOST_ODDS = 100.0  # beyond which they were not checked
 FINE_ODDS = 20.0  # beyond which they are said in tens
 
 

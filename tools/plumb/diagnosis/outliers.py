@@ -205,7 +205,7 @@ def described(shift: Shift, measurements: Measurements, sheet: tuple[float, floa
 class Guess:
     """Likely cause of an outlier."""
 
-    said: str = ""  # for people; nothing if nobody knows
+    said: str = ""  # for people; empty if unknown
     corrected: tuple[float, ...] | None = None  # [mm] the reading that was meant
 
 

@@ -92,7 +92,7 @@ def read_diary(folder: Folder) -> Diary:
     except FileNotFoundError:
         return Diary(path, ())
     except NotADirectoryError:
-        raise InputError(folder, "is no folder", remedy="give the machine's folder") from None
+        raise InputError(folder, "is not a folder", remedy="give the machine's folder") from None
     except OSError as error:
         raise InputError(
             path, f"cannot be read ({error.strerror})", remedy="check its rights"

@@ -74,7 +74,7 @@ def _said(line: int, text: str) -> tuple[int, str, str] | None:
     return None
 
 
-# What the machine does as it is told, and nobody can mean.
+# Programs that the machine runs but that cannot be intended.
 
 LEAST_FEED = 5.0  # [mm/min]
 F_WORD = re.compile(r"(?i)f\s*\.?\d")

@@ -64,7 +64,7 @@ def _port_at(path: str) -> str:
     """Return the serial port of this name, or that a link of this name leads to."""
     port = os.path.realpath(path) if os.path.islink(path) else path
     if not PORT.fullmatch(port) or ".." in port:
-        raise InputError(f"{path!r} is no serial port: choose one, or type a name like COM3")
+        raise InputError(f"{path!r} is not a serial port: choose one, or type a name like COM3")
     return port
 
 
@@ -148,7 +148,7 @@ class MachineLine:
         try:
             return self.worker.do(_as_here(work)).result(PATIENCE)
         except StoppedError:
-            raise InputError("somebody pressed Stop; the machine has stopped") from None
+            raise InputError("Stop was pressed; the machine has stopped") from None
         except TimeoutError:
             raise InputError(f"the machine did not do it in {PATIENCE:.0f} s: look at it") from None
 

@@ -26,7 +26,7 @@ COOKIE = "plumb-phone"  # holds the key of a phone
 MOST_PHONES = 8
 TRIES = 5  # wrong PINs, after which the PIN is another
 WAIT_S = 60.0  # until the next try after these
-FAR = ("192.0.2.1", 9)  # an address of nobody: the way to it tells this computer's own address
+FAR = ("192.0.2.1", 9)  # an unused address: the route to it shows this computer's own address
 # What every phone may change; a question changes nothing.
 HANDS = re.compile(r"PUT /api/(readings|distances)|POST /api/machine/(hold|stop)")
 PAIR, ME = "/api/phones/pair", "/api/phones/me"  # all else of phones is the computer's

@@ -253,7 +253,7 @@ class LineWorker:
         except LostError:
             raise
         except (InputError, StoppedError):
-            return  # it is no machine that can be calibrated, or somebody pressed Stop
+            return  # the machine cannot be calibrated, or Stop was pressed
 
     def _give_up(self) -> None:
         """Give up what came in while the line was lost: the line takes no work any more."""

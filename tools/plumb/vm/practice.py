@@ -55,7 +55,7 @@ def secret_in(folder: Path) -> Secret:
     try:
         return Secret(**json.loads(read_text(path)))
     except (ValueError, TypeError):
-        raise InputError(path, "is no secret", remedy="begin in a new folder") from None
+        raise InputError(path, "is not a secret", remedy="begin in a new folder") from None
 
 
 @dataclass(frozen=True)

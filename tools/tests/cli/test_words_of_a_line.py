@@ -53,8 +53,8 @@ def test_a_removed_command_names_its_replacement(run, name):
         (b"  0\nSECTION\n  2\nHEADER\n", "holds a drawing (DXF), not a program; let a CAM"),
         (b'{"Maslow Settings": [{"key": "bedWidth"}]}', "holds settings of WebControl"),
         (b'{"a": 1}', "holds JSON, not a program"),
-        (b"\nhello world\n", "line 2: is no G-code (a number is missing behind H)"),
-        (b"# A page\n", "line 1: is no G-code (this begins no word: #)"),
+        (b"\nhello world\n", "line 2: is not G-code (a number is missing behind H)"),
+        (b"# A page\n", "line 1: is not G-code (this begins no word: #)"),
     ],
 )
 @pytest.mark.parametrize("command", ["check", "resume"])

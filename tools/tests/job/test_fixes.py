@@ -96,7 +96,7 @@ def test_a_program_that_runs_is_not_changed(name):
     [
         # What is no habit that is known.
         ("line 2: cannot be fixed: G41 D1", ["G0 Z5", "G41 D1", "G1 Z-1 F200", "X5", "G0 Z5"]),
-        # The program counts on from a home that nobody knows.
+        # The program counts on from an unknown home.
         ("line 4", ["G0 Z5", "G28 X0 Y0", "G91", "G1 X5 Y5 Z-7 F300", "G90 G0 Z5"]),
         ("line 3", ["G0 Z5", "G91 G28 Z0", "G1 Z-12 F300", "X9", "G90 G0 Z5"]),
         ("line 4", ["G0 Z5", "G28 G91 X0 Y0", "G90 X5", "G1 Z-2 F300", "X9", "G0 Z5"]),
@@ -104,7 +104,7 @@ def test_a_program_that_runs_is_not_changed(name):
         ("line 3", ["G0 X9", "G1 Z-3 F300", "G28 X0 Y0", "G0 Z5"]),
         # In the middle of a cycle, which the way home may end or not.
         ("line 3", ["G0 Z5", "G81 X9 Z-3 R2 F200", "G28 G91 Z0", "G90 G80", "G0 Z5"]),
-        # Behind G80 a place in the wood, and one of which nobody knows how it moves.
+        # After G80 a place in the wood, and one without a motion in force.
         ("line 3", ["G81 X9 Z-3 R2 F200", "G80", "Z-4", "G0 Z5"]),
         ("line 4", ["G1 Z3 F300", "G81 X9 Z-3 R2 F200", "G80", "X20", "G0 Z5"]),
     ],

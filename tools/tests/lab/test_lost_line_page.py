@@ -62,7 +62,7 @@ def test_a_refusal_stands_at_its_button(page, lab):
     page.get_by_label("Its name, like COM3").fill("maslow")
     button = page.get_by_role("button", name="Connect", exact=True)
     button.click()
-    said = page.get_by_role("alert").filter(has_text="'maslow' is no serial port")
+    said = page.get_by_role("alert").filter(has_text="'maslow' is not a serial port")
     expect(said).to_be_visible()
     pressed, words = button.bounding_box(), said.bounding_box()
     assert abs(words["y"] - pressed["y"]) < NEAR

@@ -65,7 +65,7 @@ def test_without_a_machine_there_is_a_clear_line(ask):
 
 @pytest.mark.parametrize("port", ["/etc/passwd", "lab.json", "/dev/../etc/passwd", "/dev/sda", ""])
 def test_only_a_serial_port_is_opened(ask, port):
-    assert "is no serial port" in ask("POST", "machine/board", 422, port=port)["error"]
+    assert "is not a serial port" in ask("POST", "machine/board", 422, port=port)["error"]
     assert ask("GET", "machine")["kind"] == "none"
 
 
@@ -77,7 +77,7 @@ def test_a_link_leads_to_its_port_and_to_nothing_else(ask, cable, tmp_path):
     ask("POST", "machine/board", port=str(link))
     state = until(ask, lambda state: state["phase"] == "ready")
     assert state["name"] == str(link)
-    assert "is no serial port" in ask("POST", "machine/board", 422, port=str(other))["error"]
+    assert "is not a serial port" in ask("POST", "machine/board", 422, port=str(other))["error"]
 
 
 def test_a_virtual_machines_settings_are_read_replaced_and_restored(lab, ask):

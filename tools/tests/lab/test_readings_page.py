@@ -256,7 +256,7 @@ def read_on_disk(lab):
 
 
 def test_half_a_reading_does_not_count_not_even_after_a_reload(lab, readings):
-    page, typed, said = readings, "11l.9", "“11l.9” is no length: type it like 11.9"
+    page, typed, said = readings, "11l.9", "“11l.9” is not a length: type it like 11.9"
     other = field(page, TOP_OF_2).input_value()
     field(page, LEFT_OF_2).fill(typed)
     expect(page.locator(".count")).to_contain_text("22 of 23 marks are read")

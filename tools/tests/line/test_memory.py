@@ -29,7 +29,7 @@ def test_a_changed_number_is_reported_with_its_old_value():
 @pytest.mark.parametrize("line", ["B05", "$12", "G1 X5", "$12=5 $13=6"])
 def test_a_line_that_sets_no_number_is_refused_before_any_is_sent(line):
     machine = NumbersMachine()
-    with pytest.raises(InputError, match=r"is no number for the machine: \$N=VALUE"):
+    with pytest.raises(InputError, match=r"is not a number for the machine: \$N=VALUE"):
         write_numbers(Sender(machine), ["$38=15.5", line])
     assert machine.written == []
 

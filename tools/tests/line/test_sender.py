@@ -230,7 +230,7 @@ def test_the_answer_of_a_line_that_is_slipped_in_is_for_no_line_of_the_program()
     sender.slip_in("G10 Z0")
     assert sender.stream(["G1 X1", "G1 X2"]) == 2
     assert board.written == b"G0 X5\nG10 Z0\nG1 X1\nG1 X2\n" and heard == ["error: only z"]
-    with pytest.raises(InputError, match="is no plain text"):
+    with pytest.raises(InputError, match="is not plain text"):
         sender.slip_in("G0 Z\u00bd")
 
 
@@ -273,7 +273,7 @@ def test_nothing_is_sent_after_a_stop():
 
 @pytest.mark.parametrize(
     ("line", "why"),
-    [("G0 X1 é", "line 2 is no plain text"), ("G1 " + "X1 " * 50, "line 2 is longer")],
+    [("G0 X1 é", "line 2 is not plain text"), ("G1 " + "X1 " * 50, "line 2 is longer")],
 )
 def test_a_line_that_the_machine_cannot_take_is_refused(line, why):
     with pytest.raises(InputError, match=why):

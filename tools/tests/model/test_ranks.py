@@ -35,7 +35,7 @@ def test_nothing_that_users_get_is_ranked_by_the_last_bit():
     allowed = {
         "model/plain.py",
         "diagnosis/every_machine.py",
-        "diagnosis/evidence.py",  # the order in which signs are conditioned on: nobody sees it
+        "diagnosis/evidence.py",  # the order in which signs are conditioned on, which is not shown
         "fit/quantiles.py",  # ranks of random draws
         "job/check.py",
         "job/fixes.py",  # the first of yes and no

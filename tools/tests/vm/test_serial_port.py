@@ -198,7 +198,7 @@ def test_z_is_moved_and_set_in_a_pause_and_the_depth_holds_from_there(served, tm
     (tmp_path / "job.nc").write_text("G21\nG0 Z5\nM0\nG1 Z-2 F300\nG0 Z5\nM30\n")
     typed = "G91 G0 Z-3 G90\nG0 X5\nG10 Z\u00bd\nG10 Z0\n\n"
     said = plumb("send", "--port", "maslow", "job.nc", folder=tmp_path, typed=typed)
-    assert "error: the program waits" in said and "is no plain text" in said
+    assert "error: the program waits" in said and "is not plain text" in said
     # What the machine answers stands before the next question.
     assert said[: said.index("error:")].count("The machine waits.") == 1
     assert "Z goes back to 5.00" in said and "6 lines were sent" in said
@@ -270,7 +270,7 @@ def test_the_sled_hangs_at_the_next_start_where_it_hung_at_the_end(served, tmp_p
         (["vm", "--form", "here"], "--form and --readings go together"),
         (["vm", "--link", "here"], "here: is the name of something else; give another --link"),
         (["vm", "--link", "absent/maslow"], "cannot be the name of the port"),
-        (["vm", "--eeprom", "here"], "is no memory of 4096 bytes"),
+        (["vm", "--eeprom", "here"], "is not a memory file of 4096 bytes"),
         (["send", "--port", "absent", "G0 X1"], "absent: cannot be opened; check the cable"),
         (["send", "absent.nc"], "absent.nc: there is no such file"),
         (["read", "--port", "absent"], "absent: cannot be opened"),
