@@ -122,6 +122,6 @@ def _handed_out(cluster: str) -> Iterator[None]:
 
 
 def row_of(kind: str, boards: Sequence[JudgedBoard]) -> Row:
-    """Return the rates of a kind."""
+    """Return the rates of one kind."""
     means = {name: float(np.mean([getattr(each, name) for each in boards])) for name in RATES}
     return Row(kind, KINDS[kind].what, len(boards), **means)

@@ -90,7 +90,7 @@ class LiveBoard:
         self._fitting = Lock()
 
     def refuse(self, chosen: Chosen) -> None:
-        """Raise InputError for what these marks cannot settle, and for what nobody knows."""
+        """Raise InputError for what these marks cannot settle, and for unknown names."""
         refuse_unknown_effects(chosen.effects)
         try:
             refuse_unknown(chosen.held, chosen.parameters)

@@ -34,7 +34,7 @@ def readings(settings: MachineSettings, sled_weight: float) -> Mapping[str, Rule
     return read
 
 
-# What somebody types: a reading with the unit of the rule or scale that showed it.
+# A typed reading with the unit of its rule or scale.
 
 VALUE = "VALUE"  # stands where the owner types his number
 INCHES = ("inches", "inch", "in", '"')

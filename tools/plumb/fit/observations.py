@@ -165,7 +165,7 @@ def model_and_observations(
     whose = controller or measurements.controller or in_force.controller
     published = settings.controller != "plumb" and whose != "plumb"
     model = settings.as_plumb_model(controller=whose if published else None)
-    # Each round was moved by the formula of its settings, unless somebody says otherwise.
+    # Each round was moved by the formula of its settings, unless stated otherwise.
     rows = observe(in_force, measurements, controller=controller, sled_weight=model.sled_weight)
     return model, rows
 

@@ -208,7 +208,7 @@ FORM = re.compile(rb"^\s*\[\[(mark|distance)\]\]", re.MULTILINE)
 
 
 def _found(project: Project) -> Choices:
-    """Return what a folder shows that nobody opened here yet: its settings, and its forms."""
+    """Return the settings and the forms of a folder that was not opened before."""
     names = project.names()
     toml = {name: project.read(name) or b"" for name in names if name.endswith(".toml")}
     forms = {name: text for name, text in toml.items() if FORM.search(text)}

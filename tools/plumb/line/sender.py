@@ -311,7 +311,7 @@ class Sender:
             yield line.strip("\r")
 
     def _note_place(self, line: str) -> None:
-        """Note what the machine says of its place, whoever else hears that."""
+        """Note what the machine says of its place."""
         if lost_place([line]):
             self.knows_place = False
         elif line.startswith(FOUND_PLACE):

@@ -313,7 +313,7 @@ class LineWorker:
             sender.go_on()
 
     def _await_rest(self, sender: Sender) -> None:
-        """Wait until the sled stands; somebody may hold or stop it meanwhile."""
+        """Wait until the sled stands; it may be held or stopped meanwhile."""
         watch = Watch(sender)
         while self.state.moves or self.state.holds or not watch.has_lasted(REPORTS):
             sender.listen()

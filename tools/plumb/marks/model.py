@@ -168,7 +168,7 @@ def digest_of(measurements: Measurements) -> str:
     return sha256(json.dumps([marks, distances]).encode()).hexdigest()
 
 
-# How well somebody reads a tape, by how fine its lines are.
+# The error of a tape reading, by how fine the tape's lines are.
 
 # What the hand adds, whatever the tape: hook, parallax, the middle of a hole. A tape with
 # millimetre lines then gives the usual 0.5 mm (USUAL_SIGMA of the fit).

@@ -197,7 +197,7 @@ def _chains_change(swapped: bool, next_swapped: bool) -> list[str]:
 
 
 def visit_lines(visits: Visits) -> Iterator[list[str]]:
-    """Yield the lines for each visit; between two of them somebody may hang a weight on the
+    """Yield the lines for each visit; between two of them the owner may hang a weight on the
     sled.
     """
     for target, side in zip(visits.targets, visits.approaches, strict=True):

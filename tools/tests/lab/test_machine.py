@@ -114,7 +114,7 @@ def test_a_line_is_answered_and_a_bad_path_refused(ask):
     until(ask, lambda state: state["phase"] == "ready")
     assert any("1651" in line for line in ask("POST", "machine/line", text="B06 L1651 R1651"))
     assert (
-        "no plain file name" in ask("POST", "machine/numbers", 422, file="../machine.toml")["error"]
+        "not a plain file name" in ask("POST", "machine/numbers", 422, file="../machine.toml")["error"]
     )
 
 

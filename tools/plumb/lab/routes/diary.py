@@ -1,4 +1,4 @@
-"""The diary: each fit with its error, and how the numbers went."""
+"""The diary: each fit with its error, and the history of the numbers."""
 
 from __future__ import annotations
 
