@@ -1,4 +1,4 @@
-"""What the kinematics costs on the Mega: cycles, by simulation."""
+"""The cost of the kinematics on the Mega: cycles, by simulation."""
 
 import json
 import re

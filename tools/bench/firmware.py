@@ -1,4 +1,4 @@
-"""What the whole firmware costs: flash, RAM, stack, control tick, lines a second, by simulation."""
+"""The cost of the firmware: flash, RAM, stack, control tick, lines a second, by simulation."""
 
 from pathlib import Path
 

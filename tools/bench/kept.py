@@ -1,4 +1,4 @@
-"""What simulations say is kept until something that they depend on changes.
+"""Results of simulations are kept until something that they depend on changes.
 
 A simulated Mega has no clock but the program's cycles. So what it says depends on the simulator's
 program, on the program that is flashed and on the dialogue alone, and holds until one of these is

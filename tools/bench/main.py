@@ -15,7 +15,7 @@ NOTHING = "–"
 
 @dataclass(frozen=True)
 class Budgets:
-    """What the first number of a figure may be."""
+    """The budget for the first number of a figure."""
 
     most: dict[str, float]
     least: dict[str, float]

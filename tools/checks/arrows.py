@@ -1,4 +1,4 @@
-"""Who may include whom: an include that the table below does not name is refused."""
+"""The includes that are allowed: any that the table below does not name is refused."""
 
 import ast
 import os
@@ -188,7 +188,7 @@ def across(path: Path, name: Path) -> Iterator[tuple[int, str]]:
     if folder and folder not in PAGE_ARROWS:
         yield (
             1,
-            f"{folder} is no folder of the page: add it to PAGE_ARROWS in tools/checks/arrows.py",
+            f"{folder} is not a folder of the page: see PAGE_ARROWS in tools/checks/arrows.py",
         )
         return
     text = tree.text_of(path)

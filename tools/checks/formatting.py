@@ -1,4 +1,4 @@
-"""What clang-format, ruff, shellcheck and codespell say; `--fix` rewrites C++ and Python."""
+"""Findings of clang-format, ruff, shellcheck and codespell; `--fix` rewrites C++ and Python."""
 
 import re
 import subprocess

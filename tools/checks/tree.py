@@ -1,4 +1,4 @@
-"""What the checks share: the project's files, and how a violation is reported."""
+"""Shared code of the checks: the project's files, and the report of violations."""
 
 import os
 import sys

@@ -1,4 +1,4 @@
-"""What tests of the command line share: running one command, and asking it for JSON."""
+"""Fixtures that run a command, and ask it for JSON."""
 
 import json
 import shutil

@@ -1,4 +1,4 @@
-"""What the owner of the example's machine would measure; docs/example/README.md says what it is."""
+"""Measurements of the example's machine; docs/example/README.md describes it."""
 
 TRUE_NUMBERS = {"tape_scale.strain": 0.0, "motor_gap": 2980.4, "motor_height": 1069.6}
 SIGMAS = {"tape_scale.strain": 0.0001, "motor_gap": 1, "motor_height": 1}

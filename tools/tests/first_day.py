@@ -1,4 +1,4 @@
-"""What an owner without mistakes answers on a machine's first day, wherever he is asked."""
+"""The answers of an owner without mistakes on a machine's first day."""
 
 # By a piece of the question, or by its kind; the first that fits answers.
 OWNER = {

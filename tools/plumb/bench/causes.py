@@ -215,7 +215,7 @@ class Plan:
     """Where the sled is sent, how it comes there, what hangs on it, and what is read."""
 
     targets: Array  # (n, 2) [mm]
-    approaches: Array  # (n, 2) unit vectors, zero if nobody wrote them down
+    approaches: Array  # (n, 2) unit vectors, zero if unknown
     sled_weights: Array  # (n,) [N]
     again: tuple[int, ...] = ()  # marks that are read once more, each time
     spans: bool = False  # whether distances between marks are read instead of places

@@ -1,4 +1,4 @@
-"""One board of a kind: made, diagnosed, cured, and held against what is hidden in it."""
+"""One board: made, diagnosed, cured, and compared with what is hidden in it."""
 
 from __future__ import annotations
 
@@ -50,7 +50,7 @@ class JudgedBoard:
 
 
 def judge_board(kind: str, index: int, *, marks: int, seed: int) -> JudgedBoard:
-    """Return what comes of board number `index` of a kind."""
+    """Return the result of board number `index` of one kind."""
     hidden = board_of(KINDS[kind], index, marks=marks, seed=seed)
     settings, truth = hidden.kind.settings, truth_of(hidden)
     inputs = Inputs(settings, hidden.board.measurements)

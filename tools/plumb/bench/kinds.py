@@ -1,4 +1,4 @@
-"""The kinds of boards of the bench, each on two machines, and how a board of a kind is made.
+"""The kinds of boards of the bench, each on two machines, and how a board is made.
 
 All of a board comes from its seed, the hidden sizes too, so boards of a new seed were seen by
 nobody.
@@ -37,7 +37,7 @@ TRIES = 50  # drawings until the sled hangs at every mark
 
 @dataclass(frozen=True)
 class Kind:
-    """Boards of a kind."""
+    """Boards of one kind."""
 
     name: str  # the world first: known/one
     what: str  # is hidden
@@ -72,7 +72,7 @@ class HiddenBoard:
 
 
 def board_of(kind: Kind, index: int, *, marks: int, seed: int) -> HiddenBoard:
-    """Return a board of a kind; raises ValueError if no machine like it can cut its marks."""
+    """Return a board of one kind; raises ValueError if no machine like it can cut its marks."""
     layout = kind.plan(marks)
     for attempt in range(TRIES):
         # Each kind draws by itself, or one odd board would show in all of them.

@@ -16,12 +16,12 @@ from plumb.text.answers import Number, key
 from plumb.text.errors import InputError
 
 Progress = Callable[[str], None]  # called with the kind of each board that is done
-AT_ONCE = 4  # boards of a kind that a process takes
+AT_ONCE = 4  # boards of one kind that a process takes
 
 
 @dataclass(frozen=True)
 class WantedBoards:
-    """Which boards are played."""
+    """The boards to play."""
 
     kinds: tuple[str, ...]
     boards: int  # of each kind
@@ -31,7 +31,7 @@ class WantedBoards:
 
 @dataclass(frozen=True)
 class Row:
-    """Rates over the boards of a kind: shares, and means a board."""
+    """Rates over the boards of one kind: shares, and means per board."""
 
     kind: str
     hidden: str
@@ -122,6 +122,6 @@ def _handed_out(cluster: str) -> Iterator[None]:
 
 
 def row_of(kind: str, boards: Sequence[JudgedBoard]) -> Row:
-    """Return the rates of a kind."""
+    """Return the rates of one kind."""
     means = {name: float(np.mean([getattr(each, name) for each in boards])) for name in RATES}
     return Row(kind, KINDS[kind].what, len(boards), **means)

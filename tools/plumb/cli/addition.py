@@ -58,7 +58,7 @@ def numbers_text(result: Addition, notes: Sequence[Note]) -> str:
 
 
 def first_of(notes: Sequence[Note]) -> list[str]:
-    """Return what nobody should overlook; hints by their number."""
+    """Return the warnings; hints by their number."""
     hints = sum(note.weight == "hint" for note in notes)
     more = [f"{hints} more to know: see --details"] if hints else []
     return [*(note.text for note in notes if note.weight != "hint"), *more]

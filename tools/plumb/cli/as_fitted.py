@@ -1,4 +1,4 @@
-"""Whether marks that fitted settings cut still lie where the fit promised, or what changed."""
+"""A check that marks cut with fitted settings lie where the fit promised, or what changed."""
 
 from __future__ import annotations
 

@@ -43,7 +43,7 @@ def chosen_of(beginnings: Sequence[str]) -> tuple[str, ...]:
 
 
 def counted(total: int) -> Callable[[str], None]:
-    """Return a bar that is moved on by each board of a kind."""
+    """Return a bar that each board moves on."""
     bar, done = Bar("boards", patience=0.0), 0
 
     def step(kind: str) -> None:

@@ -70,7 +70,7 @@ class JobAnswer:
     @computed_field
     @property
     def moves(self) -> int:
-        """How many moves the program has."""
+        """The number of moves in the program."""
         return len(self.checked.done.moves)
 
 
@@ -240,7 +240,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 # What `plumb check` says to people.
 
-SHOWN = 12  # lines of a kind
+SHOWN = 12  # lines with the same fault
 PARTS = 12  # parts in the table
 
 

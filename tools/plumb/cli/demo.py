@@ -188,7 +188,7 @@ def _picture(loop: Loop) -> bytes:
 
 
 def _signed(form: str) -> bytes:
-    """Return a form that nobody's hand filled in: the next demo may replace it."""
+    """Return a form that the demo filled in, so that the next demo may replace it."""
     return DEMO_MARKS + form.encode()
 
 

@@ -1,4 +1,4 @@
-"""How far a program is that is being sent: its line, its share, and the time that is left."""
+"""The progress of a program that is being sent: its line, its share, and the time left."""
 
 from __future__ import annotations
 

@@ -169,7 +169,7 @@ class Parser(argparse.ArgumentParser):
         """Refuse the command line."""
         raise InputError(f"{' '.join(message.split())}; see {self.prog} --help")
 
-    def parse_known_args(  # type: ignore[override]  # two overloads that nobody here uses
+    def parse_known_args(  # type: ignore[override]  # two overloads that are not used here
         self, args: Sequence[str] | None = None, namespace: argparse.Namespace | None = None
     ) -> tuple[argparse.Namespace, list[str]]:
         """Parse, and refuse here what is not known: the parser of a command knows its options.

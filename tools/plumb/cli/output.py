@@ -24,7 +24,7 @@ RESULTS = ("output", "template", "marks", "write")
 
 @dataclass(frozen=True)
 class _Way:
-    """How results are written while a command runs."""
+    """The options by which a command writes its results."""
 
     force: bool
     results: TextIO

@@ -40,7 +40,7 @@ MAP_ROWS = 8  # characters are twice as high as wide
 
 @dataclass(frozen=True)
 class SheetReach:
-    """Which part of the sheet is usable, and what limits the rest."""
+    """The usable part of the sheet, and what limits the rest."""
 
     survey: Internal[Survey]
     expected: Expected | None  # None: no sled hangs on this sheet

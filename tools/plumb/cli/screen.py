@@ -31,7 +31,7 @@ from plumb.text.values import unit
 WIDEST = 80  # [characters]
 PATIENCE = 2.0  # [s] before a bar shows how far the work is
 UNIT = re.compile(r"(?<=\d) (?=(?:%|mm|N)(?!\w))")  # a number and its unit stay together
-WARNED = ("impossible", "NOT ", "missed")  # how cells begin that nobody should overlook
+WARNED = ("impossible", "NOT ", "missed")  # beginnings of cells that must not be overlooked
 GOOD, OPEN, BAD = "good", "open", "bad"  # kinds of verdicts
 COLOURS = {GOOD: "bold green", OPEN: "bold yellow", BAD: "bold red"}
 
@@ -99,7 +99,7 @@ def headline(sentence: str, kind: str = "") -> str:
 
 
 class Bar:
-    """A bar on standard error that grows, if the work takes long and somebody looks."""
+    """A bar on standard error that grows, if the work takes long and it is a terminal."""
 
     def __init__(self, what: str, *, patience: float = PATIENCE) -> None:
         self._what = what
@@ -253,7 +253,7 @@ def auto_words(arguments: argparse.Namespace) -> list[str]:
 
 
 def into_machine(machine: str) -> str:
-    """Return how the numbers of a machine.toml come into a machine whose client nobody named."""
+    """Return how the numbers of a machine.toml come into a machine whose client is not named."""
     words = "Write it into the machine (for GroundControl or WebControl give --client):"
     return next_step(words, ["send", machine])
 
@@ -277,7 +277,7 @@ def free_name(stem: str, ending: str) -> str:
     return next(name for name in names if not os.path.exists(name))
 
 
-# A question in the terminal; whoever asks goes on working, and looks for the answer meanwhile.
+# A question in the terminal; the program goes on working, and looks for the answer meanwhile.
 
 STDIN = 0  # not sys.stdin: its lock would be held at the end of the program
 
@@ -287,7 +287,7 @@ class Prompt:
 
     def __init__(self, text: str) -> None:
         self.answer: str | None = None  # None: not yet; empty: just Enter
-        self.is_unheard = False  # nobody can answer: the input has ended
+        self.is_unheard = False  # no answer can come: the input has ended
         print(text, end="", flush=True)
         Thread(target=self._listen, daemon=True).start()
 

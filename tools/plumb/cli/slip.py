@@ -1,4 +1,4 @@
-"""Whether a chain slipped by whole links, and the line that repairs it: `plumb recover --touch`."""
+"""Chains that slipped by whole links, and the line that repairs them: `plumb recover --touch`."""
 
 from __future__ import annotations
 

@@ -135,7 +135,7 @@ def _wake(
     if arguments.eeprom and Path(arguments.eeprom).exists():
         content = read_bytes(arguments.eeprom)
         if len(content) not in (EEPROM_BYTES, EEPROM_BYTES + TRAVELS.size):
-            raise InputError(arguments.eeprom, f"is no memory of {EEPROM_BYTES} bytes")
+            raise InputError(arguments.eeprom, f"is not a memory file of {EEPROM_BYTES} bytes")
         machine.eeprom = content[:EEPROM_BYTES]
         if content[EEPROM_BYTES:]:
             _hang(machine, content[EEPROM_BYTES:])

@@ -39,7 +39,7 @@ FAR = 2.0  # [prior sigmas] a stated number that moved farther was probably meas
 
 @dataclass(frozen=True)
 class Quality:
-    """How good a fit is [mm]; left out: each mark predicted by a fit that did not see it."""
+    """The errors of a fit [mm]; left out: each mark predicted by a fit that did not see it."""
 
     fit_rms: Annotated[float, key("fit_rms_mm")]
     noise_rms: Annotated[float, key("noise_rms_mm", "What noise alone would leave of that fit.")]
@@ -148,7 +148,7 @@ class Addition:
     @computed_field
     @property
     def sheet_rotation(self) -> float | None:
-        """How the sheet is turned [rad]; null where the marks do not show it."""
+        """The rotation of the sheet [rad]; null where the marks do not show it."""
         return self.after_fit.sheet_rotation if self.after_fit.shows_sheet_rotation else None
 
     @computed_field
@@ -182,7 +182,7 @@ class Addition:
 
     @property
     def sheet_rise(self) -> float:
-        """How far to raise the last sheet's right end [mm] to undo its rotation."""
+        """The height by which to raise the last sheet's right end [mm] to undo its rotation."""
         return float(np.tan(self.after_fit.last_sheet_rotation)) * self.settings.sheet_width
 
     @property
@@ -192,7 +192,7 @@ class Addition:
 
     @property
     def stops(self) -> tuple[str, ...]:
-        """Why nobody should set a machine by these numbers; empty if nothing is against it."""
+        """The reason not to use these numbers in a machine; empty if there is none."""
         wrong = (_impossible(each) for each in self.parameters if not each.possible)
         return (*_unsettled(self.after_fit), *wrong)
 

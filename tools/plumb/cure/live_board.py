@@ -90,7 +90,7 @@ class LiveBoard:
         self._fitting = Lock()
 
     def refuse(self, chosen: Chosen) -> None:
-        """Raise InputError for what these marks cannot settle, and for what nobody knows."""
+        """Raise InputError for what these marks cannot settle, and for unknown names."""
         refuse_unknown_effects(chosen.effects)
         try:
             refuse_unknown(chosen.held, chosen.parameters)
@@ -177,8 +177,8 @@ def refuse_unknown_effects(names: Sequence[str]) -> None:
         if name == PATCH:
             raise InputError(
                 to_do(
-                    f"--effect {name}: it is no effect; give --patch to choose it knowingly",
-                    page=f"{name} is no effect: choose others",
+                    f"--effect {name}: it is not an effect; give --patch to choose it knowingly",
+                    page=f"{name} is not an effect: choose others",
                 )
             )
         if name not in known:
@@ -262,7 +262,7 @@ def refuse_other_origin(inputs: Inputs) -> None:
     rounds = inputs.measurements.rounds
     named = [each.cut_with for each in rounds if each.cut_with]
     if inputs.cut_with or len(named) < len(rounds) or not named:
-        return  # somebody said what was in force, or nobody did
+        return  # the settings in force are stated, or not known
     boards = record.boards if record else ()
     machines = [settings, *(board.cut_with for board in boards)]
     if any(not _apart(machine, cut_with) for machine in machines for cut_with in named):

@@ -18,7 +18,7 @@ from plumb.settings.machine import FRAME_FIELDS
 from plumb.settings.toml import FitRecord, FittedBoard, machine_toml
 
 PATCH_WARNING = (
-    "It is no physics: a smooth map that holds for this machine, sled and sheet as they are, and "
+    "It is not physics: a smooth map that holds for this machine, sled and sheet as they are, and "
     "only where marks were measured."
 )
 

@@ -150,7 +150,7 @@ class Diagnosis:
 
     @property
     def is_finding(self) -> bool:
-        """Whether causes are named although the machine does something that nobody draws: they
+        """Whether causes are named although the machine does something that no effect draws: they
         take most of the error, or are likely beside a spot of the sheet that does so.
         """
         if self.verdict != "not_in_library" or self.disagreements or not self.likely:
@@ -252,7 +252,7 @@ COUNTS = {2: "Two", 3: "Three", 4: "Four"}  # more are written as a number
 
 
 def _finding(diagnosis: Diagnosis) -> str:
-    """Return how the error falls, and what stays that nobody draws."""
+    """Return how the error falls, and what stays that no effect draws."""
     falls = diagnosis.falls
     share = "Most" if diagnosis.takes_most else "Part"
     which = f"{share} of it is {plainly(diagnosis.likely)}"
@@ -319,7 +319,7 @@ def _open(together: Together, sure: Sequence[str]) -> str:
     return _named(effects) if effects or not sure else "nothing else"
 
 
-MOST_ODDS = 100.0  # beyond which nobody checked them
+MOST_ODDS = 100.0  # beyond which they were not checked
 FINE_ODDS = 20.0  # beyond which they are said in tens
 
 

@@ -1,4 +1,4 @@
-"""Whether settings are as good as marks can show: what is wrong with them noise alone may feign."""
+"""A test whether the marks can fault the settings, or noise alone could explain the errors."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""How far off a job would be with the fitted settings: what the marks leave open, place by place.
+"""The expected error of a job with the fitted settings: what the marks leave open, place by place.
 
 Two things are counted: how well the marks and the priors settle the numbers of the explanation
 that is used, and how far its rivals would lead elsewhere, each by its share. What no explanation
@@ -209,7 +209,7 @@ class LeftOpen:
 
     @property
     def sentence(self) -> str:
-        """That marks do not reach over the sheet, for people; empty where they do."""
+        """A sentence that the marks do not cover the sheet; empty where they do."""
         if not self.is_too_much:
             return ""
         return (

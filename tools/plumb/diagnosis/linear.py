@@ -152,7 +152,7 @@ def _causes_of_moves(board: Board, slopes: Array) -> dict[str, Array]:
 
 @dataclass(frozen=True)
 class Metric:
-    """How far apart readings are: for each of m noises, with noise, frame and one other thing."""
+    """Distances between readings: for each of m noises, with noise, frame and one other thing."""
 
     sigmas: Array  # (m,) [mm] of the noise
     gram: Array  # (m, p, p) of the effects

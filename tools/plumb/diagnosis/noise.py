@@ -53,7 +53,7 @@ class Noise:
 
     @property
     def sentence(self) -> str:
-        """How far a reading may be off, for people."""
+        """A sentence on the noise of a reading."""
         return (
             f"Noise of a reading: {worded(self.sigma)} ({ORIGINS[self.source]}). Intervals: 95 %."
         )

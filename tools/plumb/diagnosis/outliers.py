@@ -33,7 +33,7 @@ class Reading:
 
     @property
     def size(self) -> int:
-        """How many numbers were read."""
+        """The number of numbers that were read."""
         return 2 if self.is_mark else 1
 
     def numbers(self, rows: Observations) -> Array:
@@ -49,7 +49,7 @@ class Reading:
 
 @dataclass(frozen=True)
 class Shift:
-    """How far a reading is off by an explanation, or by its repeats."""
+    """The error of a reading by an explanation, or by its repeats."""
 
     reading: Reading
     offset: Array  # (2,) or (1,) [mm] read less what the rest says
@@ -149,7 +149,7 @@ class Outlier:
 
     @property
     def length(self) -> float:
-        """How far it is off [mm]."""
+        """Its error [mm]."""
         return float(np.hypot(*self.offset)) if len(self.offset) == 2 else abs(self.offset[0])
 
     @property
@@ -205,7 +205,7 @@ def described(shift: Shift, measurements: Measurements, sheet: tuple[float, floa
 class Guess:
     """Likely cause of an outlier."""
 
-    said: str = ""  # for people; nothing if nobody knows
+    said: str = ""  # for people; empty if unknown
     corrected: tuple[float, ...] | None = None  # [mm] the reading that was meant
 
 

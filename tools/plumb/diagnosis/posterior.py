@@ -82,7 +82,7 @@ class Listed:
 
 @dataclass(frozen=True)
 class Posterior:
-    """How likely each account is; weights are logarithms with a constant in common."""
+    """The probability of each account; weights are logarithms with a constant in common."""
 
     frame: Explanation
     felt: Effects
@@ -107,13 +107,13 @@ class Posterior:
 
     @property
     def field_chance(self) -> float:
-        """How likely it is that the machine also does what no effect of the library does."""
+        """The probability that the machine also does what no effect of the library does."""
         fields = np.logaddexp.reduce([account.field for account in self.accounts])
         return float(np.exp(fields - self._whole))
 
     @property
     def moved_chances(self) -> Mapping[MovedRound, float]:
-        """How likely each way is in which a later round does not go with the others."""
+        """The probability of each way in which a later round does not fit the others."""
         return {move: float(np.exp(weight - self._whole)) for move, weight in self.moved}
 
     @property
@@ -126,19 +126,19 @@ class Posterior:
 
     @property
     def outlier_chances(self) -> Array:
-        """How likely each reading is off (readings,)."""
+        """The probability that each reading is off (readings,)."""
         chances: Array = np.exp(self.outliers - self._whole)
         return chances
 
     @property
     def turned_chance(self) -> float:
-        """How likely it is that all y errors have the wrong sign."""
+        """The probability that all y errors have the wrong sign."""
         if self.turned is None:
             return 0.0
         return float(np.exp(self.turned - np.logaddexp(self.turned, self._whole)))
 
     def nothing_chance(self, *, with_field: bool = False) -> float:
-        """How likely it is that no effect acts, if nothing else is wrong, or if a field acts."""
+        """Return the probability that no effect acts, with nothing else wrong, or with a field."""
         chances = self._chances(with_field)
         return sum(
             chance
@@ -147,7 +147,7 @@ class Posterior:
         )
 
     def effect_chances(self, *, with_field: bool = False) -> Mapping[str, float]:
-        """How likely each felt effect is asked for, on the same condition."""
+        """Return the probability that each felt effect is needed, on the same condition."""
         chances = dict.fromkeys(self.felt, 0.0)
         for account, chance in zip(self.accounts, self._chances(with_field), strict=True):
             for name in account.effects:

@@ -20,7 +20,7 @@ Array = np.ndarray
 
 LIKELIER = 0.5  # chance from which on something is likelier than not
 
-# How likely each thing is on a machine that somebody asks about. Nobody has counted machines, so
+# How likely each thing is on a machine in question. No machines were counted, so
 # these are guesses; docs/diagnosis.md says which answers hang on them, and by how much.
 ACTS = 0.1  # an effect
 UNUSUAL = 0.05  # that what every machine has is far from usual

@@ -45,7 +45,7 @@ class CleanReadings:
 
     @property
     def noise(self) -> Noise:
-        """That of what is left."""
+        """The diagnosis of the remaining readings."""
         return self.posterior.noise
 
     def explained(self, account: Account) -> Explanation:

@@ -34,7 +34,7 @@ class Size:
 
 @dataclass(frozen=True)
 class SizeLimit:
-    """How large a parameter may still be."""
+    """The largest size that a parameter may still have."""
 
     name: str  # without the effect's
     largest: Annotated[float | None, meant("Null: these marks say nothing of it.")]
@@ -43,7 +43,7 @@ class SizeLimit:
 
 @dataclass(frozen=True)
 class Room:
-    """How large an effect that is not proved may still be."""
+    """The largest size that an effect without proof may still have."""
 
     effect: str
     limits: Annotated[tuple[SizeLimit, ...], key("parameters")]

@@ -60,7 +60,7 @@ def diary_path(folder: Folder) -> Path:
 
 
 def has_diary(folder: Folder) -> bool:
-    """Return whether somebody has begun a diary in this folder."""
+    """Return whether this folder has a diary."""
     return diary_path(folder).is_file()
 
 
@@ -84,7 +84,7 @@ def append(
 
 
 def read_diary(folder: Folder) -> Diary:
-    """Return the diary of a folder; empty if nobody has begun it. Raises InputError."""
+    """Return the diary of a folder; empty if there is none. Raises InputError."""
     path = diary_path(folder)
     try:
         with os.fdopen(opened(path, os.O_RDONLY, follows=False), "rb") as file:
@@ -92,7 +92,7 @@ def read_diary(folder: Folder) -> Diary:
     except FileNotFoundError:
         return Diary(path, ())
     except NotADirectoryError:
-        raise InputError(folder, "is no folder", remedy="give the machine's folder") from None
+        raise InputError(folder, "is not a folder", remedy="give the machine's folder") from None
     except OSError as error:
         raise InputError(
             path, f"cannot be read ({error.strerror})", remedy="check its rights"

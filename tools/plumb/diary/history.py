@@ -36,7 +36,7 @@ class Point:
 
 @dataclass(frozen=True)
 class Course:
-    """How a number went, fit by fit."""
+    """The history of a number, fit by fit."""
 
     name: str
     unit: str

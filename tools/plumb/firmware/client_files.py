@@ -162,7 +162,7 @@ def _client_file(
         )
     if Path(original).suffix.lower() != Path(file).suffix:
         needs = to_do(f"--client {client} needs that file", page=f"open your {file}")
-        raise InputError(original, f"is no {file}", remedy=needs)
+        raise InputError(original, f"is not a {file}", remedy=needs)
     name = Path(lines).with_name(f"{Path(lines).stem}-{file}")
     return str(name), changed_client_file(original, values)
 

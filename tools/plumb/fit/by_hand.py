@@ -1,4 +1,4 @@
-"""How numbers of the machine are measured by hand: what is read, and how the number follows.
+"""Numbers that are measured by hand: what is read, and how the number follows.
 
 An effect brings its readings along; those of the frame are here. The steps and the accuracies are
 those of plumb next.
@@ -34,7 +34,7 @@ def readings(settings: MachineSettings, sled_weight: float) -> Mapping[str, Rule
     return read
 
 
-# What somebody types: a reading with the unit of the rule or scale that showed it.
+# A typed reading with the unit of its rule or scale.
 
 VALUE = "VALUE"  # stands where the owner types his number
 INCHES = ("inches", "inch", "in", '"')
@@ -44,7 +44,7 @@ UNITS = ("mm", *INCHES, "kg", "g", "degrees")
 def to_fill_in(name: str, sigma: float, settings: MachineSettings) -> str:
     """Return the words of --checked for a number that is measured next: `motor_gap=VALUE+-1mm`.
 
-    sigma: of a number that nobody reads off a rule or scale [its unit].
+    sigma: of a number that is not read off a rule or scale [its unit].
     """
     reading = _reading_of(name, settings)
     if reading is None:
@@ -55,7 +55,7 @@ def to_fill_in(name: str, sigma: float, settings: MachineSettings) -> str:
 
 
 def what_to_type(names: Iterable[str], settings: MachineSettings) -> str:
-    """Return what stands for VALUE, for people; "" for numbers that nobody reads."""
+    """Return the word for VALUE, for people; "" for numbers that cannot be read."""
     read = [reading for name in names if (reading := _reading_of(name, settings))]
     if not read:
         return ""
@@ -69,11 +69,11 @@ def number_read(
 ) -> tuple[float, float]:
     """Return a number and its error [its unit] by what was read, in a unit of UNITS.
 
-    Raises ValueError for what is no number, and for a unit in which nobody reads it.
+    Raises ValueError for text that is not a number, and for a unit that does not fit.
     """
     reading = _reading_of(name, settings)
     if reading is None:
-        raise ValueError(f"nobody reads that in {typed}: write the number without a unit")
+        raise ValueError(f"this is not measured in {typed}: write the number without a unit")
     is_length = typed == "mm" or typed in INCHES
     if reading.unit != ("mm" if is_length else typed):
         raise ValueError(f"it is read in {reading.unit}, not in {typed}")

@@ -267,7 +267,7 @@ Array = np.ndarray
 
 @dataclass(frozen=True)
 class Pose:
-    """How the measured marks lie as a whole against the predicted marks."""
+    """The shift and rotation of all measured marks against the predicted marks."""
 
     shift: tuple[float, float]  # [mm] of the middle of all marks
     rotation: float  # [rad] counter-clockwise

@@ -1,4 +1,4 @@
-"""How far marks will be off before anything is measured, by what is known of the machine.
+"""The expected error of marks before anything is measured, by what is known of the machine.
 
 Each number of the frame is wrong by its stated error, and each effect that the settings leave out
 may be there in its typical size, all independent of each other.

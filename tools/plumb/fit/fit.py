@@ -17,7 +17,7 @@ from plumb.model.predict import Array, settings_of
 from plumb.settings.machine import MachineSettings
 
 UNFELT = 1e-6  # [sigmas of a reading] that an unknown moves by its typical size, at most
-LIVE = 1e-9  # of chi-square: nobody sees what a step below it changes, under 1e-4 sigmas
+LIVE = 1e-9  # of chi-square: a smaller step changes less than 1e-4 sigmas
 SMALLEST_SIGMA = 1e-9  # [mm] for marks that a model explains completely
 
 
@@ -62,7 +62,7 @@ class Fit:
 
     @property
     def last_sheet_rotation(self) -> float:
-        """How the sheet is turned that was cut last [rad]: the first and what the last adds."""
+        """The rotation of the last sheet [rad]: that of the first and the difference."""
         last = last_turn_of(each.name for each in self.estimates)
         return self.sheet_rotation + sum(each.value for each in self.estimates if each.name == last)
 

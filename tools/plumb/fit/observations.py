@@ -47,7 +47,7 @@ class Observations:
 
     @property
     def count(self) -> int:
-        """How many numbers were measured."""
+        """The number of measured numbers."""
         return 2 * len(self.measured) + len(self.distances)
 
     def rms_of(self, numbers: Array) -> float:
@@ -165,7 +165,7 @@ def model_and_observations(
     whose = controller or measurements.controller or in_force.controller
     published = settings.controller != "plumb" and whose != "plumb"
     model = settings.as_plumb_model(controller=whose if published else None)
-    # Each round was moved by the formula of its settings, unless somebody says otherwise.
+    # Each round was moved by the formula of its settings, unless stated otherwise.
     rows = observe(in_force, measurements, controller=controller, sled_weight=model.sled_weight)
     return model, rows
 

@@ -29,7 +29,7 @@ class Quantiles:
 
     @property
     def beyond(self) -> NDArray[np.bool_]:
-        """Which coordinates lie outside of the band."""
+        """The coordinates outside the band."""
         return (self.values < self.low) | (self.values > self.high)
 
 

@@ -61,7 +61,7 @@ class Grid(NamedTuple):
 
     @property
     def mode(self) -> str:
-        """How a mark is made."""
+        """The way in which a mark is made."""
         return "drill" if self.depth > DEEPEST_TOUCH else "touch"
 
 

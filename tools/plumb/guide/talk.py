@@ -1,4 +1,4 @@
-"""How the guide speaks with its owner, what a short jog says, and how far the two came."""
+"""The guide's dialogue with its owner, the evidence of a short jog, and the progress so far."""
 
 from __future__ import annotations
 

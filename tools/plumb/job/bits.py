@@ -26,11 +26,13 @@ class Bit:
     line: int
     diameter: Annotated[float, key("diameter_mm")]  # the greatest
     half_angle: Annotated[float, key("half_angle_deg")] = 90.0  # from its axis; 90: it is flat
-    length: Annotated[float | None, key("length_mm")] = None  # of what cuts; None: nobody says it
+    length: Annotated[float | None, key("length_mm")] = (
+        None  # of the cutting edge; None: not stated
+    )
 
     @property
     def slope(self) -> float:
-        """How steeply its edge rises away from its axis."""
+        """The slope of its edge away from its axis."""
         return 0.0 if self.half_angle >= 90 else 1 / math.tan(math.radians(self.half_angle))
 
 
@@ -38,8 +40,8 @@ class Bit:
 class Tools:
     """Bits of a job, and the sheet it is cut from."""
 
-    bits: tuple[Bit, ...]  # in the order of the program; empty: nobody names one
-    thickness: Annotated[float | None, key("sheet_mm")]  # None: nobody says it
+    bits: tuple[Bit, ...]  # in the order of the program; empty: none is named
+    thickness: Annotated[float | None, key("sheet_mm")]  # None: not stated
 
     @staticmethod
     def of(

@@ -273,12 +273,12 @@ OTHERS = (
     (r"\A\s*<(\?xml|svg|!doctype)", "holds a drawing or a page", "let a CAM program make G-code"),
     (r"\A\s*0\s+SECTION\s", "holds a drawing (DXF)", "let a CAM program make G-code"),
 )
-# What the firmware says of a line that is no G-code at all.
+# What the firmware says of a line that is not G-code at all.
 NO_CODE = re.compile(r"(this begins no word|a number is missing behind|there is no such code).*")
 
 
 def program_in(path: Source, *, say: Callable[[str], None]) -> list[str]:
-    """Return the lines of a program; InputError for what holds none.
+    """Return the lines of a program; InputError if it is not one.
 
     Old CAM programs write comments in the code page of Windows; `say` hears of it.
     """
@@ -308,7 +308,7 @@ def refuse_what_is_no_program(source: Source, text: str) -> None:
     for _, said in machine.said():
         fault = NO_CODE.search(said)
         if fault and said.startswith(("ALARM", "error")):
-            why = f"is no G-code ({fault[0].removesuffix(' Press Stop.').rstrip('.')})"
+            why = f"is not G-code ({fault[0].removesuffix(' Press Stop.').rstrip('.')})"
             raise InputError(source, why, place=f"line {number}", remedy=PROGRAM)
 
 

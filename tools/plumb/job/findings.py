@@ -41,7 +41,7 @@ class Finding:
     @computed_field
     @property
     def count(self) -> int:
-        """How many lines it holds for."""
+        """The number of lines that have it."""
         return len(self.lines)
 
     @computed_field(alias="wrong")
@@ -74,7 +74,7 @@ def _said(line: int, text: str) -> tuple[int, str, str] | None:
     return None
 
 
-# What the machine does as it is told, and nobody can mean.
+# Programs that the machine runs but that cannot be intended.
 
 LEAST_FEED = 5.0  # [mm/min]
 F_WORD = re.compile(r"(?i)f\s*\.?\d")
@@ -153,7 +153,7 @@ class Slower:
 
 @dataclass(frozen=True)
 class Times:
-    """How long a job takes [s]; the pauses of the operator do not count."""
+    """The duration of a job [s], without the operator's pauses."""
 
     whole: float
     cutting: float
@@ -202,7 +202,7 @@ def _causes(moves: Moves, z_speed: float) -> NDArray[np.int8]:
 
 
 def times_of(done: Done) -> Times:
-    """Return how long it takes, and what the cutting would take if no other limit acted."""
+    """Return its duration, and that of the cutting if no other limit acted."""
     moves = done.moves
     took = np.diff(np.concatenate([[0.0], moves["ends"]]))
     works = ~moves.rapid

@@ -63,7 +63,7 @@ class HomeFile(Table):
 
 @dataclass(frozen=True)
 class HomeFit:
-    """How well a second home mark agrees with the first, by which the position was restored."""
+    """The agreement of a second home mark with the first, by which the position was restored."""
 
     name: Annotated[str, key("mark")]
     error: Point  # [mm] of the hole, against what the machine shows with the bit in it
@@ -207,7 +207,7 @@ def places_with(settings: MachineSettings, chains: Array) -> Array:
 
 
 def sigma_of(settings: MachineSettings, *, taped: bool) -> float:
-    """Return how good a coordinate of a touch is [mm], if nobody says.
+    """Return the usual error of a coordinate of a touch [mm].
 
     A hole that the machine made by these settings is as good as a touch: what the settings do not
     know moves hole and bit alike. A hole that was measured with a tape is no better than what the

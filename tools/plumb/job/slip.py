@@ -38,7 +38,7 @@ CANNOT_TELL = "cannot_tell"
 Links = tuple[int, int]
 NO_LINKS: Links = (0, 0)
 
-# How often each happens to somebody who asks; only their proportions count.
+# How often each happens to a user who asks; only their proportions count.
 OFTEN = {NOTHING: 0.45, SLIP: 0.25, SHEET: 0.25, OTHER: 0.02}
 AND_SHEET = 0.02  # of the slips the sheet has moved as well
 BOTH_CHAINS = 0.2  # of the slips are of both chains

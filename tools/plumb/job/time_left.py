@@ -1,4 +1,4 @@
-"""How long a program on its way to the machine still takes: by its dry run, and by how it goes."""
+"""The time left of a program that is being sent, by its dry run and its progress so far."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ class Timetable:
 
     @property
     def whole(self) -> float:
-        """How long the program takes [s]."""
+        """The program's duration [s]."""
         return float(self.done_at[-1])
 
 
@@ -54,7 +54,7 @@ def timetable(
 
 
 class TimeLeft:
-    """How far a job is: its timetable, corrected by how long it took for what is done.
+    """The progress of a job: its timetable, corrected by the time taken so far.
 
     A machine may be slower than planned: its feed yields, or its operator turns it down. Pauses do
     not count.
@@ -79,13 +79,13 @@ class TimeLeft:
 
     @property
     def share(self) -> float:
-        """How much of the job's time is over."""
+        """The share of the job's time that is over."""
         whole = self._ran + self.seconds
         return self._ran / whole if whole else 1.0
 
     @property
     def seconds(self) -> float:
-        """How long it still takes [s]."""
+        """The time left [s]."""
         slower = (self._ran_at + STEADY) / (self._done + STEADY)
         since = self._ran - self._ran_at
         return max(0.0, slower * (self._table.whole - self._done) - since)

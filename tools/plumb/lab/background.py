@@ -28,7 +28,7 @@ NEARLY = 0.99  # done, where all steps are over and the result is not there yet
 
 
 class OvertakenError(Exception):
-    """The folder has changed, so nobody waits for this answer any more."""
+    """The folder has changed, so this answer is no longer needed."""
 
 
 @dataclass
@@ -49,7 +49,7 @@ class Task:
 
 @dataclass(frozen=True)
 class Answer(Generic[Result]):
-    """How far the work is, and what came of it."""
+    """The progress of the work, and its result."""
 
     share: float  # 1 only with a result, for the page asks no more then
     result: Result | None

@@ -1,4 +1,4 @@
-"""How far a cut came: kept in the folder, so that it can go on after a Stop or a restart."""
+"""The progress of a cut, kept in the folder, so that it can go on after a Stop or a restart."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ NOTES = TypeAdapter(dict[str, BrokenCut])  # by the name of the program's file
 
 
 class HowFar(BaseModel):
-    """How far a program came that broke off."""
+    """The progress of a program that broke off."""
 
     broke_off: int | None = None  # marks that are surely cut; None: it did not break off
     perhaps: int = 0  # marks after these that the machine may have cut
@@ -39,7 +39,7 @@ class HowFar(BaseModel):
 
 
 class GoOnRequest(BaseModel):
-    """How many marks are on the sheet, as somebody sees there."""
+    """The number of marks on the sheet, as counted by the owner."""
 
     cut: int
 

@@ -110,7 +110,7 @@ class Guard:
             return Refusal(503, "too many tabs are open")
         declared = headers.get("content-length", "0")
         if not declared.isascii() or not declared.isdigit():
-            return Refusal(400, "content-length is no number")
+            return Refusal(400, "content-length is not a number")
         return _too_large() if int(declared) > LARGEST_BODY else None
 
     def _without_key(self, scope: Scope, headers: Headers) -> Refusal | None:

@@ -76,7 +76,7 @@ class GuideDesk:
             if self.question is None or self.question.number != number:
                 raise InputError("this question is no longer asked: look at what the guide says")
             if not _fits(self.question, reply):
-                raise InputError(f"{reply!r} is no answer to this question")
+                raise InputError(f"{reply!r} is not an answer to this question")
             self.question, self._reply = None, reply
 
     def leave(self) -> None:

@@ -64,7 +64,7 @@ def _port_at(path: str) -> str:
     """Return the serial port of this name, or that a link of this name leads to."""
     port = os.path.realpath(path) if os.path.islink(path) else path
     if not PORT.fullmatch(port) or ".." in port:
-        raise InputError(f"{path!r} is no serial port: choose one, or type a name like COM3")
+        raise InputError(f"{path!r} is not a serial port: choose one, or type a name like COM3")
     return port
 
 
@@ -81,13 +81,13 @@ class MachineLine:
 
     @property
     def state(self) -> LineState:
-        """How the line and the machine are."""
+        """The state of the line and the machine."""
         worker = self._worker
         return worker.state if worker else LineState()
 
     @property
     def silence(self) -> float:
-        """How long ago a board last reported [s]; 0 where no report is due."""
+        """The time since a board last reported [s]; 0 where no report is due."""
         worker = self._worker
         return worker.silence if worker and not self.virtual else 0.0
 
@@ -148,7 +148,7 @@ class MachineLine:
         try:
             return self.worker.do(_as_here(work)).result(PATIENCE)
         except StoppedError:
-            raise InputError("somebody pressed Stop; the machine has stopped") from None
+            raise InputError("Stop was pressed; the machine has stopped") from None
         except TimeoutError:
             raise InputError(f"the machine did not do it in {PATIENCE:.0f} s: look at it") from None
 
@@ -178,7 +178,7 @@ class MachineLine:
 
     @property
     def worker(self) -> LineWorker:
-        """Who has the line. Raises InputError if no machine is connected."""
+        """The worker that has the line. Raises InputError if no machine is connected."""
         worker = self._worker
         if worker is None:
             raise InputError("no machine is connected: connect it first")
@@ -208,7 +208,7 @@ def line_of(connection: HTTPConnection) -> MachineLine:
 
 
 async def _line(connection: HTTPConnection) -> MachineLine:
-    """Return the same without a thread: Stop waits for nobody's."""
+    """Return the same without a thread, so that Stop never waits for one."""
     return line_of(connection)
 
 

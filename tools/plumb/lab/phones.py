@@ -26,7 +26,7 @@ COOKIE = "plumb-phone"  # holds the key of a phone
 MOST_PHONES = 8
 TRIES = 5  # wrong PINs, after which the PIN is another
 WAIT_S = 60.0  # until the next try after these
-FAR = ("192.0.2.1", 9)  # an address of nobody: the way to it tells this computer's own address
+FAR = ("192.0.2.1", 9)  # an unused address: the route to it shows this computer's own address
 # What every phone may change; a question changes nothing.
 HANDS = re.compile(r"PUT /api/(readings|distances)|POST /api/machine/(hold|stop)")
 PAIR, ME = "/api/phones/pair", "/api/phones/me"  # all else of phones is the computer's
@@ -43,7 +43,7 @@ class Phone:
 
 @dataclass(frozen=True)
 class Invitation:
-    """How the next phone is paired."""
+    """The code that pairs the next phone."""
 
     address: str  # for its browser; empty: this computer is in no network
     pin: str
@@ -85,7 +85,7 @@ class Phones:
 
     @property
     def invitation(self) -> Invitation:
-        """How the next phone is paired now; the network may be another than before."""
+        """The code that pairs the next phone; the network may have changed."""
         host = _own_address()
         return Invitation(f"http://{host}:{self._port}/" if host else "", self._pin)
 

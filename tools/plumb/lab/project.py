@@ -51,11 +51,11 @@ class Project:
         return read_choices(self)[0]
 
     def path(self, name: str) -> Path:
-        """Return where a file of this name lies. Raises ValueError for what is no plain name, and
-        for a link: it may lead out of the folder.
+        """Return where a file of this name lies. Raises ValueError for a name that is not plain
+        and for a link, which may lead out of the folder.
         """
         if not NAME.fullmatch(name) and not KEPT.fullmatch(name):
-            raise ValueError(f"{name!r} is no plain file name")
+            raise ValueError(f"{name!r} is not a plain file name")
         path = self.folder / name
         if path.is_symlink():
             raise ValueError(f"{name} is a link; put the file itself into the folder")
@@ -185,7 +185,7 @@ class Choices(BaseModel):
     new_sheet: bool = False  # the next marks are cut on another sheet than those before
     # [mm] machine frame: marks of the layout "own"
     planned: list[tuple[float, float]] = Field(default=[], max_length=400)
-    proposed: FileOrNone = ""  # the form of the proposal that somebody took
+    proposed: FileOrNone = ""  # the form of the accepted proposal
     known: dict[str, Number] = {}  # by name of the frame's number
     bench: Bench = Bench()
     accepted: list[str] = []  # numbers of the correction that the owner accepted
@@ -208,7 +208,7 @@ FORM = re.compile(rb"^\s*\[\[(mark|distance)\]\]", re.MULTILINE)
 
 
 def _found(project: Project) -> Choices:
-    """Return what a folder shows that nobody opened here yet: its settings, and its forms."""
+    """Return the settings and the forms of a folder that was not opened before."""
     names = project.names()
     toml = {name: project.read(name) or b"" for name in names if name.endswith(".toml")}
     forms = {name: text for name, text in toml.items() if FORM.search(text)}

@@ -129,7 +129,7 @@ def _rounds(inputs: Inputs) -> list[tuple[str, str]]:
 
 
 def _file(answers: Mapping[str, object], *, title: str, said: str) -> bytes:
-    """Return the page with its answers: it asks nobody, and runs no script but its own."""
+    """Return the page with its answers: it asks no server, and runs no script but its own."""
     script = (PAGE / "lab.js").read_text("utf-8").replace("</script", "<\\/script")
     style = (PAGE / "index.css").read_text("utf-8")
     own = base64.b64encode(sha256(script.encode()).digest()).decode()

@@ -30,7 +30,7 @@ FORM, PROGRAM = "marks{}.toml", "grid{}.nc"
 
 
 def on_new_sheet(choices: Choices) -> bool:
-    """Return whether the next round is cut on another sheet; the first is on no other."""
+    """Return whether the next round is cut on a new sheet; False for the first round."""
     return choices.new_sheet and bool(choices.marks)
 
 
@@ -44,7 +44,7 @@ def round_files(
 
 
 def kept_settings(project: Project, choices: Choices) -> dict[str, bytes]:
-    """Return the open settings as a file that nobody replaces, by the digest that a form names."""
+    """Return the open settings as a file that stays, by the digest that a form names."""
     name = choices.settings
     content = project.read(name)
     if content is None:
@@ -98,7 +98,7 @@ def has_readings(project: Project, name: str) -> bool:
     return bool(form.measurements.measured_marks or form.measurements.distances)
 
 
-# The marks of a layout that somebody chose, as a grid that can be cut and as a plan to look at.
+# The marks of the chosen layout, as a grid to cut and as a plan to look at.
 
 BAND = 150.0  # [mm] marks that lie so near in height are cut side by side
 Place = tuple[float, float]
@@ -128,7 +128,7 @@ class Planned:
 
     @property
     def minutes(self) -> float:
-        """How long it takes to cut and read them."""
+        """The time to cut and read them."""
         read = READING * len(self.spans)
         return ROUND + MARK * len(self.touches) + read
 
@@ -177,7 +177,7 @@ def in_turn(places: Sequence[Place]) -> list[Place]:
     ]
 
 
-# A proposal that somebody took into the folder: its form, and the program that cuts it.
+# A proposal that was accepted into the folder: its form, and the program that cuts it.
 
 STEM = "more"  # as plumb next calls them
 FORM_NAME = re.compile(rf"{STEM}(-\d+)?\.toml")
@@ -210,7 +210,7 @@ def program_name(form: str) -> str:
 
 
 def is_read_again(project: Project, form: str) -> bool:
-    """Return whether the marks of a form are on the sheet already: somebody took it, nothing cuts
+    """Return whether the marks of a form are on the sheet already: it was accepted, nothing cuts
     it.
     """
     return bool(FORM_NAME.fullmatch(form)) and project.read(program_name(form)) is None

@@ -199,7 +199,7 @@ class Connection(H11Protocol):
         self.others[self] = None
 
     def _give_way(self) -> None:
-        """End a connection whose end costs nobody work."""
+        """End a connection that is idle, or that only reads the page."""
         resting = (each for each in self.others if each._rests)
         reading = (each for each in self.others if each._reads_page)
         for each in (*resting, *reading)[:1]:

@@ -59,7 +59,7 @@ def write_numbers(
     for line in lines:
         row = SETTING.fullmatch(line)
         if not row:
-            raise InputError(f"{line!r} is no number for the machine: $N=VALUE")
+            raise InputError(f"{line!r} is not a number for the machine: $N=VALUE")
         wanted[int(row[1])] = float(row[2])
     refuse_while_moving(sender)
     before = read_numbers(sender)

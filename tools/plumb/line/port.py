@@ -144,7 +144,7 @@ class LineLock:
 
 
 def refuse_others(path: str, handle: int) -> None:
-    """Have the kernel refuse to open the line at `handle` again, whoever asks but root."""
+    """Have the kernel refuse to open the line at `handle` again, except for root."""
     # A pseudo terminal would refuse on, even when the program that had it was killed.
     if os.path.realpath(path).startswith(PSEUDO):
         return

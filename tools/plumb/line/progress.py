@@ -1,4 +1,4 @@
-"""How far a program is on its way to the machine."""
+"""The progress of a program that is being sent."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ class Progress:
         return next((wait for wait in self.waits if wait.lines == self.done), None)
 
 
-# Where a program waits for somebody (M0, M1), and what its comments say is to be done then.
+# The pauses of a program (M0, M1), and what its comments say is to be done then.
 
 SAID_PAUSED = "Maslow Paused"  # said when a program comes to a pause; a hold says nothing
 PAUSE = re.compile(r"M0?[01]", re.IGNORECASE)

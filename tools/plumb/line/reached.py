@@ -39,7 +39,7 @@ class SureLines:
 
     @property
     def done(self) -> int:
-        """How many lines are surely done, of those that are sent."""
+        """The number of sent lines that are surely done."""
         self._forget()
         return self._answered[0][0]
 
@@ -61,7 +61,7 @@ UNDER_WAY = 2  # lines of a machine that is stopped: one that it answered, unhea
 
 
 class LineCourse:
-    """How far a program surely is, and how far it may be: the machine has lines for a while."""
+    """The least and the greatest progress of a program: the machine holds lines for a while."""
 
     def __init__(self, sender: Sender, lines: Sequence[str], came: Came, before: int) -> None:
         self._lines, self._came, self._before = lines, came, before

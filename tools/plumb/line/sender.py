@@ -24,7 +24,7 @@ QUESTION = "B05"  # turns its reports on
 VERSION = "Firmware Version"  # how its answer begins; an `ok` follows
 HOLD, GO_ON, STOP = b"\x84", b"~\n", b"!\n"
 ANSWERS = ("ok", "error:")
-WRONG = ("ALARM", "error:")  # how lines begin that nobody may miss
+WRONG = ("ALARM", "error:")  # beginnings of lines that must be shown
 QUESTIONS = ("$$", QUESTION, "B10 L", "B10 R")  # move nothing, and power no motor
 PAUSED = "Pause"  # what a machine reports that holds
 HALTED = "Stop"  # what a machine reports that waits for Stop; it answers questions alone
@@ -70,7 +70,7 @@ class Sender:
     """A machine at the end of a line."""
 
     port: LinePort
-    said: Callable[[str], None] = lambda line: None  # hears everything that is no answer
+    said: Callable[[str], None] = lambda line: None  # hears everything but answers
     status: Status | None = None
     # Called again and again while lines are on their way; it may hold the machine, or stop it.
     attend: Callable[[Sender], None] = lambda sender: None
@@ -85,7 +85,7 @@ class Sender:
     _stirred: Watch | None = None  # since it last may have moved; None: it has not
     _place: tuple[float, float, float] | None = None  # [mm] where it stands, or last moved to
     _partial: str = ""
-    _heard_at: float = math.inf  # nobody expects a machine to speak before it was asked
+    _heard_at: float = math.inf  # a machine need not speak before it is asked
     _halted_from: int = 0  # reports that had come when it was last seen to do something
     _spare: int = 0  # answers to come that belong to no line
     _asked: int = 0  # questions at the start that may still be answered; a board that boots is deaf
@@ -240,7 +240,7 @@ class Sender:
         return done
 
     def _say(self, line: str) -> None:
-        """Pass on what is no answer, and learn what the machine says of its numbers."""
+        """Pass on all but answers, and note what the machine says of its numbers."""
         if line.startswith(VERSION) and self._is_late():
             self._asked -= 1
             self._spare += 1
@@ -311,7 +311,7 @@ class Sender:
             yield line.strip("\r")
 
     def _note_place(self, line: str) -> None:
-        """Note what the machine says of its place, whoever else hears that."""
+        """Note what the machine says of its place."""
         if lost_place([line]):
             self.knows_place = False
         elif line.startswith(FOUND_PLACE):
@@ -342,7 +342,7 @@ class Sender:
 
 
 class Watch:
-    """How long a machine has been watched: by the clock, and by the reports that came.
+    """The time for which a machine has been watched: by the clock, and by its reports.
 
     A computer that is busy stands still for seconds, and the machine's last report looks as if
     nothing had moved since. So time counts only as far as reports came in it.
@@ -371,7 +371,7 @@ def plain(line: str) -> str:
         line = COMMENT.sub("", line)
     text = line.partition(";")[0].strip()
     if not text.isascii() or not text.isprintable():
-        raise PlainError(f"is no plain text: {text!r}")
+        raise PlainError(f"is not plain text: {text!r}")
     if len(text) + 1 > AHEAD:
         raise PlainError(f"is longer than the {AHEAD} characters of the buffer")
     return text

@@ -52,7 +52,7 @@ class _Task:
 
 @dataclass(frozen=True)
 class LineState:
-    """How the line and the machine are."""
+    """The state of the line and the machine."""
 
     phase: Phase = "none"
     place: tuple[float, float, float] | None = None  # [mm] x, y, z
@@ -102,13 +102,13 @@ class LineWorker:
 
     @property
     def state(self) -> LineState:
-        """How things are now."""
+        """The present state."""
         with self._lock:
             return self._state
 
     @property
     def silence(self) -> float:
-        """How long ago the machine last reported [s]; 0 where no report is due."""
+        """The time since the machine last reported [s]; 0 where no report is due."""
         sender = self._sender
         due = sender and sender.reported_at and self.state.phase in ("ready", "busy", "stopping")
         return monotonic() - sender.reported_at if sender and due else 0.0
@@ -253,7 +253,7 @@ class LineWorker:
         except LostError:
             raise
         except (InputError, StoppedError):
-            return  # it is no machine that can be calibrated, or somebody pressed Stop
+            return  # the machine cannot be calibrated, or Stop was pressed
 
     def _give_up(self) -> None:
         """Give up what came in while the line was lost: the line takes no work any more."""
@@ -297,7 +297,7 @@ class LineWorker:
         self._press(sender)
 
     def _press(self, sender: Sender) -> None:
-        """Pass on what somebody pressed."""
+        """Pass on a key press."""
         if self._stop.is_set():
             self._stop.clear()
             self._held_at = -SURE
@@ -313,7 +313,7 @@ class LineWorker:
             sender.go_on()
 
     def _await_rest(self, sender: Sender) -> None:
-        """Wait until the sled stands; somebody may hold or stop it meanwhile."""
+        """Wait until the sled stands; it may be held or stopped meanwhile."""
         watch = Watch(sender)
         while self.state.moves or self.state.holds or not watch.has_lasted(REPORTS):
             sender.listen()

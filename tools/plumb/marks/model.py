@@ -21,7 +21,7 @@ Point = tuple[float, float]
 
 @dataclass(frozen=True)
 class Round:
-    """How the marks of a file were cut: what they share."""
+    """The conditions under which the marks of a file were cut."""
 
     name: str = ""  # of the file, for messages
     date: str = ""
@@ -61,7 +61,7 @@ class Distance:
 
 @dataclass(frozen=True)
 class Typed:
-    """How the places of a file were typed."""
+    """The form in which the places of a file were typed."""
 
     sheet: Point | None = None  # from its top left corner, y down; None: from its middle, y up
     unit: str = "mm"  # of UNITS in text/values.py
@@ -122,7 +122,7 @@ class Measurements:
 
     @property
     def off_target(self) -> float | None:
-        """How far off their targets the measured marks are, RMS [mm]; None without such marks."""
+        """The RMS distance of measured marks from their targets [mm]; None without such marks."""
         if not self.measured_marks:
             return None
         return float(np.sqrt(np.mean(np.sum((self.measured - self.targets) ** 2, axis=1))))
@@ -168,7 +168,7 @@ def digest_of(measurements: Measurements) -> str:
     return sha256(json.dumps([marks, distances]).encode()).hexdigest()
 
 
-# How well somebody reads a tape, by how fine its lines are.
+# The error of a tape reading, by how fine the tape's lines are.
 
 # What the hand adds, whatever the tape: hook, parallax, the middle of a hole. A tape with
 # millimetre lines then gives the usual 0.5 mm (USUAL_SIGMA of the fit).

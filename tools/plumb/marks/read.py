@@ -167,7 +167,7 @@ def _refuse_a_copy(part: Measurements, before: tuple[Measurements, ...]) -> None
             raise InputError(
                 part.source,
                 f"its {len(same)} readings are those of {other.source} to the last digit",
-                remedy="a copy is no repeat: leave the copy out",
+                remedy="a copy is not a repeat: leave the copy out",
             )
 
 

@@ -58,7 +58,7 @@ def _two_names(value: object) -> tuple[str, str]:
 def _direction(value: object) -> Point:
     along, across = pair(value)
     if along == across == 0:
-        raise ValueError("[0, 0] is no direction; leave approach out if it is not known")
+        raise ValueError("[0, 0] is not a direction; leave approach out if it is not known")
     return along, across
 
 

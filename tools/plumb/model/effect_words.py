@@ -53,7 +53,7 @@ class ParameterWords(TypedDict):
 
 
 class CheckWords(TypedDict):
-    """How an effect is measured directly."""
+    """The direct measurement of an effect."""
 
     title: str
     steps: str

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 PER_METRE, PER_FOOT = "for each metre", "for each foot"
 FOOT = 0.3048  # [m]
 
-# What the marks are measured from is no number of the machine, so its words are here.
+# The origin of the marks is not a number of the machine, so its words are here.
 SHEET: dict[str, PlainWords] = {
     "sheet_rotation": {
         "more": f"sheet turned by # {PER_METRE}",
@@ -151,7 +151,7 @@ class PlainChange(NamedTuple):
 
     @property
     def shift(self) -> str:
-        """How far it moved, with its sign."""
+        """The signed distance that it moved."""
         digits = len(self.after.partition(".")[2])
         return f"{float(self.after) - float(self.before):+.{digits}f}"
 

@@ -180,7 +180,7 @@ class _Shop:
             self.inwards(ROOM_FOR_A_SECOND),
             self.inwards(2 * ROOM_FOR_A_SECOND),
         )
-        # Which of both is touched from where is all the same: one pool for each pair of sides.
+        # It does not matter which of both is touched from where: one pool for each pair of sides.
         groups = [
             self.visits(near if i % 2 == 0 else far, weight, sides=side)
             for i, side in enumerate(SIDES)

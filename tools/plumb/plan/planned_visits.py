@@ -90,7 +90,7 @@ class Visits:
             distances=np.zeros(0),
             distance_rounds=np.zeros(0, dtype=int),
             approaches=self.approaches,
-            # As the first round: for a few more marks nobody zeroes chains or takes another sheet.
+            # As the first round: a few more marks need no new zeros or sheet.
             rounds=np.zeros(count, dtype=int),
             zero_groups=np.zeros(count, dtype=int),
             sheet_groups=np.zeros(count, dtype=int),
@@ -197,7 +197,7 @@ def _chains_change(swapped: bool, next_swapped: bool) -> list[str]:
 
 
 def visit_lines(visits: Visits) -> Iterator[list[str]]:
-    """Yield the lines for each visit; between two of them somebody may hang a weight on the
+    """Yield the lines for each visit; between two of them the owner may hang a weight on the
     sled.
     """
     for target, side in zip(visits.targets, visits.approaches, strict=True):

@@ -89,7 +89,7 @@ class Preview:
     @computed_field
     @property
     def named(self) -> int:
-        """Effects that could be named in their usual size: they show, and look like no other."""
+        """Effects that could be named in their usual size: they show and have no look-alike."""
         return sum(each.is_seen and each.is_distinct for each in self.outlines)
 
 

@@ -46,7 +46,7 @@ QUESTIONS = {"cannot_tell": SETTLE, "one_suspect": CONFIRM, "nothing_provable": 
 
 @dataclass(frozen=True)
 class RoomThen:
-    """How large an effect could hide, RMS over the marks: by the marks so far, and afterwards."""
+    """The largest effect that could hide, RMS over the marks: so far, and afterwards."""
 
     effect: str
     now: Annotated[float, key("now_mm")]
@@ -294,7 +294,7 @@ def _hope(best: Proposal) -> str:
     return f", chance to {verb} {percent(best.chance)}" if verb else ""
 
 
-# What to measure where no effect is in question: readings that disagree, marks nobody explains.
+# Measurements where no effect is in question: readings that disagree, unexplained marks.
 
 SURE = 3.0  # deviations by which a second reading shows that the first was wrong
 WORST = 2  # places around which marks are proposed

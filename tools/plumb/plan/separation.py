@@ -1,4 +1,4 @@
-"""How well a plan distinguishes two effects, and the visits that do it best.
+"""A measure of how well a plan distinguishes two effects, and the visits that do it best.
 
 lambda = squared length, in sigmas, of what one effect draws and neither the refitted frame nor the
 other effect can imitate. A pair is distinguished nearly always at 12, so more of it counts no more:
@@ -145,7 +145,7 @@ class Chooser:
 
 @dataclass(frozen=True)
 class NumberCheck:
-    """How numbers of the machine are measured directly, without marks on a sheet."""
+    """Direct measurements of the machine's numbers, without marks on a sheet."""
 
     title: str
     steps: str  # what to do, and how exactly

@@ -1,4 +1,4 @@
-"""Which settings are in force while marks are cut: their file, and a digest of what moves the sled.
+"""The settings in force while marks are cut: their file, and a digest of what moves the sled.
 A form names them, and a program names its form.
 
 GroundControl rewrites its file whenever a window is moved, so only the numbers count that say where

@@ -49,7 +49,7 @@ def _key(section: str, name: str, usual: Any = ...) -> Any:
 
 
 class Published(BaseModel):
-    """What the file of a client says of the machine.
+    """The machine according to the file of a client.
 
     Keys that have a usual value came later or belong to one program only.
     """

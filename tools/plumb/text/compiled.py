@@ -1,4 +1,4 @@
-"""Whether the compiled modules are those of the C++ in the same clone.
+"""A check that the compiled modules are those of the C++ in the same clone.
 
 A build writes the digest of each of its sources next to the modules (tools/CMakeLists.txt). In a
 clone, who edits C++ and forgets `tools/setup` would get answers of the old code: every program of

@@ -41,7 +41,7 @@ def naming(source: Source, place: str) -> Iterator[None]:
         raise InputError(source, str(error), place=place) from None
 
 
-# Who reads a message: somebody at a command line, or somebody at the lab's page.
+# The reader of a message: at a command line, or at the lab's page.
 #
 # An option of the command line means nothing on the page. So what to do about a fault is written
 # for both, and each reader gets what he can do. A test holds every message of the lab's rooms to

@@ -152,7 +152,7 @@ def parsed(
 
 @contextmanager
 def alone_in(folder: Source) -> Iterator[None]:
-    """Until the end, whoever asks the same for this folder waits."""
+    """Until the end, others that ask the same for this folder wait."""
     handle = os.open(folder, os.O_RDONLY)
     try:
         fcntl.flock(handle, fcntl.LOCK_EX)
@@ -290,7 +290,7 @@ def picture_metadata(form: str) -> dict[str, str | None]:
 
 
 def is_ours(path: Path) -> bool:
-    """Return whether the lab wrote this file, or nobody wrote anything into it."""
+    """Return whether the lab wrote this file, or it is empty."""
     content = path.read_bytes()
     if not content or content.startswith(BEGINNINGS) or LINES.fullmatch(content):
         return True

@@ -78,7 +78,7 @@ def _finite(value: float) -> float:
 
 
 def shortened(value: object) -> str:
-    """Return a value that somebody typed, as a message can show it."""
+    """Return a typed value, as a message can show it."""
     text = " ".join(str(value).split())
     return text if len(text) <= 40 else text[:37] + "..."
 
@@ -140,13 +140,13 @@ def worded(length: float | None, digits: int = 2) -> str:
 
 
 def brief(length: float) -> str:
-    """Return a length [mm] that somebody chose, with its unit and no more decimals than it
+    """Return a chosen length [mm], with its unit and no more decimals than it
     needs.
     """
     return f"{round(in_unit(length), 2):g} {unit()}"
 
 
-# Sentences that say lengths in mm and metres, for somebody with an inch tape.
+# Sentences with lengths in mm and metres, for a reader with an inch tape.
 
 _BOTH = re.compile(r"[\d.]+ mm \(([\d.]+ inch(?:es)?)\)")  # says both already
 _PER_METRE = re.compile(r"([\d.]+) mm per metre")

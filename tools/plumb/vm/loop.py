@@ -234,7 +234,7 @@ class Spent:
 
 @dataclass(frozen=True)
 class Budget:
-    """How much an owner has the patience for."""
+    """The limits of an owner's patience."""
 
     marks: int = 45
     minutes: float = 150.0

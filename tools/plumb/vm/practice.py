@@ -28,7 +28,7 @@ MACHINES = 1_000_000  # that can be drawn
 
 @pydantic_dataclass(frozen=True)
 class Secret:
-    """How `plumb vm --hide` draws a machine."""
+    """The seed, size and effects of a machine drawn by `plumb vm --hide`."""
 
     seed: int
     millimetres: float = 3.0  # RMS by which what is hidden moves marks
@@ -55,7 +55,7 @@ def secret_in(folder: Path) -> Secret:
     try:
         return Secret(**json.loads(read_text(path)))
     except (ValueError, TypeError):
-        raise InputError(path, "is no secret", remedy="begin in a new folder") from None
+        raise InputError(path, "is not a secret", remedy="begin in a new folder") from None
 
 
 @dataclass(frozen=True)

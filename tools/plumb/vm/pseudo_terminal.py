@@ -139,10 +139,10 @@ class PseudoTerminal:
         """Give the client what it has room for."""
         if not self._waiting:
             return
-        # The machine's time took a while, in which somebody may have opened or left the port.
+        # The machine's time took a while, in which a client may have opened or left the port.
         self._reset_if_opened()
         if not self._is_open:
-            self._waiting = b""  # what nobody reads is lost, as on a wire
+            self._waiting = b""  # unread characters are lost, as on a wire
         with contextlib.suppress(OSError):
             self._waiting = self._waiting[os.write(self._master, self._waiting) :]
 

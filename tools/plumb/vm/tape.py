@@ -1,4 +1,4 @@
-"""The tape: where the marks on a sheet are, with the noise of whoever reads it."""
+"""The tape: where the marks on a sheet are, with the noise of its reader."""
 
 from __future__ import annotations
 
@@ -61,7 +61,7 @@ class Tape:
         self._read = 0
 
     def pass_over(self, machine: VirtualMachine) -> None:
-        """Leave the marks that were cut so far: somebody gave up and cuts again."""
+        """Leave the marks that were cut so far, so that all are cut again."""
         self._read = len(marks_on(machine.cuts()))
 
     def fill(self, form: str, machine: VirtualMachine) -> str:

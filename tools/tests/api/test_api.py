@@ -46,7 +46,7 @@ def test_the_notebook_runs_and_its_answers_are_those_of_the_commands(monkeypatch
     )
 
 
-def test_what_is_written_is_the_machine_that_was_fitted(tmp_path):
+def test_the_written_machine_is_the_fitted_one(tmp_path):
     addition = plumb.add(plumb.read(INI, MARKS), ["chain_pitch"])
     machine = read_settings(plumb.write(addition, tmp_path / "machine.toml"))
     assert machine.effects["chain_pitch"] == pytest.approx(addition.settings.effects["chain_pitch"])

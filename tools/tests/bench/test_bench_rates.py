@@ -20,7 +20,7 @@ def one():
 
 
 def rates(kind, boards, *, marks=25):
-    """The rates of some boards of a kind."""
+    """The rates of some boards of one kind."""
     return row_of(kind, [judge_board(kind, index, marks=marks, seed=SEED) for index in boards])
 
 

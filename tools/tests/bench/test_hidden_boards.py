@@ -37,7 +37,7 @@ def test_a_board_follows_from_its_seed_its_hidden_sizes_too():
 
 
 @pytest.mark.parametrize("name", KINDS)
-def test_a_board_has_what_its_kind_says(name):
+def test_a_board_hides_what_its_kind_describes(name):
     kind = KINDS[name]
     board = board_of(kind, 1, marks=9, seed=2)
     marks = board.board.measurements.marks
@@ -60,7 +60,7 @@ def test_a_board_has_what_its_kind_says(name):
         (set(), False, False),
     ],
 )
-def test_named_effects_are_held_against_the_truth(named, holds, exact):
+def test_named_effects_are_compared_with_the_truth(named, holds, exact):
     truth = Truth(
         effects=("frame_flex",),
         usual=("chain_stretch",),
@@ -79,7 +79,7 @@ def test_every_effect_of_the_library_is_hidden_somewhere():
 
 
 @pytest.mark.parametrize("shape", sorted(OUTSIDE))
-def test_unknown_fields_have_the_size_that_they_should(shape):
+def test_unknown_fields_have_their_stated_size(shape):
     with_it, without = (
         cut(hidden, plan(5, 5), seed=3, noise=0.0).measurements.measured
         for hidden in (Hidden(outside=shape, outside_mm=2.0), Hidden())
@@ -88,7 +88,7 @@ def test_unknown_fields_have_the_size_that_they_should(shape):
 
 
 @pytest.mark.parametrize(("where", "is_repeated"), [("once", False), ("repeated", True)])
-def test_a_slip_moves_one_reading_of_the_marks_that_are_meant(where, is_repeated):
+def test_a_slip_moves_one_reading_of_the_right_marks(where, is_repeated):
     board = cut(Hidden(), plan(5, 5, repeats=True), seed=1)
     names = [mark.name for mark in board.measurements.marks]
     for seed in range(8):

@@ -8,7 +8,7 @@ from synthetic import BELIEVED
 
 @pytest.fixture
 def maker(tmp_path):
-    """What the maker of the made-up marks believes, as a file."""
+    """The settings of the owner of the made-up marks, as a file."""
     path = tmp_path / "machine.toml"
     write_machine_toml(path, BELIEVED)
     return path

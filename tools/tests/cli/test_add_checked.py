@@ -22,7 +22,7 @@ def next_command(said):
     return shlex.split(COMMAND.findall(said)[-1].replace("\\\n", " "))[1:]
 
 
-def test_auto_takes_what_was_checked_into_its_verdict(ask, run):
+def test_auto_uses_checked_numbers(ask, run):
     _, free = ask("add", *BOARD, "--effect", "auto")
     _, taken = ask("add", *BOARD, "--effect", "auto", *checked())
     assert free["auto"]["verdict"] == "cannot_tell" and free["auto"]["rivals"]
@@ -30,7 +30,7 @@ def test_auto_takes_what_was_checked_into_its_verdict(ask, run):
     assert taken["effects_added"] == ["chain_pitch", "chain_stretch"]
 
 
-def test_whether_the_choice_matters_is_said_where_it_is_made(run, ask):
+def test_a_choice_states_whether_it_matters(run, ask):
     apart = ask("add", *BOARD, "--effect", "auto")[1]["auto"]["apart"]
     assert apart["mm"] == pytest.approx(2.1, abs=0.1)
     for words in (("add", *BOARD, "--effect", "auto"), ("calibrate", *BOARD, "--details")):
@@ -43,7 +43,7 @@ def test_whether_the_choice_matters_is_said_where_it_is_made(run, ask):
     assert "For cutting it hardly matters" in said and "(chain_" not in said[: said.index("To be")]
 
 
-def test_what_every_machine_has_is_added_with_a_word_and_no_doubt(run, ask, tmp_path):
+def test_usual_effects_are_added_with_a_note_and_no_doubt(run, ask, tmp_path):
     clean = tmp_path / "clean.csv"
     stretch = {"chain_stretch": {"compliance": 5.2e-6}}
     machine = replace(BELIEVED, effects=stretch)
@@ -81,12 +81,12 @@ def test_what_every_machine_has_is_added_with_a_word_and_no_doubt(run, ask, tmp_
         (["chain_pitch.left=0.002+-0.001", "--hold", "chain_pitch.left=0.002"], "--hold keeps it"),
     ],
 )
-def test_what_cannot_count_is_refused_in_one_line(run, options, complaint):
+def test_checks_that_cannot_count_are_refused_in_one_line(run, options, complaint):
     code, said, refused = run("add", *PITCH, "--checked", *options)
     assert code == 2 and said == "" and complaint in refused and refused.count("\n") == 1
 
 
-def test_the_next_command_says_what_was_checked_with_all_its_digits(run, tmp_path, monkeypatch):
+def test_the_next_command_repeats_a_check_with_all_its_digits(run, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     check = ("--checked", "motor_gap=2978.4375+-0.3", "--checked", "chain_pitch.left=0.0018+-0.001")
     code, said, _ = run("add", *PITCH, *check, "--prior", "motor_height=12.3456789")

@@ -1,4 +1,4 @@
-"""What the commands print with --json is what the schema in the package says."""
+"""The output of --json fits the schema in the package."""
 
 import json
 from importlib import resources
@@ -128,7 +128,7 @@ def test_plumb_read_says_which_chain_may_have_slipped(monkeypatch, capsys):
 
 
 def validator_of(name):
-    """What holds the answers of a command against the schema."""
+    """A check of a command's answers against the schema."""
     return Validator({**SCHEMA, "anyOf": [{"$ref": f"#/$defs/{name}"}]})
 
 
@@ -159,7 +159,7 @@ def test_every_command_with_json_is_asked():
 
 
 @pytest.mark.parametrize("question", QUESTIONS, ids=lambda question: question[0])
-def test_the_answer_is_as_the_schema_says(question, ask):
+def test_the_answer_fits_the_schema(question, ask):
     code, answer = ask(*question)
     assert code in (0, 1)
     validator_of(question[0]).validate(answer)
@@ -168,7 +168,7 @@ def test_the_answer_is_as_the_schema_says(question, ask):
         assert not validator_of(question[0]).is_valid(bad), bad.keys()
 
 
-def test_a_refusal_is_as_the_schema_says(run):
+def test_a_refusal_fits_the_schema(run):
     code, said, _ = run("compare", "none.ini", "none.toml", "--json")
     assert code == 2
     validator_of("refusal").validate(json.loads(said))

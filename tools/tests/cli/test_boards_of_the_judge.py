@@ -35,7 +35,7 @@ def board_of(index):
     # As many turns of the layout as it takes to meet every kind with each.
     turn = index // len(KINDS) + index
     settings, grid = [*product(KNOWN, GRIDS)][turn % (len(KNOWN) * len(GRIDS))]
-    # Some boards are read as distances, with a noise that nobody states.
+    # Some boards are read as distances, without a stated noise.
     spans, stated = index % 7 == 3, None if index % 5 == 4 else kind.noise
     layout = plan(*grid, repeats=kind.repeats and min(grid) > 1, spans=spans)
     source = np.random.default_rng(index)

@@ -63,7 +63,7 @@ KNOWN = ("--sigma", "0.2", "--checked", "tape_scale.strain=0+-0.0001")
 
 
 def without_pitch():
-    """What is believed of a machine whose chains are longer than that, in first.toml."""
+    """The settings of a machine whose chains are longer than they say, in first.toml."""
     known = {name: sizes for name, sizes in EFFECTS.items() if name != "chain_pitch"}
     believed = replace(BELIEVED, effects=known)
     write_machine_toml("first.toml", believed)
@@ -71,7 +71,7 @@ def without_pitch():
 
 
 @pytest.mark.usefixtures("tried_in_full")
-def test_an_open_question_is_said_with_what_to_measure_and_nothing_is_written(run):
+def test_an_open_question_names_a_measurement_and_writes_nothing(run):
     before = set(Path().iterdir())
     code, said, _ = run("calibrate", INI, "marks.toml")
     assert code == 1 and set(Path().iterdir()) == before
@@ -129,7 +129,7 @@ def test_a_hidden_effect_is_added_and_the_second_round_starts_from_the_new_machi
     assert answer["comparison"]["rms_mm"] > 3.0 and again["holds"]
 
 
-def test_what_a_hand_must_do_about_a_turned_sheet_stands_beside_the_promise(run):
+def test_a_turned_sheet_is_named_beside_the_promised_error(run):
     believed = without_pitch()
     turn = 4.9 / 2438.4
     turned = [
@@ -191,7 +191,7 @@ e,1000,-450,1001,-448
 """
 
 
-def test_marks_in_a_row_are_too_little_and_more_marks_are_asked_for(run, file):
+def test_marks_in_a_row_are_too_few_and_more_are_asked_for(run, file):
     row = file("row.csv", ROW)
     code, said, _ = run("calibrate", MADGRIZZLE, row)
     assert code == 1 and not Path("machine.toml").exists()
@@ -247,7 +247,7 @@ def test_the_client_that_was_named_counts(run):
     ],
     ids=lambda command: "-".join(map(str, command[:1])),
 )
-def test_a_command_ends_with_a_next_one_that_can_be_given(command, run):
+def test_a_command_ends_with_a_next_command_that_runs(command, run):
     code, said, _ = run(*command)
     assert code < 2
     following = printed(said)

@@ -45,7 +45,7 @@ def test_add_writes_settings_that_explain_the_marks(ask, tmp_path):
     assert published["shape_rms_mm"] < 0.9
 
 
-def test_add_tells_people_the_fall_the_doubts_and_what_was_written(run, tmp_path):
+def test_add_prints_the_fall_the_doubts_and_the_files(run, tmp_path):
     new, picture = tmp_path / "machine.toml", tmp_path / "fall.png"
     written = ("-o", new, "--picture", picture)
     code, said, _ = run("add", *BOARD, *EFFECTS, *written)

@@ -9,7 +9,7 @@ from published_marks import MARKS, SETTINGS
 from synthetic import BELIEVED, TRUE, csv_of, grid, marks_on
 
 
-def test_clean_marks_say_so(run, file, maker):
+def test_clean_marks_are_called_clean(run, file, maker):
     clean = marks_on(BELIEVED, BELIEVED, grid(5, 3), noise=0.5, seed=4)
     words = ("diagnose", maker, file("clean.csv", csv_of(clean)), "--sigma", "0.5")
     code, said, _ = run(*words)

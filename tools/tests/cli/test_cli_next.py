@@ -20,7 +20,7 @@ EXAMPLE = [
 FILL = "# measured = [ , ]"
 
 
-def test_people_are_told_what_to_do_first(run):
+def test_the_preparation_is_printed_first(run):
     code, said, complaint = run("next", *EXAMPLE)
     assert code == 0 and complaint == ""
     assert "\nNext: " in said and "about" in said and "minutes" in said
@@ -80,7 +80,7 @@ def test_a_proposal_is_cut_by_a_program(run, ask, file, maker, tmp_path):
     assert f"Next: {other['title']}" in said and f"Written: {tmp_path / 'more.toml'}" in said
 
 
-def test_what_is_only_read_again_is_not_cut(run, ask, file, maker, tmp_path):
+def test_marks_that_are_only_read_again_are_not_cut(run, ask, file, maker, tmp_path):
     path = file("m.csv", csv_of(marks_on(TRUE, BELIEVED, grid(3, 3), noise=0.3, seed=2)))
     command = ["next", maker, path]
     _, answer = ask(*command)
@@ -93,7 +93,7 @@ def test_what_is_only_read_again_is_not_cut(run, ask, file, maker, tmp_path):
 
 
 @pytest.mark.usefixtures("tried_in_full")
-def test_what_was_checked_is_not_proposed_again(ask):
+def test_a_number_that_was_checked_is_not_proposed_again(ask):
     gap = "the gap between the motors"
     code, answer = ask("next", *EXAMPLE)
     assert code == 0 and gap in [each["title"] for each in answer["next"]]
@@ -159,9 +159,7 @@ def test_a_form_names_the_settings_that_its_marks_are_cut_with(run, tmp_path):
     assert f'cut_with_digest = "{digest_of(SETTINGS)}"' in head
 
 
-def test_a_form_names_the_settings_that_the_machine_has_now_if_somebody_says_so(
-    run, maker, file, tmp_path
-):
+def test_a_form_names_the_machines_present_settings_if_asked(run, maker, file, tmp_path):
     marks = file("marks.csv", csv_of(marks_on(TRUE, BELIEVED, grid(3, 3))))
     now, form = tmp_path / "now.toml", tmp_path / "more.toml"
     write_machine_toml(now, dataclasses.replace(BELIEVED, sheet_width=2400.0))

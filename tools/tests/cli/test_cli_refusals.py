@@ -36,7 +36,7 @@ BAD = [
 
 
 @pytest.mark.parametrize(("arguments", "hint"), [pytest.param(*b[1:], id=b[0]) for b in BAD])
-def test_what_cannot_be_used_is_told_in_one_line(arguments, hint, run, tmp_path, monkeypatch):
+def test_unusable_input_is_refused_in_one_line(arguments, hint, run, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     extra = ["-o", "new.toml", "--client", "groundcontrol"] if arguments[:1] == ["add"] else []
     code, said, complaint = run(*arguments, *extra)
@@ -60,7 +60,7 @@ def test_what_cannot_be_used_is_told_in_one_line(arguments, hint, run, tmp_path,
         ("-o", "new.toml", "--picture", str(MARKS)),
     ],
 )
-def test_if_one_result_cannot_be_written_none_is(outputs, run, tmp_path, monkeypatch):
+def test_if_one_result_cannot_be_written_none_is_written(outputs, run, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     before = SETTINGS.read_bytes(), MARKS.read_bytes()
     code, said, complaint = run("add", *BOARD, "--effect", "none", *outputs)

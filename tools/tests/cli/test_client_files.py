@@ -44,7 +44,7 @@ def lines_of(path):
 
 
 def states(old, new, lines):
-    """What the firmware holds in the end, whichever file came first: named, by number."""
+    """The firmware's numbers in the end, whichever file came first: named, by number."""
     yield "first the client, then the lines", {**old, **new, **lines}
     yield "and the client once more", {**old, **new, **lines, **new}
     yield "first the lines, while the old client is there", {**old, **lines, **old, **lines, **new}
@@ -78,7 +78,7 @@ def test_files_for_two_firmwares_would_double_and_the_check_sees_it(run, tmp_pat
     assert apart(read_settings(ours), mixed) > 3
 
 
-def test_what_is_written_hangs_the_sled_as_it_was_fitted_by_settings_as_by_add(run, tmp_path):
+def test_settings_and_add_write_the_fitted_machine_alike(run, tmp_path):
     machine = tmp_path / "machine.toml"
     assert run(*ADD, "-o", machine, "--client", "groundcontrol")[0] == 0
     new = dump_of(tmp_path / "machine-groundcontrol.ini")
@@ -147,7 +147,7 @@ def test_a_file_of_another_machine_is_refused(old, new, said, run, file, tmp_pat
     assert not (tmp_path / "machine.nc").exists()
 
 
-def test_the_published_firmware_gets_a_client_that_carries_all(run, tmp_path):
+def test_the_published_firmware_gets_all_numbers_through_its_client(run, tmp_path):
     machine, lines = tmp_path / "machine.toml", tmp_path / "machine.nc"
     options = ("--client", "groundcontrol", "--firmware", "published")
     code, said, _ = run(*ADD, "-o", machine, *options)

@@ -20,7 +20,7 @@ def test_mega_alone_runs_the_program_that_was_built(tmp_path, monkeypatch, capsy
 
 
 @pytest.mark.slow
-def test_the_lab_names_what_is_hidden_and_says_so_last(tmp_path, capsys):
+def test_the_demo_ends_with_the_hidden_effect_named(tmp_path, capsys):
     assert main(["--folder", str(tmp_path), "--seed", "1"]) == 0
     lines = capsys.readouterr().out.splitlines()
     assert lines[-1] == "Hidden was sled_swing (right and up). The lab named it."

@@ -1,4 +1,4 @@
-"""How a command ends when it is interrupted, nobody reads it, or the disk is full."""
+"""Tests of interrupted commands, closed pipes and full disks."""
 
 import errno
 import functools
@@ -48,13 +48,13 @@ INTERRUPTIBLE = functools.partial(
         ),
     ],
 )
-def test_a_wrong_word_is_answered_by_the_nearest_right_one(words, said, run):
+def test_a_wrong_word_is_answered_with_the_nearest_right_one(words, said, run):
     code, out, complaint = run(*words)
     assert code == 2 and out == "" and complaint.count("\n") == 1
     assert said in complaint
 
 
-def test_the_command_is_quiet_before_it_looks_for_its_package(tmp_path):
+def test_an_interrupt_while_the_package_loads_is_quiet(tmp_path):
     (tmp_path / "plumb/cli").mkdir(parents=True)
     (tmp_path / "plumb/__init__.py").write_text("import os, time; os.kill(os.getpid(), 2)\n")
     command = [sys.executable, "-S", str(TOOLS / "core/plumb"), "effects"]

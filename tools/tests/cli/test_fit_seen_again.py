@@ -1,4 +1,4 @@
-"""What a fit promised can be seen again: machine.toml knows its marks and how they were cut."""
+"""The promised error can be seen again: machine.toml knows its marks and how they were cut."""
 
 import contextlib
 import re
@@ -146,7 +146,7 @@ def test_settings_that_changed_since_the_cut_are_noticed(run, ask, fitted):
     assert run("compare", "groundcontrol.ini", "f.toml", "--cut-with", "machine.toml")[0] == 0
 
 
-def test_what_was_fitted_outside_of_the_machine_is_said_where_the_error_counts_it(run, fitted):
+def test_effects_of_the_lab_are_named_where_the_error_counts_them(run, fitted):
     add = ("add", "groundcontrol.ini", "marks.toml", "--effect", "tape_scale", "-o", "tape.toml")
     assert run(*add)[0] == 0
     counted = "The error counts what the fit found: tape reads 0.1"

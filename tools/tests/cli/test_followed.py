@@ -1,4 +1,4 @@
-"""What `plumb send` says while a program is on its way."""
+"""Tests of the progress line of `plumb send`."""
 
 import numpy as np
 import pytest
@@ -44,7 +44,7 @@ def follow(clock, *, seconds, step=0.25, pauses=False):
     job.clear()
 
 
-def test_where_nobody_looks_a_line_comes_each_minute(clock, monkeypatch):
+def test_without_a_terminal_a_line_is_printed_each_minute(clock, monkeypatch):
     screen = Screen(watched=False)
     monkeypatch.setattr(followed.sys, "stderr", screen)
     follow(clock, seconds=185)

@@ -61,7 +61,7 @@ def read_from(pipe, into):
 
 
 def through_a_pipe(name, write):
-    """What `write` pours into a new pipe of that name, and what it returns."""
+    """The bytes that `write` sends into a new pipe of that name, and its return value."""
     os.mkfifo(name)
     got = []
     reader = threading.Thread(target=read_from, args=(name, got), daemon=True)
@@ -80,7 +80,7 @@ def test_a_pipe_stays_a_pipe_and_gets_the_bytes(command, name, run):
     assert got == Path(name).read_bytes()
 
 
-def test_a_link_to_a_pipe_or_a_device_is_no_file_to_replace(run):
+def test_a_link_to_a_pipe_or_a_device_is_not_replaced(run):
     os.symlink("/dev/null", "null.toml")
     os.symlink("pipe", "link.toml")
     assert run(*ADD, "-o", "null.toml")[0] == 0
@@ -101,7 +101,7 @@ def test_a_link_to_a_file_stays_and_its_file_is_replaced(run):
     assert run(*ADD, "-o", "link.toml")[0] == 2 and Path("machine.toml").read_text() == "notes\n"
 
 
-def test_a_full_disk_is_a_line_and_leaves_nothing(run):
+def test_a_full_disk_is_reported_in_one_line_and_leaves_nothing(run):
     picture = ("--picture", "fall.png")
     for command in ((*ADD, *picture, "-o"), (*LINES, "-o"), (*GRID, "--output")):
         code, said, complaint = run(*command, "/dev/full")
@@ -124,7 +124,7 @@ def test_a_dash_is_the_standard_output_and_the_report_goes_beside(run):
     assert not Path("-").exists()
 
 
-def test_what_comes_through_a_pipe_is_read_once(run):
+def test_a_pipe_is_read_once(run):
     os.mkfifo("settings.ini")
     content = Path(SETTINGS).read_bytes()
     writer = threading.Thread(target=Path("settings.ini").write_bytes, args=(content,), daemon=True)

@@ -33,7 +33,7 @@ class Greeting(NumbersMachine):
 
 @pytest.fixture
 def asked(monkeypatch, capsys):
-    """What `plumb read` prints of a machine with a greeting."""
+    """The output of `plumb read` for a machine with a greeting."""
 
     def ask(*greeting, options=()):
         monkeypatch.setattr(read_command, "port_for", str)
@@ -45,7 +45,7 @@ def asked(monkeypatch, capsys):
 
 
 @pytest.mark.parametrize("lost", [CUT_OFF, UNSET, NOWHERE])
-def test_a_lost_place_is_said_in_the_machines_words_and_no_place_is_shown(asked, lost):
+def test_a_lost_place_is_reported_in_the_machines_words(asked, lost):
     said = " ".join(asked("Plumb v1.0.0", lost, "ready").split())
     assert f"The machine does not know where its sled is. It says: {lost}" in said
     assert "plumb recover --at" in said and "B06 or B08" in said and "G10 Z0" in said

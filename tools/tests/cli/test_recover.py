@@ -89,7 +89,7 @@ def test_a_program_of_ours_is_replaced_and_no_other(run, folder):
         assert run(*words)[0] == 2, "what another wrote"
 
 
-def test_a_lost_minus_is_no_sound_machine(run):
+def test_a_lost_minus_sign_is_not_called_a_sound_machine(run):
     lost = "--touch=-900,250:902.4,256.1"
     code, said, _ = run("recover", "machine.toml", lost)
     assert code == 1 and "Touch 1: has x lost its sign?" in said
@@ -100,7 +100,7 @@ def test_a_lost_minus_is_no_sound_machine(run):
     assert code == 1 and "lost its sign" not in said, "far away by either sign"
 
 
-def test_a_home_mark_is_not_held_against_itself(run):
+def test_a_home_mark_is_not_compared_with_itself(run):
     for kept in ("left=-900,250", "twin=-899,252", "right=900,-250"):
         run("recover", "machine.toml", f"--keep={kept}")
     restored = ("recover", "machine.toml", "--at", "left")
@@ -148,7 +148,7 @@ def test_a_second_mark_fits_or_not(run, shown, code):
     assert done == code and ("does not fit" in said) is bool(code)
 
 
-def test_what_was_done_goes_into_a_diary_that_is_there(run, folder):
+def test_actions_go_into_an_existing_diary(run, folder):
     run("recover", "machine.toml", "--keep=left=-900,250")
     run("recover", "machine.toml", *SLIPPED)
     assert read_diary(folder).entries == ()
@@ -172,7 +172,7 @@ def test_what_was_done_goes_into_a_diary_that_is_there(run, folder):
         (["recover", "machine.toml", "--keep=a=0,9000"], "home mark a"),
     ],
 )
-def test_what_cannot_be_is_refused(run, folder, words, why):
+def test_impossible_values_are_refused(run, folder, words, why):
     code, _, error = run(*words)
     assert code == 2 and why in error and error.count("\n") == 1
     assert not (folder / "home.toml").exists()

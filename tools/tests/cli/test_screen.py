@@ -1,4 +1,4 @@
-"""What people see fits into 80 columns, loses nothing, and has colour only on a screen."""
+"""Output fits into 80 columns, loses nothing, and has colour only on a screen."""
 
 import re
 from pathlib import Path
@@ -67,7 +67,7 @@ def test_colour_only_where_it_is_wanted(variables, coloured, monkeypatch):
 
 
 class Terminal:
-    """A standard error on which somebody looks."""
+    """A standard error that is a terminal."""
 
     def __init__(self, *, watched):
         self.said, self._watched = "", watched
@@ -86,7 +86,7 @@ class Terminal:
 @pytest.mark.parametrize(
     ("watched", "patience", "shown"), [(True, 0.0, True), (True, 60.0, False), (False, 0.0, False)]
 )
-def test_a_bar_is_shown_to_who_looks_and_waits(watched, patience, shown, monkeypatch):
+def test_a_bar_is_shown_on_a_terminal_if_the_work_takes_long(watched, patience, shown, monkeypatch):
     terminal = Terminal(watched=watched)
     monkeypatch.setattr(screen.sys, "stderr", terminal)
     bar = Bar("boards", patience=patience)

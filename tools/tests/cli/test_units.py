@@ -26,7 +26,7 @@ def test_places_from_the_corner_are_shown_from_the_corner(run):
     assert "from the sheet's top left corner, x right, y down" in " ".join(said.split())
 
 
-def test_what_was_typed_in_inches_is_shown_in_inches_unless_mm_are_asked_for(run, tmp_path):
+def test_values_typed_in_inches_are_shown_in_inches_unless_mm_are_asked_for(run, tmp_path):
     marks = tmp_path / "marks.toml"
     places = [(5, 5), (48, 24), (90, 40)]
     text = "".join(
@@ -89,7 +89,7 @@ def test_feeds_and_places_of_a_job_are_in_inches_on_request(run, tmp_path):
     assert "from X50.80 Y25.40, where" in " ".join(run(*resume, "--force")[1].split())
 
 
-def test_a_number_that_moved_too_far_is_said_in_the_unit_on_the_screen(run, tmp_path):
+def test_a_number_that_moved_too_far_is_shown_in_the_chosen_unit(run, tmp_path):
     marks = tmp_path / "marks.csv"
     places = [(x, y) for x in (-1000, 0, 1000) for y in (450, -450)]
     rows = [f"{x},{y},{x * 1.01},{y * 1.01}" for x, y in places]

@@ -26,13 +26,13 @@ JOB, SETTINGS, MARKS = (EXAMPLE / name for name in ("pocket.nc", "groundcontrol.
         (["lab", "--share", "garage"], "name the folder first: plumb lab garage --share"),
     ],
 )
-def test_a_wrong_word_is_named_and_not_what_stands_behind_it(run, words, says):
+def test_a_wrong_word_is_named_and_not_the_words_after_it(run, words, says):
     code, out, complaint = run(*words)
     assert code == 2 and out == "" and says in complaint
 
 
 @pytest.mark.parametrize("name", GONE)
-def test_a_command_that_went_says_what_does_it_now(run, name):
+def test_a_removed_command_names_its_replacement(run, name):
     said = f"there is no command '{name}' any more: {GONE[name]}"
     assert run(name, "--old-option", "1") == (2, "", f"plumb: {said}\n")
     commands = re.findall(r"plumb (\w+)", GONE[name])
@@ -53,12 +53,12 @@ def test_a_command_that_went_says_what_does_it_now(run, name):
         (b"  0\nSECTION\n  2\nHEADER\n", "holds a drawing (DXF), not a program; let a CAM"),
         (b'{"Maslow Settings": [{"key": "bedWidth"}]}', "holds settings of WebControl"),
         (b'{"a": 1}', "holds JSON, not a program"),
-        (b"\nhello world\n", "line 2: is no G-code (a number is missing behind H)"),
-        (b"# A page\n", "line 1: is no G-code (this begins no word: #)"),
+        (b"\nhello world\n", "line 2: is not G-code (a number is missing behind H)"),
+        (b"# A page\n", "line 1: is not G-code (this begins no word: #)"),
     ],
 )
 @pytest.mark.parametrize("command", ["check", "resume"])
-def test_what_is_no_program_is_called_what_it_is(run, tmp_path, command, begin, says):
+def test_a_file_that_is_not_a_program_is_named_for_what_it_is(run, tmp_path, command, begin, says):
     path = tmp_path / "file.nc"
     path.write_bytes(begin)
     code, out, complaint = run(command, path, SETTINGS, *(["--line", 1] * (command == "resume")))
@@ -68,7 +68,7 @@ def test_what_is_no_program_is_called_what_it_is(run, tmp_path, command, begin, 
 @pytest.mark.parametrize(
     ("mark", "coding"), [(codecs.BOM_UTF16_LE, "utf-16-le"), (codecs.BOM_UTF16_BE, "utf-16-be")]
 )
-def test_what_notepad_saves_as_unicode_is_read(run, tmp_path, mark, coding):
+def test_files_that_notepad_saves_as_unicode_are_read(run, tmp_path, mark, coding):
     for path in (JOB, SETTINGS, MARKS):
         (tmp_path / path.name).write_bytes(mark + path.read_text("utf-8").encode(coding))
         assert read_text(tmp_path / path.name) == path.read_text("utf-8")

@@ -83,7 +83,7 @@ def test_the_sheet_is_to_be_turned_back():
 
 
 @pytest.mark.parametrize(("turn", "said"), [(0.0001, 0), (-0.0001, 0), (0.0006, 1), (-0.0006, 1)])
-def test_a_turn_that_may_be_none_asks_for_nothing(turn, said):
+def test_a_rotation_that_may_be_zero_needs_no_action(turn, said):
     marks = marks_on(BELIEVED, BELIEVED, grid(5, 3), rotation=turn, noise=0.5)
     result = add(Inputs(BELIEVED, Measurements(marks)), effects=["chain_sag"])
     assert len(result.by_hand) == said

@@ -16,7 +16,7 @@ NOISE = 0.5  # [mm]
 
 
 def marks_of(wider, seed):
-    """What a tape reads of fifteen marks where the motors stand farther apart [mm] than is set."""
+    """Tape readings of fifteen marks where the motors stand farther apart [mm] than is set."""
     machine = TrueMachine(Hidden(), motor_gap=MAKER.motor_gap + wider)
     chains = chains_for(PLAN, MAKER)
     where = machine.read(chains, approaches=PLAN.approaches, weights=PLAN.sled_weights)
@@ -46,7 +46,7 @@ def test_a_machine_that_is_right_is_left_as_it_is_and_a_machine_that_is_off_is_n
 
 
 @pytest.mark.slow
-def test_of_a_hundred_machines_few_are_taken_for_what_they_are_not(capsys):
+def test_of_a_hundred_machines_few_are_misjudged(capsys):
     """How many are called good stands on the page of plumb calibrate."""
     good = {wider: good_of(wider, 100) for wider in (0.0, 1.0, 2.0)}
     with capsys.disabled():
@@ -54,7 +54,7 @@ def test_of_a_hundred_machines_few_are_taken_for_what_they_are_not(capsys):
     assert good[0.0] >= 95 and good[1.0] <= 5 and good[2.0] == 0
 
 
-def test_calibrate_says_that_nothing_is_to_be_done_and_ends(tmp_path, monkeypatch, capsys):
+def test_calibrate_ends_when_there_is_nothing_to_do(tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
     write_machine_toml("machine.toml", MAKER)
     (tmp_path / "marks.csv").write_text(csv_of(marks_of(0.0, 1)))

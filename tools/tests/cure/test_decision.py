@@ -60,7 +60,7 @@ def test_the_new_machine_leaves_nothing_to_prove_and_a_second_round_changes_noth
     assert again.state == "good" and again.done and again.addition is None
 
 
-def test_a_choice_is_said_to_be_one_with_what_would_settle_it():
+def test_a_choice_between_effects_is_named_with_a_measurement_that_settles_it():
     # On nine marks several effects draw nearly the same arrows.
     few = plan(3, 3)
     size = size_for("frame_flex", few, 3.0)
@@ -116,7 +116,7 @@ def test_a_known_effect_is_not_left_out_because_another_is_unknown():
     assert result.addition.after.left_out_rms < 0.7 * result.addition.before.left_out_rms
 
 
-def test_a_tape_that_reads_long_is_fitted_along_and_its_remedy_told():
+def test_a_tape_that_reads_long_is_fitted_and_its_remedy_named():
     result = decide(
         Inputs(MAKER, board({"tape_scale": 8.0}, WIDE, seed=9, noise=0.2, tape_sigma=0.2))
     )

@@ -1,4 +1,4 @@
-"""What no real machine has: plumb add and plumb diagnose judge a size alike."""
+"""Sizes that no real machine has: plumb add and plumb diagnose judge them alike."""
 
 from dataclasses import replace
 
@@ -52,7 +52,7 @@ def test_the_fit_and_the_diagnosis_agree_on_every_effect(share):
 
 
 @pytest.mark.parametrize("name", SIZED)
-def test_a_size_far_beyond_is_doubted_by_both(name):
+def test_add_and_diagnose_both_doubt_a_size_far_beyond_plausible(name):
     effect, _, parameter = name.partition(".")
     doubted = judged(board_with(name, 3.0), effect)
     assert doubted[parameter] == ((False, False), (False, False))

@@ -1,4 +1,4 @@
-"""Machines with several things wrong at once, and a little that nobody draws."""
+"""Machines with several effects at once, and a little that no effect draws."""
 
 from pathlib import Path
 
@@ -26,13 +26,13 @@ def test_three_effects_of_a_real_machine_are_named_and_written():
     assert result.done and result.addition.after.left_out_rms < 0.65
 
 
-def test_what_predicts_best_is_written_though_a_bump_acts_too():
+def test_the_best_predicting_effects_are_written_beside_a_bump():
     result = cured("several-11")
     assert {*result.named} == {"frame_flex", "sled_swing", "sheet_skew"}
     assert result.done and result.addition.after.left_out_rms < 0.35
 
 
-def test_what_nobody_draws_is_part_of_the_error_that_is_promised():
+def test_the_promised_error_includes_what_no_effect_draws():
     hidden = Hidden(((causes_of("chain_plane")[0], 2.5),), outside="bump", outside_mm=1.0)
     board = cut(hidden, plan(5, 5), seed=3, noise=0.2, tape_sigma=0.2)
     result = decide(Inputs(MAKER, board.measurements))

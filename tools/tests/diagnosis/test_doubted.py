@@ -19,7 +19,7 @@ def doubts(measurements, **how):
 
 
 @pytest.mark.parametrize("sigma", [None, 0.3])
-def test_a_reading_that_no_machine_explains_is_named_with_its_place_among_all(sigma):
+def test_a_reading_that_no_machine_explains_is_named_with_its_row(sigma):
     assert doubts(board(), sigma=sigma) == ()
     (doubt,) = doubts(read_elsewhere(board(), 8, (31.0, -22.0)), sigma=sigma)
     assert (doubt.index, doubt.is_mark) == (8, True)

@@ -1,4 +1,4 @@
-"""What every machine has: in each account as usual, and named only if the marks move it."""
+"""Effects that every machine has are part of each account, and named only if marks need them."""
 
 from dataclasses import replace
 
@@ -20,7 +20,7 @@ def half_likely(board):
     return replace(board, columns=columns)
 
 
-def test_half_of_all_chains_are_as_makers_sell_them():
+def test_half_of_all_chains_are_as_new():
     board = half_likely(made_up(pitch=0.4, least=(-np.inf,) * 4))
     accounts = accounts_of(board, 1)
     clean = clean_of(board, accounts, NOISES)
@@ -57,12 +57,12 @@ def test_the_settings_are_doubted_by_how_likely_they_make_the_readings(size):
 
 
 def clean(*, nominal=0.0, at_settings=0.0):
-    """What is said of three sets: the log share of nominal chains, the log ratio at settings."""
+    """The figures of three sets: the log share of nominal chains, the log ratio at settings."""
     return Clean(np.zeros(3), np.full(3, nominal), {0: np.full(3, at_settings)}, np.zeros(1))
 
 
 def asked(said):
-    """What the sets ask for."""
+    """The effects that the sets need."""
     board = half_likely(made_up(pitch=0.4))
     accounts = replace(accounts_of(board), effects=((), ("chain_plane",), (PITCH, "chain_stretch")))
     return asked_for(board, accounts, said, range(3))

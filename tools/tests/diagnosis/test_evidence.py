@@ -19,7 +19,7 @@ SIGMAS = np.array([0.3, 0.5, 1.1])
 
 
 def constant(board):
-    """What the engine leaves out of each density alike."""
+    """The constant that the engine leaves out of each density."""
     return len(board.read) / 2 * np.log(2 * np.pi)
 
 

@@ -21,7 +21,7 @@ def board_of(seed, *, columns=5, rows=3, noise=SIGMA, sigma=SIGMA):
     return Board.of(BELIEVED, observe(BELIEVED, Measurements(marks)), sigma=sigma)
 
 
-def test_it_is_what_fits_to_noise_alone_scatter_by():
+def test_the_error_of_a_fit_is_the_scatter_of_fits_to_noise():
     expected = expected_error(explain(board_of(1)))
     spots = np.stack(np.meshgrid(expected.x[::10], expected.y[::10]), axis=-1).reshape(-1, 2)
     missed = []

@@ -1,4 +1,4 @@
-"""What marks leave open of a machine's errors: a row settles little, however well it is fitted."""
+"""Tests of the error that marks leave open: a row of marks settles little."""
 
 from dataclasses import replace
 
@@ -26,7 +26,7 @@ def test_a_row_of_marks_leaves_too_much_open(columns, rows, is_too_much):
     assert open_of(plan(columns, rows)).is_too_much is is_too_much
 
 
-def test_distances_settle_the_shape_though_they_say_nothing_of_where_the_sheet_lies():
+def test_distances_settle_the_shape_but_not_the_sheets_place():
     by_places, by_spans = (open_of(plan(3, 3, spans=spans)) for spans in (False, True))
     assert by_spans.now < by_places.now and not by_spans.is_too_much
 
@@ -39,13 +39,13 @@ def test_better_readings_and_more_of_them_leave_less():
     assert open_of(plan(5, 5), noise=0.1).now > 0.1
 
 
-def test_before_anything_is_measured_it_is_what_is_normal():
+def test_before_any_mark_the_expected_error_is_the_normal_one():
     bare = replace(MAKER, effects={})
     normal = expected_error(bare, PRIORS)
     assert open_of(plan(3, 3), settings=bare).before == pytest.approx(normal.all_shape, rel=0.1)
 
 
-def test_nothing_is_fitted_to_too_little_by_any_door():
+def test_no_command_fits_too_few_marks():
     marks = cut(Hidden(), plan(3, 1), seed=3, settings=MAKER).measurements
     result = decide(Inputs(MAKER, marks))
     assert result.addition is None and result.chosen == () and not result.done

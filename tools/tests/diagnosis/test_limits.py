@@ -38,14 +38,14 @@ def test_a_limit_reaches_as_far_below_zero_as_above(effect):
         assert limit.largest == pytest.approx((4 + stats.norm.isf(0.05)) * sigma_of_size, rel=0.01)
 
 
-def test_a_limit_of_what_cannot_be_negative_is_its_upper_end():
+def test_the_limit_of_a_size_that_cannot_be_negative_is_its_upper_end():
     for sigmas, left in ((4.0, 4 + stats.norm.isf(0.05)), (-4.0, 0.0)):
         frame, sigma_of_size = pulled("chain_plane", sigmas)
         (limit,) = room_for("chain_plane", (frame,), STATED).limits
         assert limit.largest == pytest.approx(left * sigma_of_size, rel=0.01, abs=1e-12)
 
 
-def test_repeats_are_no_further_marks():
+def test_repeats_do_not_count_as_further_marks():
     twice = marks_on(BELIEVED, BELIEVED, grid(2, 1), noise=0.5)
     marks = twice + marks_on(BELIEVED, BELIEVED, grid(2, 1), noise=0.5, seed=2)
     marks += marks_on(BELIEVED, BELIEVED, grid(2, 1), noise=0.5, seed=3)

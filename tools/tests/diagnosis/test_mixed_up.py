@@ -96,7 +96,7 @@ def test_nothing_is_called_exchanged_without_need():
         assert diagnose(Inputs(BELIEVED, board(marks), sigma=0.3)).outliers == ()
 
 
-def test_y_errors_with_the_other_sign_are_found_out():
+def test_y_errors_with_the_wrong_sign_are_noticed():
     marks = [
         replace(mark, measured=(mark.measured[0], 2 * mark.target[1] - mark.measured[1]))
         for mark in marks_on(PITCH, BELIEVED, grid(5, 3), noise=0.3, seed=5)

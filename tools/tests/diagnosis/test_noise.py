@@ -79,7 +79,7 @@ def test_marks_move_what_was_stated_towards_what_they_scatter(stated, true):
 @pytest.mark.parametrize(
     ("off", "says"), [(0.95, ""), (1.05, "more"), (-1.05, "less"), (-0.95, "")]
 )
-def test_what_differs_from_what_was_stated_by_more_than_people_err_is_said(off, says):
+def test_noise_far_from_the_stated_noise_is_reported(off, says):
     stated = Stated(0.5)
     sigma = stated.sigma * np.exp(off * SURPRISING * STATED_SPREAD)
     sigmas = np.geomspace(0.05, 5.0, 4001)
@@ -91,12 +91,12 @@ def test_what_differs_from_what_was_stated_by_more_than_people_err_is_said(off, 
 # Lack of fit.
 
 
-def test_a_misfit_is_as_likely_as_chance_says_where_the_noise_is_known():
+def test_the_chance_of_a_misfit_is_uniform_where_the_noise_is_known():
     chances = [misfit_chance(explain(board_of(noise=0.5, seed=seed)), FINAL) for seed in range(60)]
     assert stats.kstest(chances, "uniform").pvalue > 0.01
 
 
-def test_noise_leaves_what_it_leaves_of_many_boards():
+def test_noise_leaves_the_same_error_as_on_many_boards():
     noise = Noise(0.5, KNOWN, "stated")
     left = [explain(board_of(noise=0.5, seed=seed)).rms ** 2 for seed in range(40)]
     said = left_by_noise(explain(board_of(noise=0.5)), noise)
@@ -106,7 +106,7 @@ def test_noise_leaves_what_it_leaves_of_many_boards():
     assert more < said
 
 
-def test_what_a_field_draws_is_no_noise():
+def test_a_field_does_not_count_as_noise():
     """Accounts without a field need a large noise here; those with a field the noise there is."""
     board = board_cut({}, plan(5, 5), seed=4, noise=0.5, tape_sigma=None, bump=4.0)
     diagnosis = diagnose(Inputs(MAKER, board.measurements))

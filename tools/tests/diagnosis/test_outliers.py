@@ -1,4 +1,4 @@
-"""What a slip most likely was, in words; and the pieces that only slow boards would feel."""
+"""Tests of the words for slips, and of parts that only slow boards use."""
 
 import numpy as np
 import pytest

@@ -57,7 +57,7 @@ def clean():
     return posterior_of(measured_board(Inputs(MAKER, measured)), FINAL)
 
 
-def test_all_that_may_be_holds_the_whole(clean):
+def test_chances_are_shares_of_all_that_may_be(clean):
     whole = (
         sum(np.exp([each.clean for each in clean.accounts]))
         + sum(np.exp([each.field for each in clean.accounts]))
@@ -84,7 +84,7 @@ def bare_posterior(layout, noise):
     return posterior_of(measured_board(Inputs(BARE, made)), Stated(noise, is_final=True))
 
 
-def test_what_every_machine_has_is_no_suspect_where_marks_say_nothing_of_it():
+def test_usual_effects_are_not_suspects_where_marks_do_not_show_them():
     # Settings without sag or stretch, and marks that are read too badly to tell.
     posterior = bare_posterior(NINE, 4.0)
     assert all(not {*each.account.effects} & {*EVERY_MACHINE} for each in posterior.listed())

@@ -58,7 +58,7 @@ def test_a_round_that_says_what_changed_goes_with_the_others(second, flag):
     )
 
 
-def test_alike_rounds_are_left_in_peace():
+def test_alike_rounds_raise_no_doubt():
     said = [
         diagnose(Inputs(BELIEVED, rounds(PITCH, seed), sigma=0.5)).disagreements
         for seed in range(9)
@@ -66,7 +66,7 @@ def test_alike_rounds_are_left_in_peace():
     assert said == [()] * 9
 
 
-def test_the_words_reach_the_user(run, file):
+def test_the_doubt_about_a_round_is_printed(run, file):
     lines = ['frame = "machine"', "tape_sigma_mm = 0.5"]
     paths = [file("machine.toml", machine_toml(BELIEVED))]
     for i, machine in enumerate((PITCH, SKIPPED)):

@@ -39,7 +39,7 @@ def board_of(measurements):
 
 
 @pytest.mark.parametrize("seed", range(3))
-def test_a_file_that_does_not_go_with_the_other_is_named(seed):
+def test_a_file_that_does_not_fit_the_other_is_named(seed):
     diagnosis = diagnose(Inputs(BELIEVED, two_files(SKIPPED, seed), sigma=SIGMA))
     assert diagnosis.verdict == "not_in_library" and diagnosis.outliers == ()
     (said,) = diagnosis.disagreements
@@ -49,7 +49,7 @@ def test_a_file_that_does_not_go_with_the_other_is_named(seed):
     assert alike.disagreements == () and alike.suspects[:1] == ("chain_pitch",)
 
 
-def test_what_changed_between_files_moves_the_later_alone():
+def test_a_change_between_files_moves_only_the_later_one():
     moves = moved_rounds(explain(board_of(two_files(PITCH))))
     assert {(move.number, move.cause) for move in moves} == {(1, "chains_rezeroed"), (1, "")}
     for move in moves:
@@ -60,7 +60,7 @@ def test_what_changed_between_files_moves_the_later_alone():
 
 
 @pytest.mark.parametrize("seed", range(4))
-def test_what_changed_between_files_is_no_exchange_of_readings(seed):
+def test_a_change_between_files_is_not_called_an_exchange_of_readings(seed):
     assert find_mixed_up(board_of(two_files(SKIPPED, seed))).pairs == ()
     both = two_files(PITCH, seed)
     spans = list(both.distances)

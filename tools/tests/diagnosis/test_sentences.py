@@ -1,4 +1,4 @@
-"""What a verdict says: forty words, two causes in its first sentence, odds as people say them."""
+"""Tests of a verdict's words: at most forty, two causes in the first sentence, plain odds."""
 
 from types import SimpleNamespace
 
@@ -61,7 +61,7 @@ def test_no_first_sentence_names_more_than_two_causes(sure):
     )
 
 
-def test_what_the_library_does_not_know_is_said_with_its_odds():
+def test_an_unknown_cause_is_named_with_its_odds():
     does = "The machine does something that the library does not know: the odds are 4 to 1."
     assert said_of("not_in_library", field=0.8).startswith(f"{does} With the frame fitted 2.00 mm")
     assert said_of("not_in_library", account("chain_sag"), field=0.3) == (

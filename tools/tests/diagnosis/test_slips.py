@@ -28,7 +28,7 @@ def test_two_hidden_effects_hide_no_slip(length):
 
 
 @pytest.mark.parametrize("seed", range(3))
-def test_a_bump_of_several_marks_is_no_slip_and_its_place_is_said(seed):
+def test_a_bump_of_several_marks_is_not_a_slip_and_its_place_is_named(seed):
     board = cut(Hidden(outside="bump", outside_mm=1.0), plan(5, 5), seed=seed)
     diagnosis = diagnose(Inputs(MAKER, board.measurements))
     assert diagnosis.verdict == "not_in_library" and not diagnosis.outliers
@@ -49,7 +49,7 @@ def test_two_effects_are_named_beside_a_bump(names, seed):
     assert {*diagnosis.likely} >= {*names} and diagnosis.is_finding
 
 
-def test_what_a_later_round_confirms_is_the_machine():
+def test_an_error_confirmed_by_a_later_round_is_not_a_slip():
     board = cut(Hidden(), plan(5, 5), seed=2, noise=0.4, tape_sigma=0.4)
     slipped = read_elsewhere(board.measurements, 7, (5.0, 0.0))
     assert diagnose(Inputs(MAKER, slipped)).verdict == "slip"

@@ -17,7 +17,7 @@ TWICE = Hidden(((causes_of("chain_pitch")[1], 1.5), (causes_of("chain_stretch")[
 
 
 @pytest.mark.parametrize("tape_sigma", [None, 0.4])
-def test_a_slip_of_a_repeat_is_no_noise_whatever_is_hidden(tape_sigma):
+def test_a_slip_in_a_repeat_does_not_count_as_noise(tape_sigma):
     board = cut(TWICE, plan(5, 5, repeats=True), seed=3, noise=0.4, tape_sigma=tape_sigma)
     slipped = read_elsewhere(board.measurements, len(board.measurements.marks) - 2, (10.0, 0.0))
     diagnosis = diagnose(Inputs(MAKER, slipped))
@@ -52,7 +52,7 @@ def test_of_two_readings_the_one_off_the_frame_is_named_and_both_are_doubted():
     assert "its other reading may be the wrong one" in diagnosis.outliers[0].sentence
 
 
-def test_repeated_distances_are_looked_at_too():
+def test_repeated_distances_are_checked_too():
     board = cut(Hidden(), plan(3, 3, spans=True, repeats=True), seed=4, noise=0.4, tape_sigma=0.4)
     spans = list(board.measurements.distances)
     spans[-1] = Distance(spans[-1].between, spans[-1].length + 9.0)

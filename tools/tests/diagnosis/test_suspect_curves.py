@@ -29,7 +29,7 @@ def stretched():
     return frame, explain(board, ("chain_pitch", "chain_stretch"), start=frame)
 
 
-def test_what_the_frame_leaves_is_what_the_suspect_adds_and_what_it_leaves(stretched):
+def test_the_suspects_share_and_the_rest_add_up_to_what_the_frame_leaves(stretched):
     frame, both = stretched
     rows = frame.board.rows
     added = suspect_curves(frame, both, rows).chains

@@ -61,15 +61,13 @@ def test_an_outlier_comes_before_all_else(monkeypatch):
 
 @pytest.mark.parametrize(("chance", "is_beyond"), both(UNKNOWN))
 @pytest.mark.parametrize("what", ["field", "moved"])
-def test_what_the_library_does_not_know_is_said_once_it_is_likely_enough(
-    what, chance, is_beyond, monkeypatch
-):
+def test_an_unknown_cause_is_named_once_it_is_likely_enough(what, chance, is_beyond, monkeypatch):
     said = judged({("a",): 0.99, (): 0.01}, monkeypatch, **{what: chance})
     assert said.verdict == ("not_in_library" if is_beyond else "one_suspect")
 
 
 @pytest.mark.parametrize(("chance", "is_beyond"), both(MISFIT))
-def test_more_than_noise_ever_leaves_is_the_last_guard(chance, is_beyond, monkeypatch):
+def test_an_error_larger_than_noise_ever_leaves_is_the_last_guard(chance, is_beyond, monkeypatch):
     said = judged({("a",): 0.99, (): 0.01}, monkeypatch, misfit=chance)
     assert said.verdict == ("one_suspect" if is_beyond else "not_in_library")
     assert said.best.effects == ("a",)  # and what pays is added all the same
@@ -88,9 +86,7 @@ def test_nothing_is_named_where_nothing_is_likely_enough(chance, is_beyond, monk
 
 
 @pytest.mark.parametrize(("chance", "is_beyond"), both(LIKELIER))
-def test_what_is_likelier_than_not_is_gone_on_with_though_it_is_not_named(
-    chance, is_beyond, monkeypatch
-):
+def test_effects_more_likely_than_not_are_used_though_not_named(chance, is_beyond, monkeypatch):
     said = judged({("a",): chance, (): 1 - chance}, monkeypatch)
     assert (said.verdict, said.listed) == ("nothing_provable", ())
     assert said.best.effects == (("a",) if is_beyond else ())

@@ -66,7 +66,7 @@ def test_a_line_cut_anywhere_is_noticed_and_spoils_no_other(tmp_path, kept):
 @pytest.mark.parametrize(
     "change", [(b'"number": 1', b'"number": 7'), (b'"kind": "fit"', b'"kind": "fat"')]
 )
-def test_a_line_that_somebody_changed_does_not_count(tmp_path, change):
+def test_an_edited_line_does_not_count(tmp_path, change):
     for number in range(3):
         append(tmp_path, "fit", {"number": number})
     lines = lines_of(tmp_path)

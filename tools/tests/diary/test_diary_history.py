@@ -1,4 +1,4 @@
-"""What a diary keeps of fits, and what it shows of them over time."""
+"""Tests of the fits in a diary, and of their history."""
 
 from dataclasses import replace
 from datetime import UTC, datetime
@@ -135,7 +135,7 @@ def entry_with(**content):
         ("slip", {"sentence": "No chain slipped."}, "No chain slipped."),
     ],
 )
-def test_what_was_done_has_its_words(kind, content, said):
+def test_each_kind_of_entry_has_its_words(kind, content, said):
     assert noted(Entry(kind, FIRST, content)) == said
 
 
@@ -153,7 +153,7 @@ def test_an_entry_is_kept_next_to_the_file_of_a_machine(tmp_path):
     assert len(read_diary(tmp_path).entries) == 2
 
 
-def test_a_diary_that_takes_no_entry_is_a_sentence_and_no_refusal(tmp_path):
+def test_a_diary_that_cannot_be_written_is_a_warning(tmp_path):
     machine = tmp_path / "machine.toml"
     machine.write_text("")
     (tmp_path / NAME).mkdir()

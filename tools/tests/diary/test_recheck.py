@@ -87,7 +87,7 @@ def test_a_motor_that_moved_is_among_what_explains_it(machine):
     assert gap.explains and gap.size == pytest.approx(8.0, abs=3 * gap.sigma)
 
 
-def test_what_the_fit_knew_less_well_is_expected_to_be_farther_off(machine):
+def test_less_certain_numbers_allow_larger_errors(machine):
     settings, diary = machine
     checked = recheck(diary, settings, touched(settings))
     assert (checked.expected > 3.03 * 0.5).all() and (checked.expected < 6).all()

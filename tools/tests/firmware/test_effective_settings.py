@@ -1,4 +1,4 @@
-"""What the published numbers mean in this firmware: the chains that the published one pays out."""
+"""The published numbers mean the chains that the published firmware pays out."""
 
 from dataclasses import replace
 
@@ -88,7 +88,7 @@ def test_elasticity_and_sled_weight_of_webcontrol_are_ours():
         ({180: 0.5}, r"\$180 must be from -0.008 to 0.013"),
     ],
 )
-def test_what_the_firmware_refuses_is_refused_in_its_words(numbers, said):
+def test_refusals_of_the_firmware_keep_its_words(numbers, said):
     with pytest.raises(ValueError, match=said):
         machine_of(numbers, sheet=SHEET)
 

@@ -94,7 +94,7 @@ def test_the_processor_sleeps_where_the_main_program_waits(hard):
     assert hard["sleep_share_moving"] >= 0.44
 
 
-def test_the_firmware_tells_how_it_is_doing(hard):
+def test_the_firmware_reports_its_health(hard):
     # The last of two questions: since the first.
     longest_us = hard["longest_tick_streaming"] / 16
     assert longest_us - 20 <= hard["said_tick_0"] <= longest_us + 200  # it counts its delay, too

@@ -10,7 +10,7 @@ WELL = (
 
 
 def looks(fields, rate_hz=100):
-    """What deserves a look, by the last line of an answer."""
+    """The warnings for the last line of an answer."""
     return [*warnings(telemetry_in(f"B30\n[Telemetry|{fields}]\nok\n"), rate_hz=rate_hz)]
 
 
@@ -63,7 +63,7 @@ def test_the_bound_of_a_tick_follows_the_rate():
         ("0,2", "right,5,-6,7300", "2 hours ago"),
     ],
 )
-def test_a_chain_that_may_have_slipped_is_to_be_looked_at(slips, last, hint):
+def test_a_chain_that_may_have_slipped_is_a_warning(slips, last, hint):
     (warning,) = looks(WELL.replace("slips:0,0", f"slips:{slips}").replace("none,0,0,0", last))
     assert hint in warning
 
@@ -86,5 +86,5 @@ def test_the_last_line_of_an_answer_counts():
         WELL.replace("|slipped:none,0,0,0", ""),
     ],
 )
-def test_a_damaged_line_is_no_telemetry(fields):
+def test_a_damaged_line_is_ignored(fields):
     assert telemetry_in(f"[Telemetry|{fields}]") is None

@@ -37,11 +37,11 @@ ABSURD = [
 
 
 @pytest.mark.parametrize("check", POSSIBLE)
-def test_what_is_odd_but_possible_is_taken(check):
+def test_odd_but_possible_values_are_accepted(check):
     refuse_absurd([Checked(*check)], MACHINE)
 
 
 @pytest.mark.parametrize("check", ABSURD)
-def test_what_no_machine_has_is_refused(check):
+def test_values_that_no_machine_has_are_refused(check):
     with pytest.raises(InputError, match=f"--checked {check[0]}="):
         refuse_absurd([Checked(*POSSIBLE[0]), Checked(*check)], MACHINE)

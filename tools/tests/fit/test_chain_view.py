@@ -45,7 +45,7 @@ def test_a_longer_chain_errs_with_its_length():
     assert np.abs(view.chains[:, 1]).max() < 0.01
 
 
-def test_it_is_what_compare_says():
+def test_chain_errors_are_those_of_compare():
     marks = Measurements(marks_on(TRUE, BELIEVED, grid(5, 3), rotation=0.001, noise=0.5))
     compared = compare(Inputs(BELIEVED, marks)).marks
     said = [(mark.left_chain_residual, mark.right_chain_residual) for mark in compared]

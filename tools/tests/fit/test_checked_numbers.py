@@ -52,7 +52,7 @@ def test_checks_of_what_is_not_fitted_do_not_count():
     assert "chain_pitch.right" in [each.name for each in one_held.estimates]
 
 
-def test_what_no_setting_holds_can_be_held_too():
+def test_sizes_without_a_setting_can_be_held_too():
     free = fitted(effects=["tape_scale"])
     held = fitted(held={"tape_scale.strain": 0.002})
     assert held.lab_effects == {"tape_scale": {"strain": 0.002}}
@@ -60,7 +60,7 @@ def test_what_no_setting_holds_can_be_held_too():
     assert held.rms != pytest.approx(fitted().rms, rel=0.05)
 
 
-def test_a_search_that_begins_at_another_fit_finds_the_least_all_the_same():
+def test_a_search_from_another_fit_finds_the_same_minimum():
     moved = observe(BELIEVED, Measurements(marks_on(TRUE, BELIEVED, grid(4, 3), noise=0.3, seed=9)))
     elsewhere = fit(BELIEVED, moved, sigma=0.3)
     cold = fitted(effects=["chain_pitch"])

@@ -1,4 +1,4 @@
-"""How far off marks will be before anything is measured."""
+"""Tests of the expected error of marks before anything is measured."""
 
 from dataclasses import replace
 
@@ -25,7 +25,7 @@ TYPICAL = {name: words["typical"] for name, words in parameter_words().items() i
 
 
 def moved_by(**wrong):
-    """How far a machine with these numbers is off at each place (n, 2) [mm]."""
+    """The error of a machine with these numbers at each place (n, 2) [mm]."""
     chains, outcome = lengths(BELIEVED, AT)
     where, reached = places(replace(BELIEVED, **wrong), chains)
     assert (outcome == FOUND).all() and (reached == FOUND).all()
@@ -68,7 +68,7 @@ def test_places_reach_all_over_the_sheet():
     assert expected_anywhere(BELIEVED, PRIORS) == by_places
 
 
-def test_what_an_owner_knows_replaces_what_is_usual():
+def test_known_numbers_replace_the_usual_ones():
     usual = expected_priors({})
     assert usual == {**PRIORS, **WIDE}
     known = expected_priors({"motor_gap": 0.5, "sled_weight": 1.0, "chain_pitch.left": 1e-4})

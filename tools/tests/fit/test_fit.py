@@ -105,7 +105,7 @@ def measured_minus_predicted(fitted, board: Measurements, i: int) -> np.ndarray:
     return rows.measured[i] - where[i] @ np.array([[cosine, sine], [-sine, cosine]])
 
 
-def test_intervals_hold_the_truth_about_as_often_as_they_say():
+def test_intervals_hold_the_truth_about_as_often_as_stated():
     inside = []
     for seed in range(40):
         marks = marks_on(TRUE, BELIEVED, grid(5, 3), noise=0.5, seed=seed)
@@ -115,7 +115,7 @@ def test_intervals_hold_the_truth_about_as_often_as_they_say():
     assert 0.86 < np.mean(inside) <= 1.0
 
 
-def test_a_prior_that_is_wider_than_the_marks_say_does_not_make_its_number_surer():
+def test_a_wider_prior_does_not_narrow_an_interval():
     quiet, loud = (
         fit(
             BELIEVED,

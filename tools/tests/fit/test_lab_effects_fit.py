@@ -62,7 +62,7 @@ def test_all_are_found_at_once_beside_those_of_the_machine():
     assert fitted.settings.effect("chain_pitch", "left") == pytest.approx(0.0021, rel=0.02)
 
 
-def test_a_lab_effect_is_told_with_its_cure_and_pays():
+def test_a_lab_effect_is_named_with_its_cure_and_pays():
     board = Measurements(marks({"tape_scale": {"strain": 0.001}}, noise=0.1), source="marks.toml")
     result = add(Inputs(BELIEVED, board), effects=[*EFFECTS, "tape_scale"])
     assert result.pays and result.effects_added == (*EFFECTS, "tape_scale")

@@ -52,7 +52,7 @@ def test_it_lowers_the_error_at_marks_that_it_never_saw(kind):
     assert np.mean(after) < 0.6 * np.mean(before)
 
 
-def test_where_nothing_is_left_it_buys_nothing_and_is_not_added():
+def test_it_is_not_added_where_nothing_is_left():
     added = 0
     for seed in range(12):
         clean = board({}, plan(5, 5), seed=seed)

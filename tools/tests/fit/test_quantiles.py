@@ -12,7 +12,7 @@ def inside(errors, noise_rms):
     return not quantiles(errors, noise_rms).beyond.any()
 
 
-def test_noise_stays_in_the_band_as_often_as_is_said():
+def test_noise_stays_in_the_band_as_often_as_stated():
     noise = np.random.default_rng(7)
     boards = [noise.normal(0, 0.4, (MARKS, 2)) for _ in range(4000)]
     placed = [quantiles(errors, 0.4 * np.sqrt(2)) for errors in boards]

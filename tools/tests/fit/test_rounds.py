@@ -59,7 +59,7 @@ def test_the_sheet_of_those_settings_is_the_one_that_edges_are_counted_from(file
         ("newsheet = true", "did you mean new_sheet"),
     ],
 )
-def test_what_a_round_cannot_mean_is_refused(file, line, complaint):
+def test_a_contradictory_round_is_refused(file, line, complaint):
     with pytest.raises(InputError, match=complaint):
         read_marks(file("m.toml", MARKS.format(line)), sheet=SHEET)
 
@@ -125,7 +125,7 @@ def test_chains_zeroed_anew_get_zeros_of_their_own():
     assert fit(model, rows, sigma=0.05).rms > 1.0
 
 
-def test_another_sheet_lies_where_it_lies():
+def test_another_sheet_has_its_own_place():
     later = moved(marks_on(TRUE, BELIEVED, grid(3, 3)), (4.0, -7.0), 0.003)
     both = two_rounds(later, new_sheet=True)
     model, rows = model_and_observations(TRUE, both, cut_with=BELIEVED)
@@ -150,7 +150,7 @@ def test_a_round_of_its_own_zeros_does_not_hide_the_effect():
     assert diagnosis.explanations[0].rms_after < 0.6
 
 
-def test_add_says_what_the_numbers_of_a_round_mean(run, file):
+def test_add_explains_the_numbers_of_a_round(run, file):
     paths = [file("machine.toml", machine_toml(BELIEVED))]
     for name, machine, line in (
         ("may", TRUE, ""),

@@ -1,4 +1,4 @@
-"""How the sheet is turned: what a fit says of it, and when it is proved."""
+"""Tests of the sheet's rotation: what a fit says of it, and when it is proved."""
 
 import pytest
 from plumb.fit.fit import fit

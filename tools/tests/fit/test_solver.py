@@ -77,7 +77,7 @@ def test_a_start_where_the_sled_cannot_hang_is_refused():
         settled_at(Curve(lambda x: -x, lambda x: 1.0, hangs=lambda x: False))
 
 
-def test_it_says_when_no_step_helps():
+def test_it_reports_that_no_step_helps():
     wrong_way = Curve(lambda x: -x, lambda x: -1.0)
     assert settled_at(wrong_way) == (False, STARTED_AT)
 

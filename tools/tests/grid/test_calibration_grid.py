@@ -191,12 +191,12 @@ MACHINES = [
 
 
 @pytest.mark.parametrize("numbers, hint", MACHINES)
-def test_a_machine_that_cannot_make_the_grid_is_told_why(numbers, hint):
+def test_a_grid_that_the_machine_cannot_make_is_refused_with_the_reason(numbers, hint):
     with pytest.raises(grids.GridError, match=re.escape(hint)):
         gcode(grids.PlainMachine(**numbers))
 
 
-def test_the_way_between_two_corners_is_checked_too():
+def test_the_path_between_two_corners_is_checked_too():
     heavy, corners = grids.PlainMachine(sled_weight_n=136), ((-1100.0, 565.0), (1100.0, 565.0))
     for corner in corners:
         assert gcode(heavy, places=(corner,), repeats=False)

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 
-def test_places_are_cut_in_their_order_and_nothing_else(run):
+def test_only_the_given_places_are_cut_in_their_order(run):
     code, said, _ = run("grid", "--places=-900.5,400 900,420 0,-400")
     assert code == 0 and "(pattern: places, 3 marks with repeats)" in said
     cut = [line for line in said.splitlines() if line.startswith("G1 X")]
@@ -21,7 +21,7 @@ def test_places_are_cut_in_their_order_and_nothing_else(run):
         (["--places=0,0", "--margin", "3"], "--margin is of marks in columns and rows"),
     ],
 )
-def test_places_that_cannot_be_are_refused(words, hint, run):
+def test_impossible_places_are_refused(words, hint, run):
     code, said, complaint = run("grid", *words)
     assert code == 2 and said == "" and hint in complaint
 

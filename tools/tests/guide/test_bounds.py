@@ -1,4 +1,4 @@
-"""What the guide takes for an answer, keeps, and calls normal."""
+"""Tests of the answers that the guide accepts, keeps and calls normal."""
 
 import pytest
 from plumb.fit.expected import expected_anywhere, expected_priors, expected_sentence

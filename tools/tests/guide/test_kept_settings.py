@@ -15,7 +15,7 @@ def names(path):
     return sorted(each.name for each in path.parent.iterdir())
 
 
-def test_what_is_replaced_is_kept_once(path):
+def test_a_replaced_file_is_kept_once(path):
     keep_other(path, b"second")
     keep_other(path, b"second")
     assert names(path) == ["machine-old.toml", "machine.toml"]

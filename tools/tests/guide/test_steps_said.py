@@ -1,4 +1,4 @@
-"""What a step of the guide sends, and how it takes an answer, an alarm and a place that is off."""
+"""Tests of a step of the guide: its lines, answers, alarms, and places that are off."""
 
 from types import SimpleNamespace
 
@@ -61,7 +61,7 @@ def test_an_alarm_while_a_chain_is_paid_out_ends_the_step(tmp_path, numbers):
 @pytest.mark.parametrize(
     "answers", [["0", "0", "n"], ["0", "0", "y", "n"], ["0", "0", "y", "y", "n"]]
 )
-def test_what_was_not_agreed_to_is_not_sent(tmp_path, numbers, answers):
+def test_nothing_is_sent_without_consent(tmp_path, numbers, answers):
     visit = Sent(tmp_path, answers)
     assert not set_chains(visit) and visit.sent == PAY_OUT[: len(answers) - 3]
 
@@ -88,12 +88,12 @@ def test_a_mark_is_made_only_in_the_middle(tmp_path, numbers, place, is_there):
 
 
 @pytest.mark.parametrize("answers", [["n"], ["y", "n"]])
-def test_a_mark_that_was_not_agreed_to_is_not_made(tmp_path, numbers, answers):
+def test_no_mark_is_made_without_consent(tmp_path, numbers, answers):
     visit = Sent(tmp_path, answers)
     assert not first_mark(visit) and visit.sent == ["B15"][: len(answers) - 1]
 
 
-def test_a_sled_on_brackets_is_none_of_the_labs(tmp_path):
+def test_a_sled_on_brackets_is_refused(tmp_path):
     visit = Sent(tmp_path, ["b"])
     kept = visit.path.read_bytes()
     assert not tell_numbers(visit) and "brackets tilt the sled" in visit.said[-1]

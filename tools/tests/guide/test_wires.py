@@ -1,4 +1,4 @@
-"""What a jog of a virtual machine with a fault in its wires makes the guide say."""
+"""The guide's words after a jog of a virtual machine with a fault in its wires."""
 
 import pytest
 from plumb.bench.causes import Hidden
@@ -16,7 +16,7 @@ MOVED = 0.5  # [mm] that an owner sees
 
 
 def jogged(tmp_path, side, *faults):
-    """What an owner sees of a jog, and what the machine says."""
+    """The motion that an owner sees in a jog, and the machine's words."""
     machine = Garage(Hidden()).machine()
     for fault in faults:
         machine.set_wire(side, fault, True)
@@ -107,7 +107,7 @@ def test_a_fault_of_z_is_named_before_it_has_gone_far(tmp_path, faults):
 @pytest.mark.parametrize(
     "faults", [each for each in Z_FAULTS if "reversed" in str(each)], ids="-".join
 )
-def test_z_rises_when_what_was_named_is_done(tmp_path, faults):
+def test_z_rises_once_the_named_wire_is_swapped(tmp_path, faults):
     day = FirstDay(tmp_path, faults)
     day.check()
     if len(faults) == 1:
@@ -119,7 +119,7 @@ def test_z_rises_when_what_was_named_is_done(tmp_path, faults):
 
 
 @pytest.mark.parametrize("fault", ["motor_reversed", "encoder_reversed"])
-def test_an_owner_who_saw_nothing_is_led_to_the_cure_all_the_same(tmp_path, fault):
+def test_an_owner_who_saw_nothing_is_still_led_to_the_cure(tmp_path, fault):
     day = FirstDay(tmp_path, (fault,), sees=0.5)
     assert "are swapped, or its encoder counts backwards" in day.check()[1]
     # He exchanges the power wires, which was wrong if it was the encoder.
@@ -132,7 +132,7 @@ def test_an_owner_who_saw_nothing_is_led_to_the_cure_all_the_same(tmp_path, faul
         assert day.check() == (True, "")
 
 
-def test_what_ran_away_is_not_called_good(tmp_path):
+def test_a_motor_that_ran_away_is_not_called_good(tmp_path):
     day = FirstDay(tmp_path, ())
     day.sender.stream(["$33=0"])
     done, said = day.check()

@@ -36,7 +36,7 @@ def fitted_machine(number):
 
 
 def touched(number, *, links=NO_LINKS, moved=(0.0, 0.0), seed, holes=HOLES):
-    """What the owner of a machine writes down with the bit in its holes; moved: one sigma of the
+    """The touches that the owner of a machine writes down; moved: one sigma of the
     sheet's shift [mm] and turn [rad].
     """
     (true, settings), source = fitted_machine(number), np.random.default_rng(seed)

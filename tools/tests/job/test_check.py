@@ -50,7 +50,7 @@ def lines_and_kinds(lines):
         (["G1 Z-1 F100", "G2 X10 Y0 R0"], 2, "R0 is the radius of no arc"),
     ],
 )
-def test_a_feed_or_an_arc_that_nobody_can_mean_is_wrong(lines, line, says):
+def test_an_absurd_feed_or_arc_is_wrong(lines, line, says):
     (finding,) = check_job(MAKER, ["G0 Z5", *lines]).findings
     assert finding.is_wrong and finding.line == line + 1 and says in finding.says
 
@@ -110,7 +110,7 @@ def test_a_limit_that_slows_the_sled_is_named(lines, cause, asked, feed):
         assert slower[0].feed == pytest.approx(feed, rel=0.02)
 
 
-def test_times_are_told_as_the_feeds_ask_and_as_the_cap_allows():
+def test_times_are_given_for_the_programmed_feeds_and_the_limit():
     lines = [
         "G0 Z3",
         "G0 X0 Y0",
@@ -214,13 +214,13 @@ def test_a_hundred_thousand_lines_are_checked_and_the_share_that_is_done_grows()
     assert shares == sorted(shares) and 20 < len(shares) < 200 and shares[-1] == 1
 
 
-def test_a_program_that_is_looked_at_in_pieces_has_the_same_answers(ask, monkeypatch):
+def test_checking_a_program_in_pieces_gives_the_same_answers(ask, monkeypatch):
     whole = ask("check", POCKET, SETTINGS, "--marks", MARKS)
     monkeypatch.setattr("plumb.job.dry_run.BLOCK", 7)
     assert ask("check", POCKET, SETTINGS, "--marks", MARKS) == whole
 
 
-def test_the_command_says_all_of_it(ask, run, tmp_path):
+def test_the_command_prints_all_findings(ask, run, tmp_path):
     picture, outline = tmp_path / "job.svg", tmp_path / "outline.nc"
     code, answer = ask(
         "check", POCKET, SETTINGS, "--marks", MARKS, "--picture", picture, "--outline", outline

@@ -33,7 +33,7 @@ def test_time_and_cut_are_those_of_the_virtual_machine(name):
     assert off.max() < APART
 
 
-def test_each_program_says_where_it_goes():
+def test_each_program_has_its_places():
     assert len(NAMES) == 13
     for name in NAMES:
         rows = [

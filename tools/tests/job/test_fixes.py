@@ -66,7 +66,7 @@ def assert_cuts_the_same(lines, others):
     assert these.piece.removed > 100
 
 
-def test_a_program_of_fusion_runs_and_cuts_what_it_means():
+def test_a_fusion_program_runs_and_cuts_as_intended():
     mended = fix(FUSION)
     assert [each.line for each in mended.changes] == [4, 15, 21, 23]
     assert len(mended.lines) == len(FUSION)
@@ -77,7 +77,7 @@ def test_a_program_of_fusion_runs_and_cuts_what_it_means():
     assert fix(mended.lines) == type(mended)(mended.lines, ())
 
 
-def test_a_retract_behind_holes_leaves_no_motion_in_force_and_keeps_what_else_its_line_says():
+def test_a_retract_after_holes_cancels_the_motion_and_keeps_the_rest_of_its_line():
     lines = ["G0 Z3", "G81 X9 Z-4 R2 F200", "G80", "G28 G91 Z0 S9000 T2", "G90", "X20", "G0 X0"]
     mended = fix(lines)
     # A program that stays low gets the height that the check takes for clear.
@@ -87,7 +87,7 @@ def test_a_retract_behind_holes_leaves_no_motion_in_force_and_keeps_what_else_it
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_a_program_that_runs_stays(name):
+def test_a_program_that_runs_is_not_changed(name):
     assert fix(lines_of(name)).changes == ()
 
 
@@ -96,7 +96,7 @@ def test_a_program_that_runs_stays(name):
     [
         # What is no habit that is known.
         ("line 2: cannot be fixed: G41 D1", ["G0 Z5", "G41 D1", "G1 Z-1 F200", "X5", "G0 Z5"]),
-        # The program counts on from a home that nobody knows.
+        # The program counts on from an unknown home.
         ("line 4", ["G0 Z5", "G28 X0 Y0", "G91", "G1 X5 Y5 Z-7 F300", "G90 G0 Z5"]),
         ("line 3", ["G0 Z5", "G91 G28 Z0", "G1 Z-12 F300", "X9", "G90 G0 Z5"]),
         ("line 4", ["G0 Z5", "G28 G91 X0 Y0", "G90 X5", "G1 Z-2 F300", "X9", "G0 Z5"]),
@@ -104,19 +104,19 @@ def test_a_program_that_runs_stays(name):
         ("line 3", ["G0 X9", "G1 Z-3 F300", "G28 X0 Y0", "G0 Z5"]),
         # In the middle of a cycle, which the way home may end or not.
         ("line 3", ["G0 Z5", "G81 X9 Z-3 R2 F200", "G28 G91 Z0", "G90 G80", "G0 Z5"]),
-        # Behind G80 a place in the wood, and one of which nobody knows how it moves.
+        # After G80 a place in the wood, and one without a motion in force.
         ("line 3", ["G81 X9 Z-3 R2 F200", "G80", "Z-4", "G0 Z5"]),
         ("line 4", ["G1 Z3 F300", "G81 X9 Z-3 R2 F200", "G80", "X20", "G0 Z5"]),
     ],
 )
-def test_what_has_no_equal_is_refused_in_a_line(says, lines):
+def test_a_line_without_an_equivalent_is_refused(says, lines):
     with pytest.raises(InputError) as refused:
         fix(lines)
     assert says in str(refused.value) and "\n" not in str(refused.value)
     assert str(refused.value).startswith("job.nc, line")
 
 
-def test_the_command_writes_it_lists_it_and_refuses_without_writing(tmp_path, capsys, monkeypatch):
+def test_the_command_writes_lists_or_refuses_the_changes(tmp_path, capsys, monkeypatch):
     monkeypatch.chdir(tmp_path)
     write_machine_toml("machine.toml", MAKER)
     (tmp_path / "job.nc").write_text("\n".join(FUSION))
@@ -142,7 +142,7 @@ def test_the_command_writes_it_lists_it_and_refuses_without_writing(tmp_path, ca
         ("G83 X10 Y10 Z-3 R1 Q0. F100", "G81 X10 Y10 Z-3 R1 F100"),
     ],
 )
-def test_holes_that_this_machine_pecks_otherwise_are_drilled(line, meant):
+def test_chip_breaking_cycles_become_cycles_of_this_machine(line, meant):
     program = ["G0 Z5", line, "X30", "G80", "G0 Z5"]
     mended = fix(program)
     assert list(mended.lines) == ["G0 Z5", meant, *program[2:]]

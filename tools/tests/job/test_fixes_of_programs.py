@@ -48,7 +48,7 @@ def with_lines_put_in(lines, put_in):
 
 
 def piece_of(lines):
-    """What the dry run cuts of the wood, and the deepest cut [mm]."""
+    """The wood that the dry run cuts, and the deepest cut [mm]."""
     checked = check_job(MAKER, lines, tools=Tools.of(lines))
     assert checked.done.halted_at is None
     return checked.piece
@@ -56,7 +56,7 @@ def piece_of(lines):
 
 @pytest.mark.parametrize("habit", HABITS)
 @pytest.mark.parametrize("name", NAMES)
-def test_a_fixed_program_cuts_the_wood_of_the_program_that_is_meant(name, habit):
+def test_a_fixed_program_cuts_the_same_wood(name, habit):
     foreign, plain = HABITS[habit]
     lines = lines_of(name)
     spoilt, count = with_lines_put_in(lines, foreign)

@@ -103,7 +103,7 @@ class Workshop:
 
 
 @pytest.mark.parametrize("seed", [1, 2, 3])
-def test_a_lost_position_is_back_with_the_bit_in_the_hole(seed):
+def test_a_lost_position_is_restored_with_the_bit_in_the_hole(seed):
     workshop, source = Workshop(seed), np.random.default_rng(seed)
     marks = {
         name: new_home_mark(MAKER, name, place)

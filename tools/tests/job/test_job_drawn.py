@@ -34,13 +34,13 @@ def test_the_piece_is_shaded_by_its_depth_and_seen_whole():
 SLOT = ("G0 Z3", "G0 X100 Y50", "G1 Z-1 F60", "G1 X140 F600", "G0 Z3")
 
 
-def test_what_is_wrong_is_drawn_so():
+def test_faults_are_drawn_in_their_colour():
     sheet, _ = drawn(*SLOT, "G0 Z-1", "G0 X160", "G0 Z3")
     assert sheet.title == "job.nc: something is wrong" and not sheet.good
     assert ends(sheet.ways[-1]) == [(160.0, 50.0)] and sheet.ways[-1].colour == WRONG
 
 
-def test_a_cut_where_the_sled_hangs_badly_is_wrong_and_a_way_above_it_is_not():
+def test_a_cut_where_the_sled_hangs_badly_is_wrong_but_a_move_above_the_sheet_is_not():
     corner = ("G0 X-1215 Y-600", "G1 Z-1 F60", "G1 X-1200 F600", "G0 Z3")
     sheet, _ = drawn(*SLOT, *corner)
     assert not sheet.good and ends(sheet.ways[-1])[-1] == (-1200.0, -600.0)

@@ -23,13 +23,13 @@ def touch_of(hole, *, links=(0, 0), moved=(0.0, 0.0, 0.0)):
 
 @pytest.mark.parametrize("links", [(1, 0), (0, -2), (-1, 2)])
 @pytest.mark.parametrize("first", [FIRST, (900.0, -250.0), (0.0, 0.0)])
-def test_no_other_hole_is_much_better(links, first):
+def test_the_next_hole_is_nearly_the_best(links, first):
     single = touch_of(first, links=links)
     finding = find_slip(MAKER, [single])
     assert finding.verdict == CANNOT_TELL
 
     def rest(hole):
-        """What remains of the odds of the sheet, after a touch as the likeliest account has it."""
+        """The odds of the sheet after a touch that fits the likeliest account."""
         again = find_slip(MAKER, [single, touch_of(hole, links=finding.best.links)])
         return sum(each.odds for each in again.accounts if each.kind == SHEET)
 
@@ -40,7 +40,7 @@ def test_no_other_hole_is_much_better(links, first):
     assert np.log(rest(place)) < 0.85 * np.log(min(others))
 
 
-def test_the_worst_pair_of_slips_is_named_after_it():
+def test_the_worst_pair_of_slips_is_found_after_the_next_hole():
     pair, number = (3, -3), 1054  # its first two touches are the least lucky of 300
     settings = fitted_machine(number)[1]
     two = touched(number, links=pair, seed=[number, 41])

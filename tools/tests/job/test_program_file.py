@@ -34,18 +34,18 @@ def line(monkeypatch):
         ("nothing.nc", "there is no such file; check the name"),
     ],
 )
-def test_what_holds_no_program_is_refused_before_the_line_is_opened(name, said, capsys):
+def test_files_that_are_not_programs_are_refused_before_the_line_is_opened(name, said, capsys):
     path = EXAMPLE / name
     assert main(["send", "--port", "USB", str(path)]) == 2
     assert capsys.readouterr().err == f"plumb: {path}: {said}\n"
 
 
 @pytest.mark.parametrize("text", ["%\nG21\n", "G5 X1\n", "G1 X1\n", "B05\n", "$$\n", "; nothing\n"])
-def test_what_the_machine_may_refuse_for_another_reason_is_left_to_it(text):
+def test_other_faults_are_left_to_the_machine(text):
     refuse_what_is_no_program("job", text)
 
 
-def test_a_line_and_a_machine_toml_go_on_to_the_line(tmp_path):
+def test_lines_and_a_machine_toml_are_accepted(tmp_path):
     text = (EXAMPLE / "machine.toml").read_text()
     (tmp_path / "machine.toml").write_text(f"# Säge\n{text}")  # which is not sent as it is
     for what in ("hello", str(tmp_path / "machine.toml"), str(EXAMPLE / "pocket.nc")):

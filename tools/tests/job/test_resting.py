@@ -21,12 +21,12 @@ def rests(lines, settings=MAKER):
 
 
 @pytest.mark.parametrize(("y", "lines"), [(LOW, []), (HIGH, [3])])
-def test_the_end_of_a_program_is_looked_at(y, lines):
+def test_the_end_of_a_program_is_checked(y, lines):
     assert rests(["G21", "G0 Z5", f"G0 X0 Y{y}"]) == lines
     assert rests(["G0 Z5", f"G0 X0 Y{y}", "G0 Y0"]) == []
 
 
-def test_a_caution_is_said_and_is_no_error(tmp_path, capsys):
+def test_a_caution_is_not_an_error(tmp_path, capsys):
     (tmp_path / "machine.toml").write_text(machine_toml(MAKER))
     job = ["M0", f"G0 X9 Y{HIGH}", "G0 X5"]
     (tmp_path / "job.nc").write_text("\n".join(["G0 Z5", *job, ""]))

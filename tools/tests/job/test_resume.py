@@ -157,7 +157,7 @@ LATER = {
 
 
 @pytest.mark.parametrize("name", LATER)
-def test_coordinates_that_the_program_changes_later_begin_where_they_did(name):
+def test_coordinates_that_the_program_changes_later_begin_as_before(name):
     first, later = (each.split("\n") for each in LATER[name])
     up = "G53 G0 Z12"
     lines = ["G0 X40 Y10", *first, up, "G0 X5", "G53 G1 Z-1 F60", "X25 Y8 F500", up]
@@ -176,7 +176,7 @@ def test_coordinates_that_the_program_changes_later_begin_where_they_did(name):
     ("code", "z"),
     [("G92 X10 Y20", -1), ("G43.1 Z7", -8), ("G92 Z15", 8), ("G10 L2 P1 X30 Y-5", -1)],
 )
-def test_in_the_middle_of_a_cut_too(code, z):
+def test_so_are_coordinates_in_the_middle_of_a_cut(code, z):
     up = f"G0 Z{z + 12}"
     lines = ["G0 Z5", code, up, "G0 X5", f"G1 Z{z} F60", "G1 X25 Y8 F500", "G3 X65 I20", up, "X9"]
     moves = run_dry(lines).moves
@@ -192,7 +192,7 @@ def test_in_the_middle_of_a_cut_too(code, z):
     assert rest["length"] == pytest.approx(cut["length"] / 2, abs=0.1)
 
 
-def test_the_first_pass_is_taken_unless_a_line_says_which():
+def test_the_first_pass_is_taken_unless_a_line_is_named():
     lines = ["G0 Z4", "G1 Z-1 F60", "G1 X50 F500", "Y20", "Y0", "X0", "G1 Z-2 F70", "X50", "G0 Z4"]
     resumed = resume_at_place(MACHINE, lines, (25, 1))
     assert resumed.first == 3 and resumed.entry.passes == (3, 6, 8)
@@ -203,7 +203,7 @@ def test_the_first_pass_is_taken_unless_a_line_says_which():
     assert "G1 Z-2.0000 F70" in third.lines
 
 
-def test_what_cannot_be_is_refused():
+def test_impossible_values_are_refused():
     with pytest.raises(InputError, match="the program has 2 lines"):
         resume_at_line(MACHINE, ["G0 X1", "G0 X2"], 3)
     with pytest.raises(InputError, match=r"no cut passes within 5 mm of X9 Y50; .* X9\.0 Y0\.0"):

@@ -119,7 +119,7 @@ def test_a_tape_on_a_turned_sheet_finds_the_holes_where_the_fit_has_them(turn):
         (NO_LINKS, (10.0, 0.004), 0),
     ],
 )
-def test_on_machines_of_the_judge_no_slip_is_named_that_is_not_so(links, moved, named):
+def test_no_slip_is_invented_on_machines_of_the_judge(links, moved, named):
     """Machines on which neither odds nor gate were chosen."""
     found = [
         find_slip(fitted_machine(number)[1], touched(number, links=links, moved=moved, seed=number))

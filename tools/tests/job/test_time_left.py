@@ -1,4 +1,4 @@
-"""How long a job still takes: its timetable, corrected by how the machine keeps to it."""
+"""Tests of the time left of a job: its timetable, corrected by the machine's pace."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""What a job takes out of the sheet, and moves that spoil the piece, the bit or the sheet."""
+"""Tests of the wood that a job removes, and of moves that spoil the piece, the bit or the sheet."""
 
 import numpy as np
 import pytest
@@ -48,7 +48,7 @@ def adaptive(depths=(-3.0, -6.0), *, link=None):
     return [*lines, "M5", "M30"]
 
 
-def test_adaptive_clearing_goes_back_through_what_is_cut():
+def test_adaptive_clearing_may_return_through_the_cut():
     checked = check_job(MAKER, adaptive())
     assert checked.is_good and len(checked.done.moves) > 1000
     in_wood = checked.done.moves.rapid & checked.done.moves.cut
@@ -90,7 +90,7 @@ def test_adaptive_clearing_goes_back_through_what_is_cut():
         (["G0 Z2", "G81 X9 Z-6 R-1 F50", "G80"], [(2, 1, PLUNGE.format("1.00"))]),
     ],
 )
-def test_a_rapid_into_wood_is_said_once_with_its_cause(lines, wrong):
+def test_a_rapid_into_wood_is_reported_once_with_its_cause(lines, wrong):
     assert gouges(*lines) == wrong
 
 
@@ -180,7 +180,7 @@ def test_a_cut_deeper_than_the_bit_is_long_is_wrong():
         (["(3 mm deep pocket)", "(drill 4)"], []),
     ],
 )
-def test_the_bit_is_what_the_program_says(lines, bits):
+def test_the_bit_is_read_from_the_programs_comments(lines, bits):
     named = Tools.of(lines).bits
     assert [(each.line, each.length) for each in named] == [(bit[0], bit[3]) for bit in bits]
     numbers = [(each.diameter, each.half_angle) for each in named]

@@ -201,7 +201,7 @@ ATTACKS = {
 
 
 def answered(lab, sent: bytes) -> bytes:
-    """What the lab says to these bytes until it closes or has said a whole answer."""
+    """The lab's answer to these bytes, until it is whole or the connection closes."""
     with socket.create_connection(("127.0.0.1", lab.port), 120) as line:
         said = b""
         with suppress(OSError):  # it may refuse before the end; the answer is still there

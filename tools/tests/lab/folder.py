@@ -50,7 +50,7 @@ def with_marks(folder):
 
 
 def got(answer, status=200):
-    """What is answered, as it has this status."""
+    """The answer, which must have this status."""
     assert answer.status_code == status, answer.text
     return answer.json()
 
@@ -83,7 +83,7 @@ def awaited(client, path, true):
 
 
 def finished(client, path):
-    """What is worked out in the background, when it has ended."""
+    """The result of the background work, once it has ended."""
     return awaited(client, path, lambda answer: answer["share"] == 1)
 
 

@@ -54,7 +54,7 @@ class Garage:
 
     @property
     def lengths(self):
-        """What a tape says of both chains, and of the bit's height [mm]."""
+        """Tape readings of both chains, and of the bit's height [mm]."""
         with self._mine:
             return *self.owner.machine.chains, self.owner.machine.height
 

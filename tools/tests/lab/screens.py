@@ -132,7 +132,7 @@ def walk(page):
 
 
 def axe_findings(page) -> list[str]:
-    """What axe finds on the page: rule, and the first element."""
+    """The findings of axe on the page: rule, and the first element."""
     if not page.evaluate("() => 'axe' in window"):
         page.evaluate(AXE)
     run = "() => axe.run(document, {resultTypes: ['violations']}).then((all) => all.violations)"

@@ -35,7 +35,7 @@ class ServedLab:
         return self.url.partition("token=")[2]
 
     def client(self):
-        """What asks it as its page does."""
+        """A client that asks it as its page does."""
         headers = {"X-Plumb-Token": self.token}
         return httpx2.Client(base_url=self.site, headers=headers, timeout=PATIENCE)
 

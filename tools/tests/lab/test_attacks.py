@@ -59,7 +59,7 @@ def test_the_request_that_the_attacks_change_is_answered(lab):
     assert status(answered(lab, Try("GET", "/", body=b"").bytes(lab))) == 200
 
 
-def test_the_page_of_the_guard_counts_what_is_tried_here():
+def test_the_page_of_the_guard_counts_these_attacks():
     rows = dict(re.findall(r"^\| ([^|]+?) \| (\d+) \| \d+ \|$", PAGE.read_text(), re.MULTILINE))
     assert {attack: int(rows.get(attack, 0)) for attack in ATTACKS} == {
         attack: len(tries) for attack, tries in ATTACKS.items()

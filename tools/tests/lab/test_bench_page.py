@@ -54,7 +54,7 @@ def test_an_effect_is_added_and_the_error_falls(bench, lab):
     bench.get_by_role("button", name="Fit: left chain too long").wait_for()  # nothing is lost
 
 
-def test_a_dot_lights_in_every_plot_and_on_the_sheet(bench):
+def test_a_chosen_mark_is_highlighted_in_every_plot_and_on_the_sheet(bench):
     plots = bench.locator("svg.plot")
     shown = plots.count()
     assert shown >= 8
@@ -89,7 +89,7 @@ def body_after_header(lab):
         return time.monotonic() - start
 
 
-def test_no_body_waits_for_the_receipt_of_its_header(lab):
+def test_a_body_is_sent_together_with_its_header(lab):
     measured_machine(lab.folder)
     assert min(body_after_header(lab) for _ in range(20)) < MOST_S
 

@@ -43,7 +43,7 @@ def test_the_bench_opens_with_marks_effects_and_covariates(client):
     )
 
 
-def test_a_size_held_by_hand_is_used_and_said(client):
+def test_a_size_held_by_hand_is_used_and_shown(client):
     free = posted(client, "fit", PITCH)
     held = posted(client, "fit", {**PITCH, "held": {"chain_pitch.left": 0.004}})
     assert held["sizes"]["chain_pitch.left"] == {
@@ -61,7 +61,7 @@ def test_a_size_held_by_hand_is_used_and_said(client):
     posted(client, "fit", {**PITCH, "held": {"chain_pitch.left": "much"}}, 422)
 
 
-def test_each_effect_says_what_would_be_left_with_it(client):
+def test_each_effect_shows_the_error_that_it_would_leave(client):
     left = posted(client, "gains", PITCH)
     assert "chain_pitch" not in left and len(left) > 8
     both = {"effects": ["chain_pitch", "tape_scale"]}

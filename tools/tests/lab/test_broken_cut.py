@@ -31,13 +31,13 @@ LINES = [
 PLUNGES = [5, 8]
 
 
-def test_the_rest_has_the_modes_and_the_marks_that_are_not_cut():
+def test_the_rest_of_a_program_has_its_modes_and_the_uncut_marks():
     assert rest_of(LINES, PLUNGES, 0) == (LINES, 0)
     rest, left_out = rest_of(LINES, PLUNGES, 1)
     assert rest == [*LINES[:3], *LINES[6:]] and len(rest) + left_out == len(LINES)
 
 
-def test_the_rest_asks_again_for_what_is_to_be_done_before_the_first_mark():
+def test_the_rest_of_a_program_asks_again_for_its_preparation():
     asks = ["(let 5 kg more hang on the sled)", "M0", "(mark 1)"]
     lines = ["(a program)", *LINES[:3], *asks, *LINES[3:6], "(mark 2)", *LINES[6:]]
     rest, left_out = rest_of(lines, [6, 9], 1)
@@ -64,7 +64,7 @@ class Line:
         return {}
 
 
-def test_a_mark_is_cut_for_sure_or_perhaps_and_never_less_than_before(tmp_path):
+def test_a_mark_counts_as_cut_or_perhaps_cut_and_never_back(tmp_path):
     project, text, line = Project(tmp_path), "\n".join(LINES), Line()
 
     def far(program="grid.nc", text=text):
@@ -168,7 +168,7 @@ def test_no_mark_is_cut_twice_after_the_lab_died_in_a_cut(lab, page, garage):
 
 
 def test_a_cut_whose_line_was_lost_goes_on_once_the_machine_knows_its_chains(lab, page, garage):
-    """Nothing is typed in that nobody measured; what the machine last knew is offered as that."""
+    """Fields start empty; the last known chain lengths are offered only as such."""
     with lab.client() as client:
         connect(client, garage)
         got(client.post("/api/machine/settings"))

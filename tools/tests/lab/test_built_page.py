@@ -133,7 +133,7 @@ def test_no_message_names_an_option_or_a_command():
     assert not named, "\n".join(named)
 
 
-def test_what_to_do_is_said_to_who_reads_it(tmp_path, capsys):
+def test_remedies_suit_the_page_or_the_command_line(tmp_path, capsys):
     places = [[-900, 400], [900, 650], [0, -400]]
     with with_settings(tmp_path) as client:
         plan = got(client.post("/api/preview", json={"layout": "own", "places": places}))

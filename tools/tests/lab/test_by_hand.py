@@ -1,4 +1,4 @@
-"""Numbers that are measured by hand: asked as they are read; what nobody measures is refused."""
+"""Tests of numbers that are measured by hand: the questions, and absurd answers."""
 
 import math
 
@@ -44,7 +44,7 @@ READ = [
 
 
 @pytest.mark.parametrize(("name", "read", "value"), READ)
-def test_a_number_follows_from_what_is_read(name, read, value):
+def test_a_number_follows_from_its_readings(name, read, value):
     assert EACH[name].value(read) == pytest.approx(value, rel=1e-9)
     assert EACH[name].read(value) == pytest.approx(read, rel=1e-9)
 

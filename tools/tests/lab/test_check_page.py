@@ -121,7 +121,7 @@ def client(tmp_path):
     return fitted_machine(tmp_path)
 
 
-def test_check_marks_take_no_part_unless_somebody_says_so(client, tmp_path):
+def test_check_marks_take_no_part_unless_asked_for(client, tmp_path):
     client.post("/api/check")
     type_in(client, FORM, (0.3, 0.1), (-0.2, 0.4))
     assert client.get("/api/project").json()["choices"]["marks"] == ["marks.toml"]
@@ -176,7 +176,7 @@ def another_sheet(folder, *, shift=0.0, turn=0.0):
     (folder / "marks-2.toml").write_text(moved.replace(head, f"{head}new_sheet = true\n"))
 
 
-def test_the_form_of_another_sheet_says_so(client, tmp_path):
+def test_the_form_of_a_new_sheet_says_so(client, tmp_path):
     got(client.post("/api/grid"))
     assert "new_sheet" not in (tmp_path / "marks-2.toml").read_text()
     chosen(tmp_path, new_sheet=True)

@@ -33,7 +33,7 @@ def known(client):
     return {"settings": settings, "choices": project["choices_digest"]}
 
 
-def test_what_is_not_accepted_stays_as_it_is(inputs):
+def test_numbers_that_are_not_accepted_stay(inputs):
     accepted = ["motor_height", "chain_pitch.left"]
     made = correct(inputs, ("chain_pitch",), accepted).accepted
     before = inputs.model_and_observations()[0]
@@ -43,7 +43,7 @@ def test_what_is_not_accepted_stays_as_it_is(inputs):
     assert made.settings.effect("chain_pitch", "left") != before.effect("chain_pitch", "left")
 
 
-def test_written_opened_and_taken_back(client, tmp_path):
+def test_a_correction_is_written_opened_and_undone(client, tmp_path):
     before = shown(client)["correction"]
     assert before["accepted"] is None and not before["is_written"]
     names = [number["name"] for number in before["numbers"]]
@@ -120,7 +120,7 @@ def write(page, lab, *names):
     expect(page.locator(TITLE)).to_have_text("The numbers are written")
 
 
-def test_what_is_written_is_not_asked_again_and_goes_to_the_machine_next(lab, page):
+def test_after_writing_the_next_action_is_to_send_to_the_machine(lab, page):
     write(page, lab, *ALL)
     assert page.get_by_role("checkbox").count() == 0
     assert page.get_by_role("button", name="Accept all").count() == 0
@@ -145,7 +145,7 @@ def test_a_slider_shows_the_errors_before_on_its_left_and_after_on_its_right(lab
     assert counts[0] > counts[1] > counts[2]
 
 
-def test_what_was_not_accepted_is_folded_away_and_can_be_accepted_later(lab, page):
+def test_rejected_numbers_are_folded_away_and_can_be_accepted_later(lab, page):
     write(page, lab, "motor_height")
     assert page.get_by_role("checkbox").count() == 0
     page.get_by_text("What would still change").click()
@@ -155,7 +155,7 @@ def test_what_was_not_accepted_is_folded_away_and_can_be_accepted_later(lab, pag
     expect(wanted).to_have_text("Write 1 number into machine-2.toml", timeout=PATIENCE)
 
 
-def test_a_reading_that_changes_after_the_writing_says_what_is_stale_and_leads_back(lab, page):
+def test_a_reading_changed_after_writing_marks_the_correction_as_stale(lab, page):
     write(page, lab, *ALL)
     form = lab.folder / "marks.toml"
     form.write_text(form.read_text().replace("[659.5, 110.5]", "[659.5, 111.5]"))
@@ -168,7 +168,7 @@ def test_a_reading_that_changes_after_the_writing_says_what_is_stale_and_leads_b
     expect(page.locator(WANTED)).to_have_count(1, timeout=PATIENCE)
 
 
-def test_what_noise_alone_would_leave_stands_at_each_error_of_a_fit(lab, page):
+def test_each_error_of_a_fit_is_shown_beside_that_of_noise_alone(lab, page):
     measured_machine(lab.folder)
     page.goto(f"{lab.url}#/correct")
     page.get_by_role("button", name="Accept all").click(timeout=PATIENCE)

@@ -1,4 +1,4 @@
-"""What the guard lets through: no change by GET, no live line of strangers, no names that run, and
+"""Tests of the guard: no change by GET, no live line of strangers, no names that run, and
 no link of the folder.
 """
 

@@ -108,7 +108,7 @@ def machine_of(client):
 
 
 def next_question(client):
-    """What the guide asks next; None if the step has ended."""
+    """The guide's next question; None if the step has ended."""
     return awaited(client, "guide", lambda guide: guide["question"] or not guide["here"])[
         "question"
     ]
@@ -166,7 +166,7 @@ def test_nothing_moves_before_a_yes_and_a_no_leaves_the_step_open(day, tmp_path)
     assert progress_in(tmp_path).done == ["read"]
 
 
-def test_a_step_is_left_and_taken_up_again(day, tmp_path):
+def test_a_step_can_be_left_and_continued(day, tmp_path):
     take(day, "read")
     take(day, "wires", last="RIGHT motor winds")
     assert got(day.post("/api/guide/leave"))["question"] is None

@@ -41,7 +41,7 @@ def open_other(client, folder, gap="3008.4"):
     return got(client.post("/api/settings", files=files))["machine"]["file"]
 
 
-def test_a_file_with_another_gap_is_said_with_both_values_and_nothing_is_cut(client, folder):
+def test_a_file_with_another_gap_is_refused_with_both_values(client, folder):
     assert got(client.get("/api/machine/held"))["numbers"] == []
     file = open_other(client, folder)
     held = got(client.get("/api/machine/held"))
@@ -55,7 +55,7 @@ def test_a_file_with_another_gap_is_said_with_both_values_and_nothing_is_cut(cli
     assert got(client.get("/api/machine"))["program"] is None
 
 
-def test_marks_that_somebody_took_are_cut_only_with_what_their_form_names(client, folder):
+def test_accepted_marks_are_cut_only_with_the_settings_of_their_form(client, folder):
     other = (folder / "machine.toml").read_text().replace("2978.4", "3008.4")
     (folder / "other.toml").write_text(other)
     choose(client, layout="own", planned=[[0.0, 0.0]])
@@ -139,7 +139,7 @@ def with_another_file(lab, page):
     expect(question(page)).to_contain_text(GAP, timeout=PATIENCE)
 
 
-def test_nothing_is_cut_before_it_is_said_which_numbers_hold(lab, page):
+def test_nothing_is_cut_before_the_owner_says_which_numbers_hold(lab, page):
     with_another_file(lab, page)
     page.goto(f"{lab.site}#/cut")
     expect(question(page)).to_contain_text(GAP, timeout=PATIENCE)

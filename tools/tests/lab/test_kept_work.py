@@ -1,4 +1,4 @@
-"""What somebody chose or typed survives a dead server, a reload and other tabs."""
+"""Choices and typed readings survive a dead server, a reload and other tabs."""
 
 import json
 
@@ -12,7 +12,7 @@ from test_readings_page import LEFT, SHEET, await_saved, open_readings, type_in,
 
 
 def choices(lab):
-    """What the folder keeps by now."""
+    """The choices that the folder keeps."""
     file = lab.folder / "lab.json"
     return json.loads(file.read_text()) if file.exists() else {}
 
@@ -41,7 +41,7 @@ def test_an_open_page_goes_on_with_a_server_that_was_killed_and_started(lab, pag
         again.end()
 
 
-def test_a_reload_takes_up_what_was_chosen_while_nobody_answered(lab, page_open):
+def test_a_reload_keeps_choices_made_while_the_server_was_down(lab, page_open):
     lab.process.kill()
     page_open.get_by_label("inch").check()
     page_open.get_by_role("alert").get_by_text("The lab does not answer").wait_for()
@@ -56,7 +56,7 @@ def test_a_reload_takes_up_what_was_chosen_while_nobody_answered(lab, page_open)
         again.end()
 
 
-def test_what_another_program_saves_while_a_save_is_under_way_is_kept(lab, page_open):
+def test_a_file_saved_by_another_program_during_a_save_is_kept(lab, page_open):
     late = []
 
     def answer_late(route):
@@ -144,7 +144,7 @@ def test_a_tab_of_the_same_browser_saves_what_a_tab_could_not(lab, first):
     ("answer", "kept"),
     [("Keep mine", MINE), ("Take the file's", THEIRS)],
 )
-def test_a_mark_that_a_program_changes_while_somebody_types_it_is_asked_about(
+def test_a_mark_changed_by_another_program_while_it_is_typed_is_asked_about(
     lab, first, answer, kept
 ):
     type_unsaved(first)

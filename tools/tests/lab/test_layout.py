@@ -1,4 +1,4 @@
-"""What one looks at stays in view, what one does scrolls next to it; a phone has one column."""
+"""The picture stays in view while the controls scroll next to it; a phone has one column."""
 
 import json
 import re
@@ -188,11 +188,11 @@ def opened(lab, fresh_page):
     return open_page
 
 
-def test_every_screen_shows_what_it_wants_without_scrolling(opened):
+def test_every_screen_shows_its_next_action_without_scrolling(opened):
     none_out_of_view(opened(), WANTED)
 
 
-def test_so_does_every_screen_with_a_machine_that_stands(opened):
+def test_so_does_every_screen_with_a_machine_at_rest(opened):
     none_out_of_view(opened(**AT_REST), WITH_MACHINE)
 
 
@@ -247,7 +247,7 @@ def note_break(folder, *, marks, begun):
 
 
 def proposed(folder):
-    """A folder into which somebody took what the verdict proposed."""
+    """A folder with the proposal of the verdict."""
     measured_machine(folder)
     with asked(folder) as client:
         proposal = finished(client, "next")["next"]
@@ -289,7 +289,7 @@ CUT_STATES = {
 
 
 @pytest.mark.parametrize("state", CUT_STATES)
-def test_cut_shows_what_it_wants_in_each_of_its_states(opened, state):
+def test_cut_shows_its_next_action_in_each_of_its_states(opened, state):
     folder, machine, wanted = CUT_STATES[state]
     page = opened(folder, **{"place": [0, 0, 5], **machine})
     none_out_of_view(page, {"cut": wanted})

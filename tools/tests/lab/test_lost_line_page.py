@@ -28,7 +28,7 @@ def lost(lab, page, cable):
     return path
 
 
-def test_the_bar_connects_again_and_offers_what_is_plugged_in_by_now(page, lost):
+def test_the_bar_reconnects_and_offers_new_ports(page, lost):
     port = {"path": "/dev/ttyACM9", "title": "Mega", "is_board": True}
     modem = {"path": "/dev/ttyS0", "title": "", "is_board": False}
     page.route("**/api/machine/ports", lambda route: route.fulfill(json=[port, modem]))
@@ -56,13 +56,13 @@ def test_the_bar_connects_at_any_port_whose_name_is_typed(page, lost):
     expect(bar(page)).to_contain_text("Connect /dev/ttyACM7 again", timeout=PATIENCE)
 
 
-def test_what_is_refused_stands_at_its_button(page, lab):
+def test_a_refusal_stands_at_its_button(page, lab):
     page.goto(lab.url)
     page.get_by_text("Another port").click()
     page.get_by_label("Its name, like COM3").fill("maslow")
     button = page.get_by_role("button", name="Connect", exact=True)
     button.click()
-    said = page.get_by_role("alert").filter(has_text="'maslow' is no serial port")
+    said = page.get_by_role("alert").filter(has_text="'maslow' is not a serial port")
     expect(said).to_be_visible()
     pressed, words = button.bounding_box(), said.bounding_box()
     assert abs(words["y"] - pressed["y"]) < NEAR
@@ -78,7 +78,7 @@ def cutting(lab, page):
     return page
 
 
-def test_a_lab_that_was_killed_in_a_cut_is_not_taken_for_a_machine_that_runs(lab, cutting):
+def test_a_killed_lab_is_not_mistaken_for_a_running_machine(lab, cutting):
     lab.process.kill()
     shown = bar(cutting)
     shown.get_by_role("button", name="Stop", exact=True).click()
@@ -93,7 +93,7 @@ def test_a_lab_that_was_killed_in_a_cut_is_not_taken_for_a_machine_that_runs(lab
     expect(cutting.get_by_role("region", name="The machine", exact=True)).to_have_count(0)
 
 
-def test_a_stop_that_nobody_heard_stops_the_machine_as_soon_as_the_lab_hears(lab, cutting):
+def test_a_stop_pressed_while_the_lab_is_down_acts_once_it_is_back(lab, cutting):
     shown = bar(cutting)
     lab.process.send_signal(signal.SIGSTOP)
     try:

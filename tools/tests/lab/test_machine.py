@@ -65,7 +65,7 @@ def test_without_a_machine_there_is_a_clear_line(ask):
 
 @pytest.mark.parametrize("port", ["/etc/passwd", "lab.json", "/dev/../etc/passwd", "/dev/sda", ""])
 def test_only_a_serial_port_is_opened(ask, port):
-    assert "is no serial port" in ask("POST", "machine/board", 422, port=port)["error"]
+    assert "is not a serial port" in ask("POST", "machine/board", 422, port=port)["error"]
     assert ask("GET", "machine")["kind"] == "none"
 
 
@@ -77,10 +77,10 @@ def test_a_link_leads_to_its_port_and_to_nothing_else(ask, cable, tmp_path):
     ask("POST", "machine/board", port=str(link))
     state = until(ask, lambda state: state["phase"] == "ready")
     assert state["name"] == str(link)
-    assert "is no serial port" in ask("POST", "machine/board", 422, port=str(other))["error"]
+    assert "is not a serial port" in ask("POST", "machine/board", 422, port=str(other))["error"]
 
 
-def test_a_virtual_machine_gives_its_settings_takes_others_and_gets_its_own_back(lab, ask):
+def test_a_virtual_machines_settings_are_read_replaced_and_restored(lab, ask):
     ask("POST", "machine/virtual", seed=4)
     until(ask, lambda state: state["phase"] == "ready")
     project = ask("POST", "machine/settings")
@@ -113,9 +113,8 @@ def test_a_line_is_answered_and_a_bad_path_refused(ask):
     ask("POST", "machine/virtual", hides="nothing")
     until(ask, lambda state: state["phase"] == "ready")
     assert any("1651" in line for line in ask("POST", "machine/line", text="B06 L1651 R1651"))
-    assert (
-        "no plain file name" in ask("POST", "machine/numbers", 422, file="../machine.toml")["error"]
-    )
+    refused = ask("POST", "machine/numbers", 422, file="../machine.toml")["error"]
+    assert "not a plain file name" in refused
 
 
 def test_the_live_line_says_that_the_sled_moves_holds_and_stops(lab, ask):
@@ -147,7 +146,7 @@ def test_the_live_line_says_that_the_sled_moves_holds_and_stops(lab, ask):
 
 
 @pytest.mark.parametrize("port", ["/dev/ttyACM0", "/dev/ttyACM1"])
-def test_a_line_that_was_lost_in_mid_cut_does_not_know_the_place_when_it_is_back(monkeypatch, port):
+def test_after_a_line_lost_in_mid_cut_the_place_is_unknown(monkeypatch, port):
     def board(path):
         board = SlowBoard()
         board.at[60] = lambda: setattr(board, "is_pulled", True)
@@ -204,7 +203,7 @@ def test_a_port_is_opened_again_when_the_machine_that_moved_has_stopped(monkeypa
     line.disconnect()
 
 
-def test_a_cable_pulled_in_mid_cut_is_said(ask, cable):
+def test_a_cable_pulled_in_mid_cut_is_reported(ask, cable):
     ask("POST", "machine/board", port=cable.path)
     until(ask, lambda state: state["phase"] == "ready")
     lines = "".join(f"G1 X{x} F700\n" for x in range(5, 900, 5))
@@ -227,7 +226,7 @@ def once(true):
         time.sleep(0.002)
 
 
-def test_a_silent_board_grows_older(monkeypatch):
+def test_the_age_of_a_silent_boards_report_grows(monkeypatch):
     board, ahead = SlowBoard(), SimpleNamespace(seconds=0.0)
     line = LineWorker(lambda: board)
     once(lambda: line.state.phase == "ready")
@@ -266,7 +265,7 @@ def test_connections_without_a_token_do_not_keep_stop_out(lab, target):
 
 
 @pytest.mark.parametrize("way", PRESSES)
-def test_no_thread_of_the_server_has_to_be_free(tmp_path, monkeypatch, way):
+def test_stop_works_while_all_threads_of_the_server_are_busy(tmp_path, monkeypatch, way):
     released, pressed = Event(), Event()
     monkeypatch.setattr(MachineLine, "worker", SimpleNamespace(**{way: pressed.set}))
     monkeypatch.setattr(MachineLine, "disconnect", lambda line: released.wait(BUSY_S))

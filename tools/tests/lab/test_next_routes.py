@@ -56,7 +56,7 @@ def choose(folder, **choices):
 
 
 def takings(client):
-    """What can be taken, by its title."""
+    """The proposals that can be taken, by their titles."""
     proposed = finished(client, "next")["next"]
     each = {other["title"]: other["taking"] for other in proposed["others"]}
     each |= {proposed["headline"]: proposed["taking"]}
@@ -88,7 +88,7 @@ def virtual_machine(client, *, speed=1000):
     got(client.post("/api/machine/disconnect"))
 
 
-def test_what_is_taken_is_what_the_command_writes(client, folder):
+def test_an_accepted_proposal_is_what_the_command_writes(client, folder):
     choose(folder, units="inch", known={"motor_gap": {"value": 2979.0, "sigma": 0.5}})
     each = takings(client)
     assert {"chains swapped, 4 marks", "4 marks with 5 kg more", "every mark read again"} <= {*each}
@@ -106,7 +106,7 @@ def test_what_is_taken_is_what_the_command_writes(client, folder):
         assert names(folder) == BEFORE
 
 
-def test_marks_that_were_taken_are_cut_read_and_counted(client, folder):
+def test_accepted_marks_are_cut_read_and_counted(client, folder):
     before = got(client.get("/api/grid"))
     assert (before["program"], before["is_proposed"], before["pauses"]) == ("grid-2.nc", False, [])
     take(client, "4 marks with 5 kg more")
@@ -144,7 +144,7 @@ def test_nothing_in_the_folder_is_overwritten(client, folder):
     assert names(folder) == BEFORE | {"more.toml", "more-2.nc", "more-3.toml", "more-3.nc"}
 
 
-def test_a_proposal_that_the_page_did_not_show_is_not_taken(client, folder):
+def test_a_proposal_that_the_page_did_not_show_is_refused(client, folder):
     taking = takings(client)["4 more marks"]
     other = takings(client)["4 marks with 5 kg more"]
     for changed in ({"digest": "0" * 64}, {"choose": other["choose"]}):
@@ -163,7 +163,7 @@ def test_a_proposal_that_the_page_did_not_show_is_not_taken(client, folder):
 
 
 @pytest.mark.parametrize("name", [MARKS, "more.toml.bak"])
-def test_only_a_form_of_a_proposal_is_taken_out(client, folder, name):
+def test_only_a_form_of_a_proposal_can_be_removed(client, folder, name):
     (folder / "machine.nc").write_text("mine")
     (folder / "more.toml.bak").write_text("mine")
     choose(folder, proposed=name)
@@ -221,9 +221,7 @@ def test_a_virtual_machine_bears_the_weight_from_pause_to_pause(client, folder, 
         assert borne[3:5] == [0.0, pytest.approx(5 * 9.81, abs=0.1)] and borne[5] == 0.0
 
 
-def test_a_proposal_that_broke_off_goes_on_with_what_is_to_hang_on_the_sled(
-    client, folder, monkeypatch
-):
+def test_a_broken_off_proposal_goes_on_with_its_extra_weight(client, folder, monkeypatch):
     borne = []
     monkeypatch.setattr(VirtualOwner, "weigh_down", lambda owner, weight: borne.append(weight))
     taking = take(client, "4 marks with 5 kg more")
@@ -260,7 +258,7 @@ def test_a_proposal_that_broke_off_goes_on_with_what_is_to_hang_on_the_sled(
     ],
     ids=["plain", "pause-between", "swapped"],
 )
-def test_a_proposal_goes_on_where_its_pauses_are_before_all_its_marks(
+def test_a_proposal_goes_on_if_all_its_pauses_come_before_its_marks(
     client, folder, title, more, goes_on
 ):
     taking = take(client, title)

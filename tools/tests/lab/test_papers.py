@@ -1,4 +1,4 @@
-"""What is taken along: each file is one that its reader can use."""
+"""Tests of the files to save and print: each can be read back or printed."""
 
 import io
 import json
@@ -84,7 +84,7 @@ def test_a_sheet_to_print_has_the_marks_that_are_to_be_cut(client, tmp_path, mon
     assert len(drawn[2].holes) == 4 and any("more.toml" in line for line in drawn[2].how)
 
 
-def test_the_report_says_what_the_verdict_says(measured):
+def test_the_report_has_the_verdicts_sentence(measured):
     page = paper(measured, "report.html").decode()
     share, verdict = 0.0, None
     while share < 1:

@@ -56,7 +56,7 @@ def test_a_stranger_in_the_network_gets_the_page_and_nothing_else(home):
         assert stranger.post("/api/machine/stop").status_code == 401
 
 
-def test_a_paired_phone_types_reads_and_stops_and_does_the_rest_once_it_is_let(home, tmp_path):
+def test_a_paired_phone_types_reads_and_stops_and_does_the_rest_once_allowed(home, tmp_path):
     paired, browser = home
     computer = browser("127.0.0.1", **{"X-Plumb-Token": TOKEN})
     (tmp_path / "marks.toml").write_text(example_form())
@@ -116,7 +116,7 @@ def test_another_sites_page_in_a_phones_browser_is_refused(home, headers):
     assert "plumb-phone" not in phone.get("/", headers=headers).headers.get("set-cookie", "")
 
 
-def test_a_lab_shared_to_move_asks_nobody_and_a_lab_that_is_not_shared_pairs_nobody(tmp_path):
+def test_share_move_needs_no_permission_and_without_share_no_phone_pairs(tmp_path):
     with_settings(tmp_path)
     moving = Phones("move", say=lambda text: None)
     assert moving.pair(moving.invitation.pin, "phone")[1].may_move

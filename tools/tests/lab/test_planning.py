@@ -1,4 +1,4 @@
-"""What is known, the reach, and marks that are planned, by the routes and on the page."""
+"""Tests of the known numbers, the reach and the planned marks, by the routes and on the page."""
 
 import json
 import re
@@ -29,12 +29,12 @@ def choices(lab):
 
 
 def shows(page):
-    """How many causes would show in their usual size."""
+    """The number of causes that would show in their usual size."""
     text = page.locator(".sum").inner_text()
     return int(re.search(r"(\d+) would show", text)[1])
 
 
-def test_marks_are_chosen_added_and_taken_away(lab, opened):
+def test_marks_are_chosen_added_and_removed(lab, opened):
     page = opened
     page.goto(f"{lab.site}#/measure")
     page.locator(".sum", has_text="would show").wait_for(timeout=PATIENCE)
@@ -85,7 +85,7 @@ def test_the_recommended_plan_is_a_click_away(lab, opened):
     assert said.startswith(f"Recommended. {taken}")
 
 
-def test_what_is_known_is_kept_and_makes_less_error_normal(lab, opened):
+def test_known_numbers_are_kept_and_lower_the_expected_error(lab, opened):
     page = opened
     page.goto(f"{lab.site}#/reach")
     normal = page.locator(".say", has_text="That is normal.")
@@ -118,7 +118,7 @@ def test_what_is_known_is_kept_and_makes_less_error_normal(lab, opened):
     assert "of the sheet is usable" in page.get_by_role("heading", level=1).inner_text()
 
 
-def test_who_comes_for_a_number_sees_it_and_types_what_is_read(lab, opened):
+def test_a_link_to_a_number_opens_its_field(lab, opened):
     page = opened
     page.goto(f"{lab.site}#/known/frame_lean.tangent_squared")
     lean = page.get_by_role("textbox", name="how far the frame leans, degrees")
@@ -143,7 +143,7 @@ def test_without_settings_a_line_says_what_is_missing(tmp_path):
             assert "open the settings" in got(client.get(f"/api/{path}"), 422)["error"]
 
 
-def test_reach_says_what_the_command_says_and_how_far_off_is_normal(
+def test_reach_agrees_with_the_command_and_states_the_expected_error(
     client, tmp_path, capsys, monkeypatch
 ):
     answer = got(client.get("/api/reach"))

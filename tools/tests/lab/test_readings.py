@@ -55,9 +55,7 @@ def test_readings_count_from_the_chosen_edges(client, tmp_path, edges, read):
     assert "measured = [98.0, 106.0]" in (tmp_path / "marks.toml").read_text()
 
 
-def test_a_form_that_changes_while_it_is_shown_is_not_taken_for_known(
-    client, tmp_path, monkeypatch
-):
+def test_a_form_that_changes_while_it_is_shown_is_noticed(client, tmp_path, monkeypatch):
     (tmp_path / "marks.toml").write_text(example_form())
     forms = readings._forms
 
@@ -95,7 +93,7 @@ def test_an_older_save_is_refused_and_changes_nothing(client, tmp_path):
     assert (tmp_path / "marks.toml").read_bytes() == kept
 
 
-def test_distances_are_saved_and_taken_out(client, tmp_path):
+def test_distances_are_saved_and_removed(client, tmp_path):
     (tmp_path / "marks.toml").write_text(example_form())
     body = {
         "file": "marks.toml",
@@ -158,7 +156,7 @@ def test_a_file_without_marks_is_refused_in_a_line(client, tmp_path):
     assert not (tmp_path / "marks.toml").exists()
 
 
-def test_a_slip_is_named_with_what_was_meant(client, tmp_path):
+def test_a_slip_is_named_with_a_correction(client, tmp_path):
     text = example_form(read=6).replace("measured = [1221.5, 111]", "measured = [1121.5, 111]")
     (tmp_path / "marks.toml").write_text(text)
     answer = client.get("/api/doubts", params={"file": "marks.toml"}).json()
@@ -185,7 +183,7 @@ REAL = sorted(
 
 
 @pytest.mark.parametrize("folder", REAL, ids=lambda folder: folder.name)
-def test_what_the_commands_open_the_page_opens(folder, tmp_path):
+def test_the_page_opens_what_the_commands_open(folder, tmp_path):
     """Each real machine, as a folder that somebody opens, and as files that he picks."""
     as_folder = tmp_path / "whole"
     shutil.copytree(folder, as_folder)
@@ -304,7 +302,7 @@ WAYS = [
 
 
 @pytest.mark.parametrize(("save", "chosen"), WAYS, ids=lambda each: getattr(each, "__name__", ""))
-def test_a_choice_in_mid_save_is_kept_and_the_save_is_done(
+def test_a_choice_during_a_save_is_kept_and_the_save_completes(
     client, tmp_path, meanwhile, save, chosen
 ):
     (tmp_path / "check.toml").write_text(example_form())
@@ -314,5 +312,5 @@ def test_a_choice_in_mid_save_is_kept_and_the_save_is_done(
     assert {name: choices[name] for name in chosen} == chosen
 
 
-def test_a_program_goes_by_the_choices_so_others_in_mid_save_are_said(client, meanwhile):
+def test_a_grid_is_refused_if_the_choices_change_meanwhile(client, meanwhile):
     assert client.post("/api/grid").status_code == 409

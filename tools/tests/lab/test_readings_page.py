@@ -55,7 +55,7 @@ def await_saved(lab, page, expected):
     assert saved(lab) == expected
 
 
-def test_what_is_typed_is_saved_and_a_reload_keeps_the_rest(lab, page):
+def test_typed_readings_are_saved_and_a_reload_keeps_the_rest(lab, page):
     with_form(lab, example_form())
     open_readings(lab, page)
     type_in(page, 1, "98", "106,5")
@@ -99,7 +99,7 @@ def test_fractions_of_an_inch_stay_as_they_were_typed(lab, page):
     assert page.get_by_label("Mark 2 from the top, inch", exact=True).input_value() == "4 1/4"
 
 
-def test_a_slip_is_ringed_and_its_correction_taken(lab, page):
+def test_a_slip_is_ringed_and_its_correction_can_be_accepted(lab, page):
     with_form(lab, example_form(read=12))
     open_readings(lab, page)
     type_in(page, 8, "1211", "618")
@@ -153,7 +153,7 @@ def distances(*lines):
     )
 
 
-def test_a_slip_in_a_distance_is_named_and_its_correction_taken(lab, page):
+def test_a_slip_in_a_distance_is_named_and_its_correction_can_be_accepted(lab, page):
     with_form(lab, example_form(read=23) + distances(*FEW))
     open_readings(lab, page)
     disagreeing(page).get_by_text("Distance 4 to 12").wait_for(timeout=PATIENCE)
@@ -246,7 +246,7 @@ def field(page, name):
 
 
 def reason(page, name):
-    """What stands next to a field, as a screen reader finds it."""
+    """The description of a field, as a screen reader finds it."""
     return page.locator(f"#{field(page, name).get_attribute('aria-describedby')}")
 
 
@@ -256,7 +256,7 @@ def read_on_disk(lab):
 
 
 def test_half_a_reading_does_not_count_not_even_after_a_reload(lab, readings):
-    page, typed, said = readings, "11l.9", "“11l.9” is no length: type it like 11.9"
+    page, typed, said = readings, "11l.9", "“11l.9” is not a length: type it like 11.9"
     other = field(page, TOP_OF_2).input_value()
     field(page, LEFT_OF_2).fill(typed)
     expect(page.locator(".count")).to_contain_text("22 of 23 marks are read")
@@ -401,7 +401,7 @@ def test_readings_count_from_the_edges_that_are_named_with_them(open_machine, pa
     assert float(right.input_value()) + x == pytest.approx(2438.4)
 
 
-def test_a_question_that_nobody_answers_is_said_and_asked_again(lab, fresh_page):
+def test_a_question_without_an_answer_is_reported_and_asked_again(lab, fresh_page):
     page, never = fresh_page, []
     page.clock.install()
     start_virtual(page, lab)

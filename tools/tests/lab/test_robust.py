@@ -33,7 +33,7 @@ def save_choices(lab, choices, read):
 
 
 def kept(folder):
-    """What the folder's choices are; they can always be read."""
+    """The folder's choices, which can always be read."""
     return json.loads((folder / "lab.json").read_text())
 
 
@@ -72,7 +72,7 @@ def save_until_killed(lab, seconds):
     return saves
 
 
-def test_a_full_disk_changes_nothing_and_is_said_until_there_is_room(lab):
+def test_a_full_disk_changes_nothing_and_is_shown_until_there_is_room(lab):
     _, most = resource.prlimit(lab.process.pid, resource.RLIMIT_FSIZE)
     try:
         assert status(save_choices(lab, {"fineness": 1.0}, "")) == 200
@@ -123,7 +123,7 @@ def test_two_servers_on_a_folder_never_overwrite_each_other(tmp_path):
     assert sorted(place[1] for place in planned) == sorted(saved)
 
 
-def test_a_port_that_is_taken_is_said(tmp_path, run):
+def test_a_port_in_use_is_refused(tmp_path, run):
     with socket.socket() as taken:
         taken.bind(("127.0.0.1", 0))
         taken.listen()
@@ -145,7 +145,7 @@ def test_the_lab_ends_quietly(tmp_path):
     assert (lab.process.returncode, said, complained) == (0, "", "")
 
 
-def test_a_folder_that_is_not_there_is_made_and_without_a_browser_the_address_is_enough(tmp_path):
+def test_a_missing_folder_is_made_and_the_address_is_printed(tmp_path):
     folder = tmp_path / "shop/my-maslow"
     process = subprocess.Popen(
         [*PLUMB, "lab", str(folder), "--port", "0"],
@@ -180,7 +180,7 @@ def choices(client):
     return got(client.get("/api/project"))["choices"]
 
 
-def test_another_file_is_opened_next_to_the_first_and_the_first_is_opened_again(tmp_path):
+def test_a_second_file_is_opened_and_the_first_again(tmp_path):
     client = with_settings(tmp_path)
     assert open_file(client, OTHER) == "groundcontrol-2.ini"
     assert (tmp_path / "groundcontrol.ini").read_bytes() == INI

@@ -40,7 +40,7 @@ def hidden(folder):
 
 
 class Said:
-    """What terminal, report and page say of a board."""
+    """The numbers of terminal, report and page for a board."""
 
     def __init__(self, folder, files):
         words = [str(folder / name) for name in files]
@@ -94,7 +94,7 @@ def row(title, words):
     return re.findall(r"\d+\.\d+", match_in(rf"{re.escape(title)}((?: +(?:[\d.]+|-))+)", words))
 
 
-def test_error_as_set_is_the_same(said):
+def test_the_error_as_set_is_the_same(said):
     assert_same(
         match_in(rf"The marks lie {LENGTH} RMS", said.compare),
         said.compared["rms_mm"],

@@ -67,7 +67,7 @@ def ways(state, *each):
 
 
 def by_keyboard(page):
-    """What the keyboard does not reach in order, or where it cannot be seen."""
+    """Elements that the keyboard does not reach in order, or that show no focus."""
     stops = tabbed(page)
     places = [stop["place"] for stop in stops]
     yield from (f"keyboard: not seen: {stop['html']}" for stop in stops[1:] if not stop["seen"])
@@ -78,7 +78,7 @@ def by_keyboard(page):
 
 
 def faults(page):
-    """What a screen has wrong for eyes and fingers."""
+    """Faults of a screen: text and targets too small, a sideways scroll."""
     yield from axe_findings(page)
     if page.evaluate("() => document.documentElement.scrollWidth > innerWidth"):
         yield f"wider than the page: {page.evaluate(WIDER)}"
@@ -143,7 +143,7 @@ def test_screens_at_the_first_visit(shown):
 
 
 @pytest.mark.parametrize("shown", [("measured", "desktop", "light")], indirect=True)
-def test_the_way_is_gone_by_keyboard_alone(shown):
+def test_all_steps_can_be_done_by_keyboard_alone(shown):
     shown.keyboard.press("Tab")
     shown.keyboard.press("Enter")  # past the list of steps
     assert shown.evaluate("() => document.activeElement.id") == "screen"

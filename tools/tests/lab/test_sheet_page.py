@@ -33,12 +33,12 @@ def verdict(lab, page):
 
 
 def ticks(page):
-    """What stands at the axes, as numbers."""
+    """The labels of the axes, as numbers."""
     said = page.locator(".sheet .axes text").all_text_contents()
     return [float(each.replace("−", "-")) for each in said if each not in {"mm", "inch"}]
 
 
-def test_a_mark_is_named_by_mouse_finger_and_keys(verdict):
+def test_a_mark_can_be_chosen_by_mouse_finger_and_keys(verdict):
     card, place = verdict.locator(CARD), verdict.locator(".sheet circle.place").first
     place.hover(force=True)
     expect(card).to_contain_text(re.compile(r"Mark 1 \d\.\d\d mm off"))
@@ -153,7 +153,7 @@ def test_a_reading_that_disagrees_is_ringed_and_scales_nothing(lab, page):
         assert now[0] is None or now[0] == pytest.approx(figure, abs=0.2)
 
 
-def test_correct_compares_the_file_what_is_accepted_and_all_of_it_in_this_order(lab, page):
+def test_correct_compares_the_file_the_accepted_numbers_and_all_numbers(lab, page):
     measured_machine(lab.folder)
     with lab.client() as client:
         made = finished(client, "correction")["correction"]
@@ -181,7 +181,7 @@ def test_correct_compares_the_file_what_is_accepted_and_all_of_it_in_this_order(
     expect(states.nth(1)).to_be_checked()  # all of it
 
 
-def test_it_is_enlarged_by_keys_and_buttons_and_scrolls_to_the_mark_that_is_chosen(verdict):
+def test_it_zooms_by_keys_and_buttons_and_scrolls_to_the_chosen_mark(verdict):
     frame, drawing = verdict.locator(FRAME), verdict.locator(".sheet svg").last
     seen, whole = frame.bounding_box(), drawing.bounding_box()
     last = verdict.locator(".sheet circle.place").last
@@ -206,7 +206,7 @@ def test_it_is_enlarged_by_keys_and_buttons_and_scrolls_to_the_mark_that_is_chos
     assert drawing.bounding_box() == whole
 
 
-def test_a_mark_stays_chosen_while_the_verdict_is_said_in_another_unit(verdict):
+def test_a_mark_stays_chosen_when_the_unit_changes(verdict):
     held = []
     verdict.locator(FRAME).focus()
     verdict.keyboard.press("Home")

@@ -27,7 +27,7 @@ def client(tmp_path, monkeypatch):
 
 
 def said_by(command, capsys):
-    """What the last line of a command says to a program."""
+    """The answer in the last line of a command."""
     capsys.readouterr()
     assert main([*shlex.split(command.splitlines()[-1])[1:], "--json"]) in (0, 1)
     return json.loads(capsys.readouterr().out)

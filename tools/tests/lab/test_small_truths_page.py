@@ -66,7 +66,7 @@ def test_the_drawing_of_the_machine_has_the_sled_where_the_bar_says(lab, page):
         assert drawn == pytest.approx([float(mm) for mm in said[:2]], abs=0.06)
 
 
-def test_the_page_is_at_rest_once_all_is_answered_saved_and_drawn(lab, page):
+def test_the_page_is_at_rest_once_everything_is_answered_saved_and_drawn(lab, page):
     measured_machine(lab.folder)
     page.goto(f"{lab.url}#/readings")
     rest = page.locator("html[data-rest]")

@@ -16,7 +16,7 @@ def client(tmp_path):
     return with_marks(tmp_path)
 
 
-def test_it_says_what_the_command_line_says(client, tmp_path):
+def test_the_verdict_is_that_of_the_command_line(client, tmp_path):
     verdict = finished(client, "verdict")["verdict"]
     inputs = api.read(tmp_path / "groundcontrol.ini", tmp_path / "marks.toml")
     diagnosis = api.diagnose(inputs)
@@ -70,7 +70,7 @@ def test_a_changed_reading_is_never_answered_by_the_verdict_before(client, tmp_p
     assert after["slips"] and [state["title"] for state in after["states"]] == ["as set"]
 
 
-def test_too_few_marks_are_refused_in_a_line(client, tmp_path):
+def test_too_few_marks_are_refused_in_one_line(client, tmp_path):
     (tmp_path / "marks.toml").write_text(
         example_form(read=1).replace("# measured", "unread = true\n# measured")
     )

@@ -83,7 +83,7 @@ def test_the_lock_of_a_program_that_was_killed_is_released(tmp_path, monkeypatch
     LineLock("/dev/ttyACM7").release()
 
 
-def test_a_lock_that_another_user_made_and_cannot_be_read_stands_in_nobodys_way(monkeypatch):
+def test_an_unreadable_lock_of_another_user_is_ignored(monkeypatch):
     def refuse(*_):
         raise PermissionError(13, "Permission denied")
 
@@ -91,7 +91,7 @@ def test_a_lock_that_another_user_made_and_cannot_be_read_stands_in_nobodys_way(
     LineLock("/dev/ttyACM7").release()
 
 
-def test_a_lock_that_another_user_made_serves_where_it_can_be_read(monkeypatch):
+def test_a_readable_lock_of_another_user_is_respected(monkeypatch):
     open_file = os.open
 
     def opened(path, flags, *mode):

@@ -11,14 +11,14 @@ def test_all_numbers_are_read():
     assert read_numbers(Sender(NumbersMachine())) == {12: 2978.4, 15: 8113.73, 38: 0.0}
 
 
-def test_a_board_without_numbers_is_no_machine():
+def test_a_board_without_numbers_is_refused():
     machine = NumbersMachine()
     machine.numbers = {}
     with pytest.raises(InputError, match="is it a Maslow's firmware"):
         read_numbers(Sender(machine))
 
 
-def test_what_changed_is_said_with_its_old_number():
+def test_a_changed_number_is_reported_with_its_old_value():
     machine = NumbersMachine()
     written = write_numbers(Sender(machine), ["$12=2978.41", "$15 = 8113.73", "$38=15.5"])
     assert written.before == {12: 2978.4, 15: 8113.73, 38: 0.0}
@@ -29,7 +29,7 @@ def test_what_changed_is_said_with_its_old_number():
 @pytest.mark.parametrize("line", ["B05", "$12", "G1 X5", "$12=5 $13=6"])
 def test_a_line_that_sets_no_number_is_refused_before_any_is_sent(line):
     machine = NumbersMachine()
-    with pytest.raises(InputError, match=r"is no number for the machine: \$N=VALUE"):
+    with pytest.raises(InputError, match=r"is not a number for the machine: \$N=VALUE"):
         write_numbers(Sender(machine), ["$38=15.5", line])
     assert machine.written == []
 

@@ -1,4 +1,4 @@
-"""Which line a command takes, and why a line cannot be opened."""
+"""Tests of the line that a command takes, and of lines that cannot be opened."""
 
 from types import SimpleNamespace
 
@@ -31,13 +31,13 @@ def test_the_only_board_on_usb_is_taken(plug):
     assert port_for(None) == "/dev/ttyACM0"
 
 
-def test_without_a_board_it_says_what_to_do(plug):
+def test_without_a_board_the_remedy_is_named(plug):
     plug(BUILT_IN)
     with pytest.raises(InputError, match="no board on USB: connect the Mega"):
         port_for(None)
 
 
-def test_of_several_boards_none_is_guessed(plug):
+def test_with_several_boards_the_port_must_be_named(plug):
     plug(BOARD, OTHER)
     with pytest.raises(InputError, match=r"several boards on USB \(/dev/ttyACM0, /dev/ttyACM1\)"):
         port_for(None)
@@ -51,7 +51,7 @@ def test_of_several_boards_none_is_guessed(plug):
         ("[Errno 2] No such file or directory", "check the cable and the name"),
     ],
 )
-def test_why_a_line_cannot_be_opened_decides_what_to_do(monkeypatch, error, remedy):
+def test_the_remedy_depends_on_why_a_line_cannot_be_opened(monkeypatch, error, remedy):
     def refuse(*_, **__):
         raise serial.SerialException(error)
 

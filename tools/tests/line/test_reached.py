@@ -1,4 +1,4 @@
-"""Which lines are surely done: those that were answered long enough ago on a machine that works."""
+"""Tests of the lines that are surely done: answered long enough ago, on a machine that works."""
 
 import pytest
 from line_board import SlowBoard, until
@@ -52,7 +52,7 @@ def test_an_answer_counts_when_its_motion_is_over(machine):
     assert reached.line == 7, "the last line, as nothing says that it is done"
 
 
-def test_after_a_stop_nothing_is_done_any_more(machine):
+def test_after_a_stop_no_more_lines_are_done(machine):
     reached = SureLines(machine.sender, LINES)
     reached.note(2)
     machine.pass_on(0.8 + LATE)
@@ -69,7 +69,7 @@ def test_a_hold_makes_no_line_done(machine):
     assert reached.line == 2
 
 
-def test_a_machine_that_answers_farther_ahead_has_come_less_far(machine):
+def test_a_machine_that_answers_farther_ahead_has_done_less(machine):
     machine.sender.ahead = 10.0
     reached = SureLines(machine.sender, LINES)
     reached.note(3)

@@ -105,7 +105,7 @@ def test_a_stop_forgets_the_lines_behind_a_refused_line():
     assert board.waiting == []
 
 
-def test_what_is_said_besides_answers_is_heard_in_order():
+def test_messages_between_answers_are_heard_in_order():
     said = []
     board = Board(lambda line: "Left: 1651.00mm\r\nRight: 1651.00mm\r\nok")
     sender = Sender(board, said.append)
@@ -116,7 +116,7 @@ def test_what_is_said_besides_answers_is_heard_in_order():
     assert sender.status == Status("Idle", (1.0, -2.5, 0.0))
 
 
-def test_a_machine_that_a_sender_of_grbl_left_reports_again():
+def test_a_machine_left_by_a_grbl_sender_reports_again():
     said = []
     board = Board(lambda line: f"this is {line}\r\nok", left_by_grbl=True)
     sender = Sender(board, said.append)
@@ -160,7 +160,7 @@ def test_a_greeting_counts_for_no_line():
     assert said == []
 
 
-def test_what_is_wrong_with_a_machine_is_heard_from_its_greeting():
+def test_faults_in_a_machines_greeting_are_heard():
     said = []
     board = Board()
     board.read = iter([b"ready\r\nok\r\nALARM: Position Lost.\r\n" + REPORT.encode()]).__next__
@@ -187,7 +187,7 @@ def stalled_board():
     return board
 
 
-def test_a_computer_that_stood_still_does_not_take_a_moving_machine_for_one_that_stands():
+def test_a_moving_machine_is_not_taken_for_standing_after_the_computer_slept():
     sender = Sender(stalled_board())
     sender.await_start()
     sender.await_rest()
@@ -207,7 +207,7 @@ def test_a_machine_that_falls_silent_while_it_is_waited_for_is_named():
     assert board.time < 6
 
 
-def test_what_came_while_this_program_stood_still_is_read_before_the_machine_is_given_up():
+def test_waiting_characters_are_read_before_the_machine_is_given_up():
     board = Board()
     usual, stood = board.read, []
 
@@ -230,7 +230,7 @@ def test_the_answer_of_a_line_that_is_slipped_in_is_for_no_line_of_the_program()
     sender.slip_in("G10 Z0")
     assert sender.stream(["G1 X1", "G1 X2"]) == 2
     assert board.written == b"G0 X5\nG10 Z0\nG1 X1\nG1 X2\n" and heard == ["error: only z"]
-    with pytest.raises(InputError, match="is no plain text"):
+    with pytest.raises(InputError, match="is not plain text"):
         sender.slip_in("G0 Z\u00bd")
 
 
@@ -262,7 +262,7 @@ def test_the_ok_of_a_pressed_key_answers_no_line(press):
         sender.stream(["G1 Xtwo"])
 
 
-def test_whoever_stops_sends_nothing_more():
+def test_nothing_is_sent_after_a_stop():
     board = Board()
     sender = Sender(board, attend=lambda sender: board.time > 1 and sender.stop())
     with pytest.raises(StoppedError):
@@ -273,7 +273,7 @@ def test_whoever_stops_sends_nothing_more():
 
 @pytest.mark.parametrize(
     ("line", "why"),
-    [("G0 X1 é", "line 2 is no plain text"), ("G1 " + "X1 " * 50, "line 2 is longer")],
+    [("G0 X1 é", "line 2 is not plain text"), ("G1 " + "X1 " * 50, "line 2 is longer")],
 )
 def test_a_line_that_the_machine_cannot_take_is_refused(line, why):
     with pytest.raises(InputError, match=why):

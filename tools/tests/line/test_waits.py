@@ -1,4 +1,4 @@
-"""Where a program waits for somebody, and what the line knows of it."""
+"""Tests of the pauses of a program, and of what the line knows of them."""
 
 import pytest
 from plumb.line.progress import Progress, Wait, waits_in
@@ -15,7 +15,7 @@ from plumb.line.worker import LineState
         ("M10\nM0 P1\nM30\nG0 M0", []),
     ],
 )
-def test_pauses_and_what_is_to_be_done_in_them(program, waits):
+def test_pauses_are_found_with_their_instructions(program, waits):
     assert list(waits_in(program.splitlines())) == waits
 
 
@@ -25,7 +25,7 @@ def state_of(done, paused_at, *, holds=True, outcome="running"):
     return LineState("busy", holds=holds, program=program).waits_for
 
 
-def test_it_waits_for_somebody_only_while_it_is_in_a_pause():
+def test_a_program_waits_for_the_operator_only_in_a_pause():
     assert state_of(3, 3) == "hang it"
     assert state_of(7, 7) == "take it off"
     assert state_of(3, -1) == ""  # held by hand, before the pause began

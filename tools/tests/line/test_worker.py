@@ -44,7 +44,7 @@ def test_a_program_is_sent_and_counted_and_then_something_is_done(worker, board)
     assert b"other" not in board.written and not worker.state.moves
 
 
-def test_a_line_of_a_machine_that_holds_is_let_go_of_at_once(worker, board):
+def test_the_line_of_a_holding_machine_is_released_at_once(worker, board):
     worker.hold()
     until(lambda state: state.holds, worker)
     board.seconds = lambda: 0.0  # so that a wait would have no end
@@ -177,7 +177,7 @@ def send(worker):
     worker.send("one.nc", ["G1 X1"])
 
 
-def test_a_line_lost_in_mid_cut_is_said_and_the_place_is_not_known(worker, board):
+def test_a_line_lost_in_mid_cut_is_reported_and_the_place_unknown(worker, board):
     board.at[20] = lambda: setattr(board, "is_pulled", True)
     worker.send("grid.nc", JOB)
     until(lambda state: state.phase == "lost", worker)
@@ -198,7 +198,7 @@ def test_a_machine_that_falls_silent_is_lost_also_at_rest(worker, board):
     assert "silent for 5 s" in worker.state.trouble
 
 
-def test_a_machine_that_is_not_there_is_said(board):
+def test_a_missing_machine_is_reported(board):
     def opened():
         raise InputError("COM9: cannot be opened; check the cable and the name")
 
@@ -228,7 +228,7 @@ def test_a_place_is_known_as_the_machine_says(board):
     worker.close()
 
 
-def test_work_that_fails_hands_its_error_to_whoever_asked(worker):
+def test_work_that_fails_passes_its_error_on(worker):
     def work(sender):
         raise InputError("no")
 

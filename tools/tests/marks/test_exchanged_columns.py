@@ -52,7 +52,7 @@ def exchanged(text):
     )
 
 
-def test_add_and_diagnose_do_not_explain_it_away(run, file):
+def test_add_and_diagnose_ask_about_exchanged_columns_too(run, file):
     marks = file("turned.toml", exchanged(MARKS.read_text()))
     settings = MARKS.with_name("groundcontrol.ini")
     for command in (["add", "--effect", "auto"], ["diagnose"], ["compare"], ["next"]):

@@ -22,7 +22,7 @@ def doubts(readings):
     return {name: (doubt.mistake, doubt.corrected) for name, doubt in by_mark.items() if doubt}
 
 
-def test_two_exchanged_readings_are_named_with_what_was_meant():
+def test_two_exchanged_readings_are_named_with_a_correction():
     a, b, *others = [(x + 3, y - 2) for x, y in CENTRES]
     assert doubts([b, a, *others]) == {
         "A": ("the readings of A and B may be exchanged", a),
@@ -43,7 +43,7 @@ def test_on_a_sheet_that_was_read_turned_round_no_marks_seem_exchanged():
         ((900 / 25.4, 400 / 25.4), "measured looks like inches", (900, 400)),
     ],
 )
-def test_a_slip_of_the_pen_is_said_with_what_was_meant(reading, mistake, meant):
+def test_a_slip_of_the_pen_is_named_with_a_correction(reading, mistake, meant):
     ((said, corrected),) = doubts([*CENTRES[:2], reading, *CENTRES[3:]]).values()
     assert said.startswith(mistake) and corrected == pytest.approx(meant)
 

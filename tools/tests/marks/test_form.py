@@ -65,7 +65,7 @@ def test_a_distance_that_stays_keeps_its_table_and_another_is_added(form):
     assert "distance" not in tomllib.loads(with_distances(form, []))
 
 
-def test_only_what_was_said_changes(form):
+def test_only_the_edited_values_change(form):
     assert with_readings(form, {}) == TEXT.replace(
         "[48.0, 14.0]\nunread = true\n", f"[48.0, 14.0]\nunread = true\n{BLANK}\n"
     )
@@ -89,7 +89,7 @@ def test_the_tape_is_stated_and_forgotten(form):
     assert "tape_sigma_mm" not in with_tape_sigma(form, None)
 
 
-def test_measurements_of_another_form_are_written_without_what_was_not_said(form):
+def test_measurements_of_another_form_are_written_without_defaults(form):
     said = tomllib.loads(marks_toml(form.measurements))
     assert said["frame"] == "machine" and said["tape_sigma_mm"] == 0.5
     assert "steered" not in said and "controller" not in said

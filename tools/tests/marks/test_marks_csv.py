@@ -58,7 +58,7 @@ HEADER = "target_x_mm,target_y_mm,measured_x_mm,measured_y_mm"
         (f"{HEADER},approach_x\n1,2,3,4,1\n", "line 2, approach_y: a number is missing"),
         (
             f"{HEADER},approach_x,approach_y\n1,2,3,4,0,0\n",
-            "line 2, approach: .0, 0. is no direction",
+            "line 2, approach: .0, 0. is not a direction",
         ),
         (
             f"{HEADER},chain_left_mm,chain_right_mm\n1,2,3,4,5,-6\n",

@@ -39,7 +39,7 @@ def read(tmp_path, text):
     return read_marks(path, sheet=SHEET)
 
 
-def test_all_that_can_be_said_is_read(tmp_path):
+def test_every_key_is_read(tmp_path):
     measurements = read(tmp_path, GOOD)
     assert measurements.marks == (
         # x - 1200 and 600 - y; an approach with y down turns round as well.
@@ -94,7 +94,7 @@ def test_distances_alone_are_measurements_too():
             'measured = ["201.5", 98]',
             "mark A measured: a number is needed",
         ),
-        ("approach = [1, 2]", "approach = [0, 0.0]", "no direction"),
+        ("approach = [1, 2]", "approach = [0, 0.0]", "not a direction"),
         ("chains = [1500.25, 1600]", "chains = [-1, 1600]", "chains: -1 is out of range"),
         (
             "target = [1200.0, 600.0]",

@@ -64,7 +64,7 @@ def test_a_toml_in_inches_holds_the_same_marks(tmp_path):
         ('inch = "45 1/16"', "inch = -2", "inch: a distance is above zero"),
     ],
 )
-def test_what_is_no_length_is_named(old, new, hint, tmp_path):
+def test_a_value_that_is_not_a_length_is_named(old, new, hint, tmp_path):
     with pytest.raises(InputError) as refused:
         read(tmp_path, INCHES.replace(old, new))
     assert hint in str(refused.value)

@@ -16,7 +16,7 @@ INI = (
 
 @pytest.mark.parametrize("text", [CSV, TOML, INI])
 @pytest.mark.parametrize("ending", ["csv", "toml", "ini", "txt"])
-def test_what_a_file_says_counts_more_than_its_ending(tmp_path, text, ending):
+def test_content_counts_more_than_a_files_ending(tmp_path, text, ending):
     path = tmp_path / f"marks.{ending}"
     path.write_text(text)
     measurements = read_marks(path, sheet=SHEET)

@@ -53,13 +53,13 @@ def giving(settings, points):
     ],
     ids=["default", "flexible"],
 )
-def test_it_is_that_of_the_judge_within_a_percent(settings, judged):
+def test_give_agrees_with_the_judge_within_a_percent(settings, judged):
     compliances = giving(settings, list(judged))
     for matrix, (xx, xy, yy) in zip(compliances, judged.values(), strict=True):
         expected = np.array([[xx, xy], [xy, yy]])
         assert matrix == pytest.approx(expected, abs=0.01 * np.abs(expected).max())
 
 
-def test_where_no_sled_can_hang_nothing_gives():
+def test_there_is_no_give_where_no_sled_can_hang():
     compliances = giving(machine(), [(0, 3000), (0, 0)])
     assert not compliances[0].any() and compliances[1].any()

@@ -139,6 +139,6 @@ def test_targets_off_the_sheet_are_moved_to_its_edge():
         assert np.array_equal(chain_lengths(settings, outside), chain_lengths(settings, edge))
 
 
-def test_our_own_kinematics_is_not_here():
+def test_our_own_kinematics_is_not_a_published_one():
     with pytest.raises(ValueError, match="stock, holey"):
         chain_lengths(OWNER, POINTS, controller="plumb")

@@ -48,7 +48,7 @@ def seen(outside, values=None, names=EVERY):
 
 @pytest.mark.parametrize("effect", LAB_EFFECTS, ids=lambda parameter: parameter.name)
 class TestEach:
-    def test_speaks_as_the_firmware_s_effects_do(self, effect):
+    def test_describes_itself_as_the_firmwares_effects_do(self, effect):
         words = effect.words
         example = library()[0]
         assert set(example) <= set(words) and words["where"] == "lab"
@@ -58,11 +58,11 @@ class TestEach:
         assert all(re.match(r"\w", text) and not text.endswith(".") for text in texts)
         assert effect.acts_on in (SLED, EDGES, TAPE)
 
-    def test_is_not_among_those_of_the_firmware(self, effect):
+    def test_is_not_an_effect_of_the_firmware(self, effect):
         assert effect.name not in known_effects()
         assert parameter_names(effect.name) == (effect.parameter,)
 
-    def test_zero_is_plausible_and_so_is_what_is_typical(self, effect):
+    def test_zero_and_the_typical_size_are_plausible(self, effect):
         (words,) = effect.words["parameters"]
         assert words["low"] <= 0 < words["typical"] < words["high"]
 
@@ -100,7 +100,7 @@ def test_the_slopes_of_all_that_is_measured_are_those_of_finite_differences(name
         assert slopes == pytest.approx(difference, abs=1e-3 * np.abs(difference).max() + 1e-9)
 
 
-def test_what_is_not_asked_for_is_not_worked_out_and_changes_nothing():
+def test_derivatives_that_are_not_asked_for_are_not_computed():
     whole, part = seen(TYPICAL), seen(TYPICAL, names=("motor_gap", "tape_scale.strain"))
     assert part.read.where.tobytes() == whole.read.where.tobytes()
     for i, name in enumerate(("motor_gap", "tape_scale.strain")):

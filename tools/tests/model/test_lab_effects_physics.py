@@ -32,7 +32,7 @@ def seen(marks, distances=(), **outside):
 
 
 def lag(place, approach, drag=6.6):
-    """How far a mark is moved by friction [mm]."""
+    """The distance by which friction moves a mark [mm]."""
     marks = (Mark("one", place, approach=approach),)
     return (seen(marks, sled_friction__drag=drag).read.where - seen(marks).read.where)[0]
 
@@ -75,7 +75,7 @@ def test_a_skew_sheet_moves_the_top_right_in_readings_and_leaves_distances_alone
     assert sighting.taped.where == pytest.approx(np.array([CORNER, (0, 0)]), abs=1e-4)
 
 
-def test_what_the_edges_say_is_of_the_turned_sheet():
+def test_readings_from_the_edges_are_those_of_the_turned_sheet():
     # A quarter turn: what was to the right is up, and is read too far right.
     sighting = seen(TWO, sheet_skew__angle=0.01, **{SHEET_ROTATION: np.pi / 2})
     assert sighting.read.where[0] == pytest.approx([-500.0 + 10.0, 1000.0], abs=1e-3)

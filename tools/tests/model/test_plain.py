@@ -50,7 +50,7 @@ from synthetic import BELIEVED
         ("residual_patch.left_x", (0.5,), "residual_patch.left_x 0.500 mm"),
     ],
 )
-def test_a_size_is_said_as_a_maker_would(name, numbers, said):
+def test_sizes_are_in_a_makers_words(name, numbers, said):
     assert plain_size(name, *numbers) == said
 
 
@@ -92,7 +92,7 @@ def test_a_size_before_is_as_fine_as_the_size_now(shown, now, before):
 @pytest.mark.parametrize(("side", "inwards"), [("left", 1), ("right", -1)])
 @pytest.mark.parametrize("size", [0.1, -0.1])
 @pytest.mark.parametrize("wave", ["sine", "cosine"])
-def test_the_high_spot_of_a_sprocket_is_said_where_the_judge_has_its_middle(
+def test_the_high_spot_of_a_sprocket_is_where_the_judge_has_its_middle(
     feed, side, inwards, size, wave
 ):
     name = f"sprocket_runout.{side}_{wave}"

@@ -22,7 +22,7 @@ def test_rounding_changes_no_order(seed):
     assert greatest(rounded_otherwise(numbers[:3], seed)) == 0
 
 
-def test_what_is_apart_is_in_order():
+def test_values_that_differ_are_in_order():
     assert ascending([2.0 + 2 * TIE, 2.0 - 2 * TIE, 2.0]).tolist() == [1, 2, 0]
     assert ascending([1e6, 1e6 - 1, 1e6 - 0.05]).tolist() == [1, 0, 2]  # a share of large numbers
     assert ascending([0.0, -0.5 * TIE, -5 * TIE]).tolist() == [2, 0, 1]
@@ -35,7 +35,7 @@ def test_nothing_that_users_get_is_ranked_by_the_last_bit():
     allowed = {
         "model/plain.py",
         "diagnosis/every_machine.py",
-        "diagnosis/evidence.py",  # the order in which signs are conditioned on: nobody sees it
+        "diagnosis/evidence.py",  # the order in which signs are conditioned on, which is not shown
         "fit/quantiles.py",  # ranks of random draws
         "job/check.py",
         "job/fixes.py",  # the first of yes and no

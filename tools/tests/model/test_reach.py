@@ -86,13 +86,13 @@ def test_the_tool_and_reach_refuse_the_same_places(gap, offset):
     assert tool.any() and (tool & ours).sum() > 0.5 * ours.sum()
 
 
-def test_the_tools_limits_are_reachs():
+def test_the_tool_has_the_limits_of_reach():
     assert REACH_LIMITS["most_tension"] == options.MAX_TENSION
     assert REACH_LIMITS["least_tension"] == options.MIN_TENSION
     assert REACH_LIMITS["least_free"] == grids.MIN_FREE_CHAIN
 
 
-def test_chains_that_no_setting_makes_soft_are_made_so():
+def test_chains_without_stretch_in_the_settings_stretch_as_usual():
     sag = SOFT.effect("chain_sag", "weight_ratio_squared")
     assert sag == pytest.approx(8.2e-12, rel=0.01)
     assert SOFT.effect("chain_stretch", "compliance") == pytest.approx(5.2e-6)
@@ -147,7 +147,7 @@ def test_the_drawn_map_is_written(form, run, machine, tmp_path):
         (["-o", "map.txt"], "-o map.txt: end the name with"),
     ],
 )
-def test_limits_and_names_that_cannot_be_are_refused(words, hint, run):
+def test_impossible_limits_and_names_are_refused(words, hint, run):
     code, said, complaint = run("reach", SETTINGS, *words)
     assert (code, said) == (2, "")
     assert hint in complaint and complaint.count("\n") == 1

@@ -32,7 +32,7 @@ def test_every_effect_has_a_section_a_picture_and_a_remedy(name):
 
 
 @pytest.mark.parametrize("name", EFFECTS)
-def test_every_picture_is_an_svg_with_its_scale_told(name):
+def test_every_picture_is_an_svg_that_states_its_scale(name):
     root = ElementTree.fromstring(TEXTS[picture_name(name)])
     assert root.tag == f"{SVG}svg" and name in root.find(f"{SVG}title").text
     said = [element.text for element in root.iter(f"{SVG}text")]

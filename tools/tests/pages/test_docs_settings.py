@@ -59,7 +59,7 @@ def test_lab_and_firmware_mean_the_same_key(name):
     assert setting.key == f"{section.removesuffix(' Settings')}: {key}"
 
 
-def test_what_the_lab_writes_for_groundcontrol_has_a_number():
+def test_every_groundcontrol_key_that_the_lab_writes_has_a_number():
     machine = MachineSettings(2978.4, 1072.6, 139.1, 2438.4, 1219.2, "top")
     keys = {setting.key for setting in SETTINGS.values()}
     for section, key in groundcontrol_changes(machine).values:
@@ -96,7 +96,7 @@ def test_the_firmware_takes_every_frame_that_the_lab_takes():
     assert BY_NAME["chain_per_turn"].high >= 2 * math.pi * FRAME_LIMITS["sprocket_radius"].high
 
 
-def test_numbers_of_others_are_left_alone():
+def test_no_setting_uses_a_number_of_another_program():
     for number in [14, *range(47, FIRST_OWN), *range(85, 99), 144]:
         assert number not in SETTINGS
     assert all(SETTINGS[number].access != "listed" for number in (43, 44, 99))

@@ -20,7 +20,7 @@ RECORDS = {HOLES[1]: 0.80, HOLES[3]: 1.00}  # [mm RMS] measured less nominal, af
 
 
 @pytest.mark.parametrize("folder", sorted(path.name for path in EXAMPLES.iterdir()))
-def test_every_set_says_where_it_comes_from_and_what_is_not_known(folder):
+def test_every_set_names_its_source_and_its_unknowns(folder):
     text = (EXAMPLES / folder / "SOURCE.md").read_text()
     assert "github.com" in text or "mibproj.info" in text
     assert any(word in text for word in ("not known", "not certain", "UNKNOWN", "LIKELY"))
@@ -59,7 +59,7 @@ def test_a_machine_on_two_brackets_is_refused_and_its_squares_are_not_in_the_lib
     assert code == 1 and "On two brackets it leans" in said
 
 
-def test_two_widths_are_too_few_for_a_diagnosis_and_the_lab_says_so(run):
+def test_two_widths_are_refused_as_too_few_for_a_diagnosis(run):
     folder = EXAMPLES / CUTS
     code, _, complained = run("diagnose", folder / "groundcontrol.ini", folder / "marks.toml")
     assert code == 2 and "2 measured numbers are too few" in complained
@@ -72,7 +72,7 @@ def test_all_hole_sets_go_into_one_command(ask):
     assert {"sled_swing", "chain_stretch"} <= set(answer["suspects"])
 
 
-def test_eight_distances_carry_no_seven_parameters_and_hide_no_miles():
+def test_eight_distances_are_too_few_for_seven_parameters():
     diagnosis = SETS[HOLES[0]].diagnosis
     for each in diagnosis.explanations:
         assert sum(len(sizes) for sizes in each.sizes.values()) < 7

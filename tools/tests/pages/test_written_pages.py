@@ -14,7 +14,7 @@ def written(tmp_path, monkeypatch):
 
 
 @pytest.mark.parametrize("name", TEXTS)
-def test_a_changed_or_missing_file_is_told(written, tmp_path, capsys, name):
+def test_a_changed_or_missing_page_is_reported(written, tmp_path, capsys, name):
     assert written() == written("--check") == 0
     assert capsys.readouterr().out == ""
     for change in (lambda path: path.write_text("other"), lambda path: path.unlink()):
@@ -24,7 +24,7 @@ def test_a_changed_or_missing_file_is_told(written, tmp_path, capsys, name):
         assert written() == written("--check") == 0
 
 
-def test_a_picture_that_no_page_shows_is_told_and_taken_away(written, tmp_path, capsys):
+def test_a_picture_that_no_page_shows_is_reported_and_removed(written, tmp_path, capsys):
     assert written() == 0
     old = tmp_path / "docs/pictures/a/rust.svg"
     old.write_text("<svg/>")

@@ -25,7 +25,7 @@ def svg_of(*panels, **how):
 
 
 @pytest.mark.parametrize("form", FORMATS)
-def test_each_form_is_what_it_says_and_the_same_each_time(form):
+def test_each_picture_has_its_format_and_the_same_bytes_each_time(form):
     named = Panel("$\\frac{$ 7.0 mm", PLACES, ERRORS)
     first, again = (draw([named], sheet=SHEET, form=form) for _ in range(2))
     assert first.startswith(STARTS[form]) and first == again
@@ -55,7 +55,7 @@ def test_no_arrow_is_cut_off_and_none_reaches_far_past_its_neighbours(count, siz
     assert len(places) < 100 or longest < 1.6 * 55
 
 
-def test_all_sheets_of_a_picture_have_a_single_scale_and_it_is_said():
+def test_all_sheets_of_a_picture_share_a_stated_scale():
     assert factor_for([BEFORE, AFTER], SHEET) == factor_for([BEFORE], SHEET) == 30
     assert "30 times life size. The longest is 12.00 mm." in svg_of(BEFORE, AFTER)
     still = Panel("none", PLACES, 0 * ERRORS)
@@ -64,7 +64,7 @@ def test_all_sheets_of_a_picture_have_a_single_scale_and_it_is_said():
 
 
 @pytest.mark.parametrize(("count", "written"), [(60, 60), (61, 0)])
-def test_words_are_as_many_as_can_be_read(count, written):
+def test_a_picture_has_few_words(count, written):
     places = np.array([[40.0 * i - 1190, 0.0] for i in range(count)])
     assert svg_of(Panel("", places, np.full((count, 2), 0.5))).count("<!-- 0.7 -->") == written
 

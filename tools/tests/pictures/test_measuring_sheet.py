@@ -46,7 +46,7 @@ def boxes(figure):
 
 
 @pytest.mark.parametrize("options", GRIDS.values(), ids=GRIDS)
-def test_all_that_is_printed_keeps_off_the_edges_of_a4_and_letter(options):
+def test_print_keeps_off_the_edges_of_a4_and_letter(options):
     for figure in pages_of(content(**options)):
         places = [each[1:] for each in extents(figure) if each[0]] + boxes(figure)
         assert min(x for x, *_ in places) > SIDE
@@ -69,7 +69,7 @@ def test_every_reading_has_its_row_and_each_number_a_box(options):
 
 
 @pytest.mark.parametrize("name", ["usual", "two pages", "dense", "four"])
-def test_no_words_cover_each_other(name):
+def test_texts_do_not_overlap(name):
     for figure in pages_of(content(**GRIDS[name])):
         written = [each for each in extents(figure) if each[0] and each[0] not in ("x", "y")]
         for first, second in itertools.combinations(written, 2):

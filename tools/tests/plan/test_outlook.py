@@ -1,4 +1,4 @@
-"""What a planned measurement is worth: information and chances, against boards drawn otherwise."""
+"""Tests of a measurement's promised information and chance, against boards drawn otherwise."""
 
 from dataclasses import replace
 
@@ -86,7 +86,7 @@ def drawn_machines(board, accounts, count, source):
 
 @pytest.mark.parametrize("what", ["marks", "check"])
 @pytest.mark.parametrize("machine", ["case", "stock"])
-def test_what_is_promised_comes_true_on_machines_drawn_from_the_posterior(machine, what, request):
+def test_promised_chances_come_true_on_machines_drawn_from_the_posterior(machine, what, request):
     case = request.getfixturevalue(machine)
     marks = PlannedMeasurement(many_marks(case).visits.taken(range(0, 28, 3)))
     planned = marks if what == "marks" else checks(*PITCH, sigma=5e-5)

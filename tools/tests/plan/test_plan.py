@@ -38,7 +38,7 @@ def pitch():
 
 @pytest.fixture(scope="module")
 def proposed(pitch):
-    """What is proposed for it."""
+    """The proposals for it."""
     _, marks, diagnosis, _ = pitch
     return propose(diagnosis, Inputs(MAKER, marks))
 
@@ -97,7 +97,7 @@ def test_more_rows_never_lower_lambda_and_chosen_ones_beat_random_ones(pitch):
     )
 
 
-def test_look_alikes_are_told_by_what_parts_them_only(pitch, proposed):
+def test_look_alikes_are_told_apart_only_by_the_right_measurement(pitch, proposed):
     # A tape and chains that are long draw nearly the same arrows; a steel rule parts them.
     cut, marks, diagnosis, _ = pitch
     assert {"tape_scale", "chain_pitch"} <= set(diagnosis.suspects)

@@ -38,7 +38,7 @@ def by_kind(case):
     return kinds
 
 
-def test_minutes_are_a_round_its_marks_and_what_is_to_be_done(by_kind):
+def test_minutes_count_the_round_its_marks_and_the_preparation(by_kind):
     (marks,), (swap,), (again,) = (by_kind[kind] for kind in ("marks", "swap", "repeats"))
     assert marks.minutes == ROUND + FEW * MARK
     assert swap.minutes == marks.minutes + SWAPPING
@@ -49,7 +49,7 @@ def test_minutes_are_a_round_its_marks_and_what_is_to_be_done(by_kind):
     assert READING < MARK < ROUND < HANGING < SWAPPING
 
 
-def test_extra_weight_is_hung_on_as_told(by_kind):
+def test_extra_weight_counts_for_its_marks(by_kind):
     hung = [(option.visits.sled_weights.max() - USUAL) / GRAVITY for option in by_kind["weight"]]
     # Four marks with each weight that does not double the sled, and all nine with 5 kg.
     assert hung == pytest.approx([2.5, 5.0, 5.0, 10.0])
@@ -92,7 +92,7 @@ def test_every_mark_is_read_again_as_it_was_made(by_kind, case):
     assert again.do == ("Read each of the 9 marks 3 more times with a newly laid tape.",)
 
 
-def test_a_number_is_checked_if_that_tells_more_than_is_known():
+def test_a_number_is_checked_only_if_the_check_is_better_than_what_is_known():
     sigma = FRAME_CHECKS["motor_gap"].sigmas["motor_gap"]
     for known, is_offered in ((1.01 * SHARPER * sigma, True), (0.99 * SHARPER * sigma, False)):
         made = [Checked("motor_gap", MACHINE.motor_gap, known)]
@@ -103,7 +103,7 @@ def test_a_number_is_checked_if_that_tells_more_than_is_known():
         assert "rotation_radius" not in names
 
 
-def test_checks_of_suspects_bring_their_numbers_and_words():
+def test_checks_of_suspects_have_their_numbers_and_words():
     (check,) = [each for each in checks_for(case_on(nine(), "chain_pitch")) if each.kind == "check"]
     direct = effect_checks()["chain_pitch"]
     assert {each.name: each.sigma for each in check.checks} == {

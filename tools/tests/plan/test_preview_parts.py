@@ -1,4 +1,4 @@
-"""What a plan could tell: sizes that are seen, and effects that look alike."""
+"""Tests of what a plan could tell: sizes that show, and effects that look alike."""
 
 from dataclasses import replace
 
@@ -35,7 +35,7 @@ def outline(seen, effect):
 
 
 @pytest.mark.parametrize("effect", ["sheet_skew", "chain_plane"])
-def test_the_smallest_size_is_named_with_the_power_that_is_said(effect):
+def test_the_smallest_size_is_detected_at_the_stated_rate(effect):
     seen = preview(MACHINE, plan_of(5, 5), sigma=SIGMA)
     model, rows = model_and_observations(MACHINE, plan_of(5, 5))
     frame = explain(Board.of(model, rows, sigma=SIGMA))
@@ -52,7 +52,7 @@ def test_the_smallest_size_is_named_with_the_power_that_is_said(effect):
     assert np.mean(nothing < NOTHING) == pytest.approx(POWER, abs=0.1)
 
 
-def test_effects_are_alike_that_the_marks_cannot_part(nine):
+def test_effects_that_the_marks_cannot_tell_apart_are_alike(nine):
     for i, each in enumerate(nine.outlines):
         limit = min(APART, 0.7 * each.seen)
         wanted = {

@@ -1,4 +1,4 @@
-"""What a proposal promises apart from its chance: pairs that are parted, and rooms."""
+"""Tests of what a proposal promises beside its chance: pairs told apart, and limits."""
 
 from dataclasses import replace
 
@@ -38,7 +38,7 @@ def test_two_effects_are_apart_by_what_a_fit_of_the_other_leaves():
     assert apart(slopes, same, fitted) == pytest.approx(0.0, abs=1e-6)
 
 
-def test_every_suspect_is_held_against_every_other():
+def test_every_suspect_is_compared_with_every_other():
     case = case_on(pitch_board(), "chain_pitch", "tape_scale", "frame_lean")
     pairs = pairs_of(case)
     assert len(pairs) == 6 and all(pair.weight == pytest.approx(2 / 3) for pair in pairs)

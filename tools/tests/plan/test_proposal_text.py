@@ -40,7 +40,7 @@ def proposal(question=SETTLE, chance=0.42, **how):
         (1.0, "above 95 %"),
     ],
 )
-def test_a_chance_is_told_in_steps_of_five(chance, said):
+def test_a_chance_is_shown_in_steps_of_five(chance, said):
     assert percent(chance) == said
 
 
@@ -53,12 +53,12 @@ def test_a_chance_is_told_in_steps_of_five(chance, said):
         (EXPLORE, ""),
     ],
 )
-def test_the_headline_tells_minutes_and_hope(question, hope):
+def test_the_headline_states_minutes_and_chance(question, hope):
     assert headline_of(proposal(question)) == f"4 more marks; about 9 minutes{hope}"
     assert headline_of(proposal(question, None)) == "4 more marks; about 9 minutes"
 
 
-def test_where_an_effect_may_act_unseen_the_hope_is_how_much_less():
+def test_without_a_proved_effect_the_headline_states_how_much_less_could_hide():
     noun = noun_of("chain_sag")
     said = headline_of(proposal(FIND, rooms=ROOMS))
     hope = f"{noun[0].upper()}{noun[1:]} may act unseen by 5.0 mm now, by 1.2 mm then"

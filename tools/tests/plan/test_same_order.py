@@ -24,7 +24,7 @@ def mirrored_board(seed):
 
 
 def answers(seed):
-    """What a user gets in an order, or as that which is most."""
+    """The ranked answers that a user gets."""
     measurements = mirrored_board(seed)
     inputs = Inputs(BELIEVED, measurements, sigma=0.5)
     diagnosis = diagnose(inputs)

@@ -1,4 +1,4 @@
-"""What to measure where no effect is in question: the places and the chances."""
+"""Tests of the proposals where no effect is in question: places and chances."""
 
 from dataclasses import replace
 from math import sqrt
@@ -42,7 +42,7 @@ def test_marks_around_the_worst_place_lie_inwards_of_it():
     assert (near.visits.targets % 10 == 0).all()
 
 
-def test_distances_that_are_worst_are_measured_again():
+def test_the_worst_distances_are_measured_again():
     board = distances_between(marks_on(MACHINE, MACHINE, targets_of(3, 3), noise=0.2))
     spans = list(board.distances)
     spans[5] = replace(spans[5], length=spans[5].length + 9.0)

@@ -13,7 +13,7 @@ from plumb.plan.planned_visits import (
 from synthetic import BELIEVED
 
 
-def test_the_program_waits_before_the_first_mark_and_at_the_end_until_all_is_as_it_was():
+def test_the_program_waits_before_the_first_mark_and_after_the_last():
     visits = sent(BELIEVED, [(0.0, 0.0), (300.0, 0.0)], controller="plumb", sled_weight=146.95)
     parts = program(visits, usual_weight=97.9).split("M0")
     assert [part.count("G1 Z-0.5") for part in parts] == [0, 2, 0]
@@ -51,7 +51,7 @@ def test_a_form_keeps_place_side_weight_and_swap(file, swapped):
     assert {visit.chains_swapped for visit in visits.each} == {swapped}
 
 
-def test_what_to_do_first_is_said_in_comments_that_no_bracket_ends():
+def test_instructions_are_comments_that_no_bracket_ends():
     visits = sent(BELIEVED, [(0.0, 0.0)], controller="plumb", sled_weight=98.0)
     long = "Cut and read a mark (0, 0) " + 20 * "and so on "
     lines = program(visits, usual_weight=98.0, do=[long]).splitlines()
@@ -60,7 +60,7 @@ def test_what_to_do_first_is_said_in_comments_that_no_bracket_ends():
     assert max(map(len, said)) <= 72 and lines.index(said[-1]) < lines.index("G21")
 
 
-def test_visits_are_taken_and_joined_with_all_they_are():
+def test_joined_visits_keep_everything():
     sides = np.array([(1.0, 0.0), (0.0, 0.0), (0.0, -1.0)])
     targets = [(-300.0, 100.0), (0.0, 100.0), (300.0, 100.0)]
     how = {"controller": "plumb", "sled_weight": 120.0, "approaches": sides}

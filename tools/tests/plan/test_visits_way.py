@@ -24,7 +24,7 @@ def test_marks_on_the_sheet_are_reached(side):
         ((0.0, 620.0), None, "leaves the sheet"),
     ],
 )
-def test_a_way_off_the_sheet_is_refused(place, side, why):
+def test_a_path_off_the_sheet_is_refused(place, side, why):
     with pytest.raises(InputError, match=f"mark far {why}"):
         refuse_way(BELIEVED, [Mark("near", (0.0, 0.0)), Mark("far", place, approach=side)])
 

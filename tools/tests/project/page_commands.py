@@ -55,7 +55,7 @@ class Shown:
 
 @dataclass(frozen=True)
 class Printed:
-    """What a command printed, and its exit code."""
+    """The output of a command, and its exit code."""
 
     output: str
     code: int
@@ -73,7 +73,7 @@ def commands_on(text: str) -> list[Shown]:
 
 
 def run_in(folder: Path, commands: list[str]) -> list[Printed]:
-    """What each command prints, all run by one shell in a folder with the example."""
+    """The output of each command, all run by one shell in a folder with the example."""
     script = "".join(f"{command}\necho '{END}'$?\n{fill_in(command)}\n" for command in commands)
     shutil.copytree(EXAMPLE, folder / "docs/example")
     for file in EXAMPLE.iterdir():
@@ -104,12 +104,12 @@ def programs() -> Path:
 
 
 def fill_in(command: str) -> str:
-    """What the reader does after a command."""
+    """The reader's actions after a command."""
     return "; ".join(deed for part, deed in FILLED_IN.items() if part in command)
 
 
 def faults_on(text: str, folder: Path) -> list[str]:
-    """What the commands of a page do that it does not show."""
+    """Commands that a page needs and does not show."""
     shown = commands_on(text)
     faults = []
     answers = run_in(folder, [each.command for each in shown])

@@ -49,7 +49,7 @@ def preloaded() -> Iterator[Path]:
         )
         client.chmod(0o755)
         command = [sys.executable, __file__, address]
-        # It ends when its input does, so that it outlives nobody.
+        # It ends when its input does.
         with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE) as server:
             assert server.stdout is not None and server.stdout.readline() == b"ready\n"
             yield folder

@@ -35,7 +35,7 @@ def test_a_figure_stands_beside_its_budget():
         (Budgets({"mud": 9**9}, {}), ["mud: has a budget, but no such case is measured"]),
     ],
 )
-def test_what_is_over_its_budget_is_told(budgets, lines):
+def test_a_figure_over_its_budget_is_reported(budgets, lines):
     assert over_budget(FIGURES, budgets) == lines
 
 

@@ -21,17 +21,17 @@ def simulation(tmp_path, monkeypatch):
 
 
 def said(program, dialogue, *arguments):
-    """What it says, and how often it was run so far."""
+    """Its exit code, its output, and the number of runs so far."""
     done = simulations.kept([program, dialogue, *arguments], [dialogue], dialogue.name)
     runs = Path(f"{dialogue}.runs").read_text().count("run")
     return done.returncode, done.stdout, runs
 
 
-def test_the_same_is_not_run_twice(simulation):
+def test_an_unchanged_simulation_is_not_run_twice(simulation):
     assert said(*simulation) == said(*simulation) == (0, "hello", 1)
 
 
-def test_what_changed_is_run_again(simulation):
+def test_a_changed_simulation_is_run_again(simulation):
     program, dialogue = simulation
     said(program, dialogue)
     dialogue.write_text("goodbye")
@@ -41,7 +41,7 @@ def test_what_changed_is_run_again(simulation):
     assert said(program, dialogue, "longer") == (0, "goodbye.\n", 4)
 
 
-def test_what_failed_is_run_again(simulation):
+def test_a_failed_simulation_is_run_again(simulation):
     program, dialogue = simulation
     program.write_text(program.read_text() + "exit 1\n")
     assert [said(program, dialogue)[::2] for _ in range(2)] == [(1, 1), (1, 2)]

@@ -1,11 +1,14 @@
-"""Whatever the firmware says in words is found on a page, in the same words."""
+"""The pages have the messages of the firmware and of `plumb` in the same words."""
 
+import ast
 import re
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
 
 ROOT = Path(__file__).resolve().parents[3]
+TROUBLE = ROOT / "docs/trouble.md"
 LITERALS = re.compile(r'(?:FLASH\(|WORD\(\w+,)\s*((?:"(?:[^"\\]|\\.)*"\s*)+)')
 
 
@@ -30,3 +33,39 @@ def pages() -> str:
 @pytest.mark.parametrize("message", sorted(messages()))
 def test_a_page_explains_what_the_firmware_says(message: str) -> None:
     assert message in pages(), "docs/trouble.md is the place for it"
+
+
+def texts_of_plumb() -> set[str]:
+    """The texts in the Python code, with ... for each value that is filled in."""
+    found = set()
+    for file in (ROOT / "tools/plumb").rglob("*.py"):
+        for node in ast.walk(ast.parse(file.read_text(encoding="utf-8"))):
+            if isinstance(node, ast.JoinedStr):
+                found.add("".join(map(_text, node.values)))
+            elif isinstance(node, ast.Constant) and isinstance(node.value, str):
+                found.add(node.value)
+    return found
+
+
+def _text(part: ast.expr) -> str:
+    return part.value if isinstance(part, ast.Constant) else "..."
+
+
+def refusals_on_the_page() -> Iterator[str]:
+    """The messages in the table of what `plumb` says."""
+    table = TROUBLE.read_text(encoding="utf-8").split("\n## What `plumb` says\n")[1]
+    for row in table.split("\n## ")[0].splitlines():
+        if row.startswith("| `"):
+            yield from re.findall(r"`([^`]+)`", row.split(" | ")[0])
+
+
+def test_plumb_can_say_each_message_of_its_table() -> None:
+    messages, texts = list(refusals_on_the_page()), texts_of_plumb()
+    assert len(messages) > 20
+    gone = [
+        message
+        for message in messages
+        for part in re.split(r"\.\.\.|; ", message)
+        if len(part.split()) > 1 and not any(part.strip(" ,'()[]") in text for text in texts)
+    ]
+    assert gone == [], "correct docs/trouble.md"

@@ -30,13 +30,13 @@ def test_the_commands_of_a_page_run_as_shown(page: str, tmp_path: Path) -> None:
         ("```\nplumb reach machine.toml --most-give 0.01\n```\n", ""),
     ],
 )
-def test_a_page_that_shows_something_else_is_caught(text: str, fault: str, tmp_path: Path) -> None:
+def test_a_page_that_shows_other_output_is_refused(text: str, fault: str, tmp_path: Path) -> None:
     said = "\n".join(faults_on(text, tmp_path))
     assert bool(said) == bool(fault)
     assert fault in said
 
 
-def test_a_page_is_written_with_what_its_commands_print(tmp_path: Path) -> None:
+def test_a_page_is_written_with_the_output_of_its_commands(tmp_path: Path) -> None:
     old = "text\n\n```console\n$ echo a\nb\n\n$ x=c\n$ echo $x\n```\n```\nplumb --help\n```\n"
     new = "text\n\n```console\n$ echo a\na\n\n$ x=c\n$ echo $x\nc\n```\n```\nplumb --help\n```\n"
     assert rewritten(old, tmp_path / "first") == new

@@ -21,7 +21,7 @@ def plain(text: str) -> str:
 
 
 def part(page: str, begin: str, end: str) -> str:
-    """What stands between two lines of a page."""
+    """The text between two lines of a page."""
     text = (ROOT / page).read_text(encoding="utf-8")
     return text.split(f"\n{begin}\n", 1)[1].split(f"\n{end}\n", 1)[0]
 

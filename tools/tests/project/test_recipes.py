@@ -26,7 +26,7 @@ DIFF = re.compile(r"```diff\n--- a/(\S+)\n\+\+\+ b/\S+\n(.*?)```", re.DOTALL)
 
 @pytest.fixture(scope="module")
 def copy(tmp_path_factory):
-    """What the recipe of a new effect touches, and the program that asks the judge."""
+    """The files that the recipe of a new effect changes, and the program that asks the judge."""
     folder = tmp_path_factory.mktemp("tree")
     for part in ("lib/Kinematics/src", "tools/judge/reference", "test/test_effects"):
         shutil.copytree(ROOT / part, folder / part)
@@ -110,7 +110,7 @@ def test_a_file_and_a_line_are_all_that_a_command_needs(monkeypatch, capsys):
 
 
 def checked(folder):
-    """What the check of the registry says of a copy."""
+    """The output of the registry's check on a copy."""
     command = [ROOT / ".venv/bin/python", ROOT / "tools/checks/effects.py", folder]
     return subprocess.run(command, capture_output=True, text=True).stdout
 
@@ -128,7 +128,7 @@ def apply(folder, path, hunks):
 
 
 def judged(folder):
-    """How far the laws of a copy are from its judge."""
+    """The distances between the laws of a copy and its judge."""
     program = folder / "judge_errors"
     includes = ["lib/Kinematics/src", "tools/judge", "test/test_effects"]
     judge = (path.relative_to(folder) for path in folder.glob("tools/judge/reference/*.cpp"))

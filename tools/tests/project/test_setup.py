@@ -1,4 +1,4 @@
-"""What tools/setup asks of Debian, and what it says where it may not install anything."""
+"""Tests of the packages that tools/setup installs, and of its messages without the right to."""
 
 import subprocess
 from pathlib import Path
@@ -59,7 +59,7 @@ def test_without_root_and_sudo_one_line_names_the_packages(tmp_path, machine):
     ]
 
 
-def test_what_is_installed_is_left_alone(tmp_path):
+def test_installed_packages_are_left_alone(tmp_path):
     assert step(tmp_path, "dpkg-query() { echo 'ii '; }; id() { echo 0; }", "lab") == []
     missing = "dpkg-query() { if [ $4 = cmake ]; then echo 'rc '; else echo 'ii '; fi; }"
     said = step(tmp_path, f"{missing}; id() {{ echo 0; }}", "lab")

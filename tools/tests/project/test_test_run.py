@@ -1,4 +1,4 @@
-"""What tools/test runs, shows and counts, tried on small commands in place of the tests."""
+"""Tests of tools/test with small commands in place of the tests."""
 
 import os
 import signal

@@ -1,4 +1,4 @@
-"""What tests of the report share: boards of each kind, and their reports."""
+"""Boards of each kind and their reports, for the tests of the report."""
 
 from __future__ import annotations
 

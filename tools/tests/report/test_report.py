@@ -69,7 +69,7 @@ def table(page, heading):
 
 
 @pytest.mark.parametrize("kind", BOARDS)
-def test_the_page_says_what_diagnose_says(made, opened, kind):
+def test_the_page_has_the_answer_of_diagnose(made, opened, kind):
     words, answer, path = made(kind)
     said = asked("diagnose", *words)
     assert answer["diagnosis"] == {key: said[key] for key in said if key != "next"}
@@ -84,7 +84,7 @@ def test_the_page_says_what_diagnose_says(made, opened, kind):
 
 
 @pytest.mark.parametrize("kind", ["cannot_tell", "slip", "spans", "hostile"])
-def test_all_that_can_be_pressed_does_something_and_leads_nowhere(made, opened, kind):
+def test_every_button_works_and_no_link_leaves_the_page(made, opened, kind):
     page = opened(made(kind)[2])
     page.evaluate(AXE.read_text())
     assert page.evaluate("async () => (await axe.run(document)).violations.map(({id}) => id)") == []
@@ -126,7 +126,7 @@ def test_a_slip_changes_no_number_and_has_its_mark(made, opened):
     ]
 
 
-def test_names_from_files_are_words_and_no_more(made, opened):
+def test_names_from_files_are_shown_as_plain_text(made, opened):
     path = made("hostile")[2]
     page = opened(path)
     assert page.locator("img, b b").count() == 0
@@ -148,7 +148,7 @@ def test_lengths_are_in_the_unit_that_was_asked_for(made, opened, tmp_path):
 
 
 @pytest.mark.parametrize("kind", ["cannot_tell", "spans"])
-def test_on_paper_nothing_is_pressed_folded_or_cut_off(made, opened, kind):
+def test_on_paper_there_are_no_buttons_folds_or_cuts(made, opened, kind):
     page = opened(made(kind)[2])
     page.set_viewport_size({"width": 718, "height": 1047})  # A4 within its margins
     page.emulate_media(media="print", color_scheme="dark")
@@ -184,7 +184,7 @@ def test_the_same_files_give_the_same_bytes(made, tmp_path):
         ((INI, MARKS), "-o/--output"),
     ],
 )
-def test_what_cannot_be_used_is_refused_and_nothing_written(
+def test_unusable_files_are_refused_and_nothing_is_written(
     tmp_path, monkeypatch, capsys, words, complaint
 ):
     monkeypatch.chdir(tmp_path)
@@ -204,7 +204,7 @@ def test_a_page_that_plumb_wrote_may_be_replaced(made, tmp_path, capsys):
     assert f"Written: {path}" in " ".join(capsys.readouterr().out.split())
 
 
-def test_settings_that_are_right_need_nothing(opened, tmp_path):
+def test_correct_settings_need_no_change(opened, tmp_path):
     write_machine_toml(tmp_path / "machine.toml", TRUE)
     marks = board(tmp_path, marks_on(TRUE, TRUE, grid(3, 3), noise=0.3), settings=TRUE)
     answer, path = reported(*marks, folder=tmp_path)

@@ -18,7 +18,7 @@ WINDOW = ("tkinter", "PIL", "cv2")
 
 
 class Nothing:
-    """What a window's part is without a window."""
+    """A widget without a window."""
 
     def __init__(self, *what, **how):
         pass
@@ -81,7 +81,7 @@ def nothing(*what, **how):
 
 
 class Window:
-    """What bCNC's window does for its sender, one thing at a time."""
+    """The tasks of bCNC's window for its sender, one at a time."""
 
     def __init__(self, sender, cnc, wait):
         self.sender, self.cnc, self.wait = sender, cnc, wait

@@ -30,7 +30,7 @@ LEFT = ["connection", "console"]
 
 
 def chosen(port: str) -> dict:
-    """What CNCjs keeps in the browser of somebody who chose port, rate and panels before."""
+    """The state that CNCjs keeps in the browser once port, rate and panels were chosen."""
     grbl = {"controller": {"type": "Grbl"}, "port": port, "baudrate": BAUD}
     panels = {
         side: {"show": True, "widgets": widgets}
@@ -42,7 +42,7 @@ def chosen(port: str) -> dict:
 
 
 def open_page(page: Page, cncjs: Cncjs, port: str) -> None:
-    """Open CNCjs's page as it looks to somebody who was here before."""
+    """Open CNCjs's page as on a later visit."""
     page.set_default_timeout(PATIENCE_MS)
     kept = json.dumps(json.dumps(chosen(port)))
     page.add_init_script(f"localStorage.setItem('cnc', localStorage.getItem('cnc') || {kept});")

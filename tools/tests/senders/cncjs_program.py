@@ -27,7 +27,7 @@ STEPS = {"feed": "feedOverride", "rapids": "rapidOverride", "spindle": "spindleO
 
 
 def free_port() -> int:
-    """A TCP port that nobody uses."""
+    """A free TCP port."""
     with socket.socket() as line:
         line.bind(("127.0.0.1", 0))
         return line.getsockname()[1]
@@ -68,7 +68,7 @@ class CncjsServer:
             return False
 
     def token(self) -> str:
-        """What its page shows when it opens the socket."""
+        """The token with which its page opens the socket."""
         head = {"Content-Type": "application/json"}
         asked = urllib.request.Request(f"{self.site}/api/signin", b"{}", head)
         with urllib.request.urlopen(asked, timeout=START) as answer:

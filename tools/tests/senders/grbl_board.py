@@ -31,7 +31,7 @@ def until(true: Callable[[], object], why: str) -> None:
 
 @dataclass
 class Tap:
-    """The machine's line, on which somebody listens."""
+    """The machine's line, with a listener."""
 
     machine: object
     sent: bytearray = field(default_factory=bytearray)  # by the sender

@@ -1,4 +1,4 @@
-"""What any sender shows, whatever its program is."""
+"""The state that any sender shows."""
 
 from dataclasses import dataclass
 

@@ -1,4 +1,4 @@
-"""What a user does with a Grbl sender, done by each sender with each brain: one test a feature."""
+"""Features of Grbl senders, tried with each sender and each brain: one test per feature."""
 
 import math
 import re
@@ -44,7 +44,7 @@ def await_place(sender, board) -> None:
 
 
 def complaints(sender) -> list[str]:
-    """What its user would read as wrong."""
+    """The errors that its user would see."""
     wrong = ("error", "ALARM", "UGS:")
     return [line for line in sender.heard() if line.startswith(wrong)]
 

@@ -54,7 +54,7 @@ def test_only_the_changed_values_change():
     ]
 
 
-def test_what_was_written_reads_back_as_the_same_machine(tmp_path):
+def test_a_written_file_reads_back_as_the_same_machine(tmp_path):
     settings = replace(
         read_settings(EXAMPLE),
         controller="plumb",
@@ -71,7 +71,7 @@ def test_what_was_written_reads_back_as_the_same_machine(tmp_path):
     assert back.effects["chain_pitch"] == pytest.approx(settings.effects["chain_pitch"])
 
 
-def test_what_cannot_be_said_is_listed():
+def test_numbers_that_the_file_cannot_hold_are_listed():
     settings = replace(
         read_settings(EXAMPLE),
         motor_center_x=2.0,

@@ -52,7 +52,7 @@ def test_corrections_and_the_keys_of_webcontrol(tmp_path):
     assert (settings.sled_weight, settings.feed) == (113.68, "bottom")
 
 
-def test_a_sled_weight_of_zero_is_a_switch_and_no_weight(tmp_path):
+def test_a_sled_weight_of_zero_is_a_switch(tmp_path):
     settings = read_settings(spoilt(tmp_path, "sledcg = 79", "sledcg = 79\nsledweight = 0"))
     assert (settings.sled_weight, settings.published.holey_sled_weight) == (97.9, 0.0)
 

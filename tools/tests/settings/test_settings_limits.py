@@ -1,4 +1,4 @@
-"""What a setting can sensibly be."""
+"""Tests of the limits of settings."""
 
 from dataclasses import fields, replace
 

@@ -52,7 +52,7 @@ def test_every_number_comes_back_bit_for_bit(tmp_path, settings):
     assert "# fitted to nine marks\n# = not a setting\n" in path.read_text()
 
 
-def test_what_need_not_be_said_has_defaults(tmp_path):
+def test_optional_keys_have_defaults(tmp_path):
     path = tmp_path / "machine.toml"
     path.write_text(
         'feed = "top"\n[sheet]\nwidth = 2438\nheight = 1219\n'

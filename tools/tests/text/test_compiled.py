@@ -20,7 +20,7 @@ def clone(tmp_path):
     return tmp_path
 
 
-def test_the_modules_here_are_of_these_sources():
+def test_the_compiled_modules_are_those_of_the_sources():
     assert compiled.stale_source() is None
     names = {*compiled.digests()}
     assert {SAG, "src/settings_table.h", "tools/core/binding.cpp"} <= names
@@ -42,19 +42,19 @@ def test_an_edit_a_new_file_and_a_lost_one_are_stale(clone):
     assert compiled.stale_source(clone, built) == SAG
 
 
-def test_a_build_that_noted_nothing_is_stale(clone, monkeypatch, tmp_path):
+def test_a_build_without_a_note_is_stale(clone, monkeypatch, tmp_path):
     monkeypatch.setattr(compiled, "NOTE", "absent.json")
     assert compiled.stale_source(clone) == SAG
 
 
 @pytest.fixture
 def an_edit(monkeypatch):
-    """What the build noted is of another chain_sag.h."""
+    """The build noted another chain_sag.h."""
     noted = compiled.digests() | {SAG: "0"}
     monkeypatch.setattr(compiled, "_note", lambda: noted)
 
 
-def test_every_program_refuses_with_a_line(an_edit, run):
+def test_every_program_refuses_in_one_line(an_edit, run):
     said = f"{SAG}: the lab was built without this change; run tools/setup"
     assert run("effects") == (2, "", f"plumb: {said}\n")
     code, answer, _ = run("effects", "--json")

@@ -19,7 +19,7 @@ digits = 4
 """
 
 
-def test_entries_are_those_configparser_finds():
+def test_entries_are_those_that_configparser_finds():
     parser = configparser.ConfigParser(interpolation=None)
     parser.read_string(TEXT)
     expected = [(s, k, v) for s in parser.sections() for k, v in parser[s].items()]

@@ -34,7 +34,7 @@ def test_number_in_refuses_everything_else(text, hint):
 
 
 @pytest.mark.parametrize("value", ["1", True, None, [1], float("nan"), float("inf"), 10**400])
-def test_number_refuses_what_is_none(value):
+def test_number_refuses_everything_else(value):
     with pytest.raises(ValueError):
         number(value)
 
@@ -45,6 +45,6 @@ def test_pair_needs_two_numbers(value):
         pair(value)
 
 
-def test_a_number_that_is_shown_as_zero_has_no_sign_by_chance():
+def test_a_number_shown_as_zero_has_no_sign():
     assert signed(-1e-12) == signed(1e-12) == "+0.00" and bare(-0.004) == "0.00"
     assert signed(-0.02) == "-0.02" and bare(-0.02) == "-0.02"

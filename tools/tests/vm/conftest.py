@@ -1,4 +1,4 @@
-"""What the tests of the virtual machine share."""
+"""Fixtures of the tests of the virtual machine."""
 
 import sys
 from pathlib import Path

@@ -25,7 +25,7 @@ INTERRUPTIBLE = functools.partial(
 
 
 def plumb(*words: str, folder: Path, code: int = 0, typed: str | None = None) -> str:
-    """What a command prints; its exit code must be this. Who types needs a program of his own."""
+    """The output of a command, which must end with this exit code."""
     if typed is None:
         said, complaint = io.StringIO(), io.StringIO()
         with pytest.MonkeyPatch.context() as patch, contextlib.chdir(folder):

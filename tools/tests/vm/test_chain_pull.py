@@ -121,7 +121,7 @@ def test_a_supply_that_sags_in_the_middle_stops_it(volts, at):
     assert pulled.answered() == [DEAD, "ok"]
 
 
-def test_pulls_that_differ_are_said():
+def test_pulls_that_differ_are_reported():
     pulled = Pulled("B11 S255 T15 L")
     while pulled.machine.across[0] < 75:
         pulled.go_on(0.02)

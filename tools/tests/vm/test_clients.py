@@ -63,7 +63,7 @@ class Client:
         self.now += milliseconds
 
     def read_line(self) -> bytes:
-        """What comes until a line is whole or the client no longer waits for its end."""
+        """The characters until a line is whole or the client no longer waits for its end."""
         end = self.now + READ_FOR
         while b"\n" not in self.came and self.now < end:
             self.wait(LOOK_EVERY)
@@ -102,7 +102,7 @@ class Client:
         self.line.write(f"{character}\n".encode())
 
     def ask(self, text: str) -> list[str]:
-        """What the machine says until the line is answered."""
+        """The machine's lines until the line is answered."""
         first = len(self.heard)
         self.say(text)
         self.settle()

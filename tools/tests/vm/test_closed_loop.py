@@ -36,7 +36,7 @@ def test_a_machine_without_a_fault_cuts_where_it_should(tmp_path, feed):
         assert mark.measured == pytest.approx(mark.target, abs=0.12)
 
 
-def test_an_owner_measures_what_is_true_and_no_better():
+def test_the_simulated_owners_readings_are_true_and_no_better_than_a_tapes():
     owner = VirtualOwner(Garage(hiding("chain_pitch"), motor_gap=2981.0))
     (gap,) = owner.check([PlannedCheck("motor_gap", 1.0)])
     assert abs(gap.value - 2981.0) < 4
@@ -56,7 +56,7 @@ def test_a_slip_is_read_again_and_then_the_effect_is_named():
     assert loop.spent == Spent(25, 3 + 25 * 1.5 + 0.75)
 
 
-def test_what_no_effect_explains_moves_marks_by_its_size_and_alike_everywhere():
+def test_an_unexplained_field_moves_marks_by_its_size():
     hidden = Hidden(outside="bump", outside_mm=3.0)
     across, up = np.meshgrid(np.linspace(-1100, 1100, 5), np.linspace(-500, 500, 5))
     places = np.stack([across.ravel(), up.ravel()], axis=1)
@@ -69,7 +69,7 @@ def test_what_no_effect_explains_moves_marks_by_its_size_and_alike_everywhere():
     assert garage.read(places) == pytest.approx(places + moved)
 
 
-def test_a_machine_that_halts_is_begun_anew_and_its_sheet_stays():
+def test_a_halted_machine_starts_again_on_the_same_sheet():
     owner = VirtualOwner(random_garage(Hidden(), 3))
     owner.switch_on()
     owner.cut_grid(Grid(columns=2, rows=2, repeats=False))

@@ -101,7 +101,7 @@ class Client:
     ("seed", "brain"),
     [(0, "host"), (1, "host"), pytest.param(1, "mega", marks=pytest.mark.slow)],
 )
-def test_holds_at_any_moment_leave_the_way_as_it_is(seed, brain, elf):
+def test_holds_at_any_moment_leave_the_path_unchanged(seed, brain, elf):
     usual = Client(machine_at_rest()).run(None)
     client = Client(machine_at_rest(elf if brain == "mega" else None))
     held = client.run(np.random.default_rng(seed))

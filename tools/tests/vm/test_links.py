@@ -47,7 +47,7 @@ def test_a_link_of_a_killed_machine_is_replaced_even_if_its_number_is_used_again
         ours.close()
 
 
-def test_what_is_no_machine_keeps_its_name(terminal, tmp_path):
+def test_a_link_that_is_not_a_machines_is_kept(terminal, tmp_path):
     (tmp_path / "job.nc").write_text("G21\n")
     link = tmp_path / "maslow"
     link.symlink_to(tmp_path / "job.nc")
@@ -57,7 +57,7 @@ def test_what_is_no_machine_keeps_its_name(terminal, tmp_path):
     assert (tmp_path / "job.nc").read_text() == "G21\n" and link.is_symlink()
 
 
-def test_a_name_that_something_else_has_by_now_is_not_taken_away(terminal, tmp_path):
+def test_a_link_that_something_else_replaced_is_kept(terminal, tmp_path):
     link = tmp_path / "maslow"
     ours = terminal()
     ours.link_as(str(link))

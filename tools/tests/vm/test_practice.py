@@ -53,7 +53,7 @@ def test_a_practice_is_cut_read_and_revealed_with_the_commands_of_a_machine(mach
     ("words", "complaint"),
     [
         (["reveal", "nowhere"], "holds no secret; begin: plumb practice start nowhere"),
-        (["reveal", "broken"], "is no secret"),
+        (["reveal", "broken"], "is not a secret"),
         (["start", "game", "--seed", "2"], "holds a secret already"),
         (["start", "theirs"], "holds a machine.toml"),
         (["start", "game", "--json"], "--json goes with reveal"),

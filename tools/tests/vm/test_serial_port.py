@@ -68,7 +68,7 @@ MOVES = "G21\nG90\nG1 X0 Y60 F800\nG4 P500\n"
 
 
 def place(said: str) -> tuple[float, ...]:
-    """Where `plumb read` says that the sled is, and the bit [mm]; nothing if nobody knows."""
+    """The place of sled and bit by `plumb read` [mm]; empty if it is unknown."""
     found = re.search(r"The sled is at x (\S+), y (\S+), the bit at z (\S+) mm", said)
     return tuple(map(float, found.groups())) if found else ()
 
@@ -113,7 +113,7 @@ def test_a_file_is_sent_alone(words, tmp_path, monkeypatch, capsys):
     assert "goes alone" in capsys.readouterr().err
 
 
-def test_what_was_not_cut_is_resumed_by_the_command_that_is_printed(served, tmp_path):
+def test_the_printed_command_resumes_a_stopped_job(served, tmp_path):
     served()
     # G1 is open while the dwell lasts. A sender that a busy computer holds up may take it for open
     # longer, or hear the dwell's end as well; the file goes on from the line that it says.
@@ -131,7 +131,7 @@ def test_what_was_not_cut_is_resumed_by_the_command_that_is_printed(served, tmp_
     assert ("G1 X0 Y60 F800" in (tmp_path / "rest.nc").read_text()) == (line <= 4)
 
 
-def test_programs_are_told_where_a_job_stopped(served, tmp_path):
+def test_json_states_where_a_job_stopped(served, tmp_path):
     served()
     plumb("send", "--port", "maslow", "$75=0.95", folder=tmp_path)
     (tmp_path / "job.nc").write_text(WAITING)
@@ -198,7 +198,7 @@ def test_z_is_moved_and_set_in_a_pause_and_the_depth_holds_from_there(served, tm
     (tmp_path / "job.nc").write_text("G21\nG0 Z5\nM0\nG1 Z-2 F300\nG0 Z5\nM30\n")
     typed = "G91 G0 Z-3 G90\nG0 X5\nG10 Z\u00bd\nG10 Z0\n\n"
     said = plumb("send", "--port", "maslow", "job.nc", folder=tmp_path, typed=typed)
-    assert "error: the program waits" in said and "is no plain text" in said
+    assert "error: the program waits" in said and "is not plain text" in said
     # What the machine answers stands before the next question.
     assert said[: said.index("error:")].count("The machine waits.") == 1
     assert "Z goes back to 5.00" in said and "6 lines were sent" in said
@@ -206,7 +206,7 @@ def test_z_is_moved_and_set_in_a_pause_and_the_depth_holds_from_there(served, tm
     assert place(read)[::2] == pytest.approx((0, 5), abs=0.05)
 
 
-def test_a_program_of_which_nothing_is_done_is_not_gone_on_with(served, tmp_path):
+def test_a_program_of_which_nothing_is_done_begins_again(served, tmp_path):
     served("--fresh")
     plumb("send", "--port", "maslow", "$75=0.95", folder=tmp_path)
     (tmp_path / "job.nc").write_text("G21\nG0 X5\nG0 X10\n")
@@ -270,14 +270,14 @@ def test_the_sled_hangs_at_the_next_start_where_it_hung_at_the_end(served, tmp_p
         (["vm", "--form", "here"], "--form and --readings go together"),
         (["vm", "--link", "here"], "here: is the name of something else; give another --link"),
         (["vm", "--link", "absent/maslow"], "cannot be the name of the port"),
-        (["vm", "--eeprom", "here"], "is no memory of 4096 bytes"),
+        (["vm", "--eeprom", "here"], "is not a memory file of 4096 bytes"),
         (["send", "--port", "absent", "G0 X1"], "absent: cannot be opened; check the cable"),
         (["send", "absent.nc"], "absent.nc: there is no such file"),
         (["read", "--port", "absent"], "absent: cannot be opened"),
         (["flash", "--port", "absent"], "absent: there is no such line"),
     ],
 )
-def test_what_cannot_be_is_refused_in_a_line(tmp_path, words, why):
+def test_impossible_values_are_refused_in_one_line(tmp_path, words, why):
     (tmp_path / "here").write_text("something\n")
     said = plumb(*words, folder=tmp_path, code=2)
     assert why in said

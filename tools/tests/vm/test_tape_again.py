@@ -76,7 +76,7 @@ def test_each_mark_is_read_again_with_new_noise(tape, sheet, tmp_path):
         assert read[:, 0].std() == pytest.approx(NOISE, rel=0.2)
 
 
-def test_a_target_that_was_cut_in_two_rounds_has_a_name_in_each(tape, sheet, tmp_path):
+def test_a_target_cut_in_two_rounds_has_a_name_in_each(tape, sheet, tmp_path):
     cut_and_read(tape, sheet, 9.0, *NEAR)
     cut_and_read(tape, sheet, -6.0, ("1", 100.0, 100.0))
     both = [("1", 100.0, 100.0), ("marks-2:1", 100.0, 100.0)]
@@ -84,7 +84,7 @@ def test_a_target_that_was_cut_in_two_rounds_has_a_name_in_each(tape, sheet, tmp
     assert [x for _, x, _ in again] == pytest.approx([109, 94, 109, 94], abs=5 * NOISE)
 
 
-def test_what_the_tape_never_read_is_refused_by_its_name(tape, sheet):
+def test_a_mark_that_the_tape_never_read_is_refused_by_name(tape, sheet):
     cut_and_read(tape, sheet, 0.0, *NEAR)
     with pytest.raises(ValueError, match="read no mark 9 on this sheet"):
         tape.fill_again(form(*NEAR, ("9", 1200.0, 600.0)))

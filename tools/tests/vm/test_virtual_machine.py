@@ -120,7 +120,7 @@ def test_a_sled_of_twenty_kilograms_travels_without_an_alarm():
         assert "ALARM" not in machine.take_said().decode()
 
 
-def test_what_cannot_be_is_refused():
+def test_impossible_values_are_refused():
     with pytest.raises(ValueError, match="no number color"):
         _vm.VirtualMachine({"color": 1.0})
     with pytest.raises(ValueError, match="no sled can hang"):

@@ -39,7 +39,7 @@ def test_the_port_hands_over_whole_lines():
     assert heard == [b"", b"", b"$30=0 (z axis)\r\n", b"ok\r\n"]
 
 
-def test_the_next_client_does_not_hear_what_was_begun_for_the_last():
+def test_a_client_does_not_get_lines_begun_for_the_last_one():
     terminal = PseudoTerminal(SlowSpeaker(b"", b"$30=0 (z"))
     serial.Serial(terminal.path, 57600, timeout=0).close()
     terminal.pass_time(1)
@@ -72,7 +72,7 @@ def test_a_client_that_stood_still_loses_no_line():
     assert heard == b"".join(said)
 
 
-def test_a_client_that_opens_the_port_hears_nothing_of_before():
+def test_a_client_that_opens_the_port_gets_no_old_lines():
     """The old machine speaks on until the opening shows; that takes long on a busy computer."""
 
     class Opened(SlowSpeaker):

@@ -21,10 +21,10 @@ test("without a sign the chosen unit counts", () => {
   near(114.3, "4 1/2", "inch");
 });
 
-test("what is no length says so, and how to type one", () => {
+test("a text that is not a length says how to type one", () => {
   for (const text of ["11l.9", "4 mm mm", '4""', "1/0", "mm", '"', "4 inch mm", "1.2.3"]) {
     assert.equal(typedLength(text, "mm"), undefined, text);
-    assert.match(noLength(text, "mm"), /is no length: type it like 11\.9/);
+    assert.match(noLength(text, "mm"), /is not a length: type it like 11\.9/);
   }
   assert.match(noLength("x", "inch"), /type it like 4 13\/32/);
   for (const text of ["", "  ", "12", '3/8"']) assert.equal(noLength(text, "mm"), "");

@@ -5,7 +5,7 @@ const INCH = 25.4;
 const SIGN = /\s*(mm|inch|in|"|″|”)$/i;
 
 /**
- * What was typed, in mm; undefined if it is no length. "12,5", "48 3/16" and "3/8" are lengths; a sign behind them says
+ * A typed length in mm; undefined if it is not a length. "12,5", "48 3/16" and "3/8" are lengths; a sign behind them says
  * the unit, whatever was chosen.
  */
 export function typedLength(text: string, chosen: Unit): number | undefined {
@@ -22,10 +22,10 @@ export function typedLength(text: string, chosen: Unit): number | undefined {
   return (minus ? -size : size) * (unit === "inch" ? INCH : 1);
 }
 
-/** Why a text is no length, and how one is typed; empty for a length and where nothing is typed. */
+/** Why a text is not a length, and how one is typed; empty for a length and where nothing is typed. */
 export function noLength(text: string, unit: Unit): string {
   if (!text.trim() || typedLength(text, unit) !== undefined) return "";
-  return `“${text.trim()}” is no length: type it like ${unit === "mm" ? "11.9" : "4 13/32"}`;
+  return `“${text.trim()}” is not a length: type it like ${unit === "mm" ? "11.9" : "4 13/32"}`;
 }
 
 /** A length [mm] in the unit that was chosen, without its name. An inch gets a decimal more. */

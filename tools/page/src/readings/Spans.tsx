@@ -62,7 +62,7 @@ function Span({ name, index, length, doubted, keep }: SpanParts) {
   const [text, setText] = useState(saved);
   const typed = typedLength(text, units);
   const wrong = text.trim() !== "" && !(typed && typed > 0);
-  // What is no length stays in view until it is mended; the number before it does not count any more.
+  // Text that is not a length stays in view until it is corrected; the previous number no longer counts.
   const stays = useRef(false);
   stays.current = wrong;
   useEffect(() => {

@@ -1,4 +1,4 @@
-// Half a reading, or a text that is no length yet: kept in this browser until it is whole. It does not count.
+// Half a reading, or a text that is not yet a length: kept in this browser until it is whole. It does not count.
 const PREFIX = "plumb-half:";
 export type Texts = readonly [string, string];
 

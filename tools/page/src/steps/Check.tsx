@@ -79,7 +79,7 @@ function OpenCheck({ answer }: { answer: CheckAnswer }) {
   return (
     <Screen
       title="Is it true?"
-      say="Cut two marks that took no part, on the same sheet, with the new settings. Then read them. They show what the machine does where nobody fitted it."
+      say="Cut two marks that took no part, on the same sheet, with the new settings. Then read them. They show how the machine does away from the marks of the fit."
       why={<Why />}
       command={answer.command}
       stage={<CheckMap answer={answer} />}

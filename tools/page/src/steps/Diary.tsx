@@ -33,7 +33,7 @@ export function Diary() {
   return (
     <Screen
       title="The diary"
-      say="Each correction with its error, and how the numbers went. A number that moved by more than its interval says that the machine has changed."
+      say="Each correction with its error, and the history of the numbers. A number that moved by more than its interval says that the machine has changed."
       act={save}
     >
       {rounds.length > 0 && <Errors rounds={rounds} units={units} />}

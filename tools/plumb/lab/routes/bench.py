@@ -146,7 +146,7 @@ class BenchStair(BaseModel):
 
 
 class BenchStairs(BaseModel):
-    """How the error falls, effect by effect, and what to think of it."""
+    """The fall of the error, effect by effect, and the verdict on it."""
 
     stairs: list[BenchStair]
     pays: bool

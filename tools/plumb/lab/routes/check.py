@@ -42,7 +42,7 @@ router = APIRouter(tags=["check"])
 
 
 class RoundError(BaseModel):
-    """How far off the marks of a form are."""
+    """The errors of a form's marks."""
 
     form: str
     off_target: float  # [mm] RMS

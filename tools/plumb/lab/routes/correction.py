@@ -66,7 +66,7 @@ class CorrectionParts(BaseModel):
     instead: NextStep | None = None  # and where to go on then
     numbers: list[ChangedNumber] = []
     with_accepted: list[ChangedNumber] = []  # fitted with all others held as they are
-    stops: list[str] = []  # why nobody should set a machine by the numbers
+    stops: list[str] = []  # reasons not to use the numbers
     cures: list[str] = []  # for what no setting holds
     warnings: list[str] = []  # what else is to be known, the heaviest first
     intervals: str = ""  # for which noise they hold

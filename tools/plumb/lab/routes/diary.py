@@ -1,4 +1,4 @@
-"""The diary: each fit with its error, and how the numbers went."""
+"""The diary: each fit with its error, and the history of the numbers."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ class CoursePoint(Point):
 
 
 class NumberCourse(BaseModel):
-    """How a number went."""
+    """The history of a number."""
 
     noun: str
     unit: str

@@ -138,7 +138,7 @@ def _shown(project: Project) -> GridAnswer:
 
 
 def _shown_taken(taken: Taken, settings: MachineSettings, choices: Choices) -> GridAnswer:
-    """Return the marks that the verdict proposed and somebody took."""
+    """Return the marks that the verdict proposed and the owner took."""
     trouble = ""
     try:
         refuse_way(settings, taken.marks)

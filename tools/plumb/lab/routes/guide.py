@@ -29,7 +29,7 @@ class GuideStep(BaseModel):
 
 
 class GuideAnswer(BaseModel):
-    """How far the guide is."""
+    """The progress of the guide."""
 
     steps: list[GuideStep]
     open: str  # the first step that is not done; empty if all are

@@ -29,7 +29,7 @@ class KnownAnswer(BaseModel):
 
 
 class Measuring(BaseModel):
-    """The number that somebody measures."""
+    """The number to measure."""
 
     name: str
 

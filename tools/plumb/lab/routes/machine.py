@@ -40,7 +40,7 @@ Speed = Annotated[float, Field(ge=1, le=1000)]
 
 @dataclass(frozen=True, kw_only=True)
 class MachineAnswer(LineState):
-    """How the line and the machine are."""
+    """The state of the line and the machine."""
 
     kind: Literal["none", "board", "virtual"]
     name: str
@@ -65,7 +65,7 @@ class VirtualRequest(BaseModel):
 
 
 class SpeedRequest(BaseModel):
-    """How many times as fast as real time the virtual machine works."""
+    """The speed of the virtual machine, in multiples of real time."""
 
     speed: Speed
 

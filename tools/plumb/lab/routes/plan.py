@@ -61,7 +61,7 @@ class AdviceAnswer(BaseModel):
 
 
 class PlanRequest(BaseModel):
-    """Marks that somebody thinks of [mm, machine frame]."""
+    """Marks that are being considered [mm, machine frame]."""
 
     layout: Layout
     places: list[tuple[float, float]] = Field(default=[], max_length=MOST_MARKS)

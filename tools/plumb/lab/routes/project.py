@@ -135,7 +135,7 @@ def open_settings(file: UploadFile, project: TheProject) -> ProjectAnswer:
 
 @contextmanager
 def laid_down(project: Project, file: UploadFile, ending: str) -> Iterator[Path]:
-    """Lay a file that somebody picked into the folder for a moment, next to those that it names;
+    """Lay a picked file into the folder for a moment, next to those that it names;
     a refusal names it as its owner does.
     """
     file.file.seek(0)

@@ -29,7 +29,7 @@ from plumb.text.errors import InputError
 
 router = APIRouter(tags=["readings"])
 ENDING = ".toml"
-CHECK = "check"  # how the names of check marks begin: they take part only if somebody says so
+CHECK = "check"  # beginning of the names of check marks, which take part only on request
 
 
 class AskedMark(BaseModel):

@@ -54,7 +54,7 @@ class EffectAnswer(BaseModel):
     sizes: list[SizeAnswer]
     taken_up: str  # how much of it the refitted frame takes up
     remedy: str
-    check: str  # how it is measured directly; empty if nobody can
+    check: str  # how it is measured directly; empty if it cannot be
 
 
 class Card(BaseModel):

@@ -36,7 +36,7 @@ export function KnownNumber({ number, known, here, wanted, look, keep }: NumberP
   const sure = shownLength(stated?.sigma ?? number.usual, unit, Math.max(number.digits, 1));
   const [read, setRead] = useState(saved);
   const [sigma, setSigma] = useState(sure);
-  const mending = useRef(false); // what is no number stays in view until it is mended
+  const mending = useRef(false); // text that is not a number stays in view until it is corrected
   useEffect(() => {
     if (!mending.current || saved !== "") setRead(saved);
   }, [saved]);
