@@ -1,49 +1,49 @@
-"""`plumb flash`: writes the firmware to the Mega by avrdude."""
+"""`plumb flash`: writes the firmware to the Mega, and says what was on it before and is now."""
 
 from __future__ import annotations
 
 import argparse
-import shutil
-import subprocess
 from pathlib import Path
 
 from plumb.cli.arguments import add_shared
+from plumb.cli.screen import bar, sentences
+from plumb.firmware.hex_file import program_in
+from plumb.line.bootloader import greeting_of, name_in, write_program
 from plumb.line.port import port_for
+from plumb.line.sender import WRONG
 from plumb.text.errors import InputError
 
-# The Mega's bootloader, as Arduino's programs address it.
-BOARD = ("-p", "atmega2560", "-c", "wiring", "-b", "115200", "-D")
-STORE = Path(".platformio/packages/tool-avrdude")
+BUILT = Path(".pio/build/megaatmega2560/firmware.hex")
+BROUGHT = Path(__file__).parents[1] / "firmware.hex"  # by the package
 
 
 def run(arguments: argparse.Namespace) -> int:
     """Write it, and return the exit code."""
+    hex_file = _hex_file(arguments.hex)
+    program = program_in(hex_file)
     port = port_for(arguments.port)
-    if not Path(port).exists():
+    before = name_in(greeting_of(port))
+    print(f"On the board: {before or 'no firmware that greets'}.", flush=True)
+    write_program(port, hex_file, program, bar(f"writing {hex_file.name}"))
+    greeting = greeting_of(port)
+    now = name_in(greeting)
+    if not now:
         raise InputError(
-            port, "there is no such line", remedy="connect the Mega and check the name"
+            port, "the flash was written, but nothing greets", remedy="reset the board"
         )
-    if not Path(arguments.hex).is_file():
-        remedy = "build it with .venv/bin/pio run -e megaatmega2560"
-        raise InputError(arguments.hex, "there is no such file", remedy=remedy)
-    command = [_avrdude(), *BOARD, "-P", port, "-U", f"flash:w:{arguments.hex}:i"]
-    done = subprocess.run(command)
-    if done.returncode:
-        raise InputError(
-            "avrdude could not write it: close GroundControl or WebControl, check the cable, and "
-            "try again"
-        )
-    print("Written. The machine starts again; open your client.")
+    print(f"Written and read back. Now: {now}.")
+    if odd := [line for line in greeting if line.startswith(WRONG)]:
+        print(sentences(odd))
     return 0
 
 
-def _avrdude() -> str:
-    """Return the program, from the system or PlatformIO's store."""
-    stored = next(STORE.rglob("avrdude"), None) if STORE.is_dir() else None
-    name = shutil.which("avrdude") or (str(stored) if stored else None)
-    if not name:
-        raise InputError("avrdude is missing: tools/setup installs it")
-    return name
+def _hex_file(named: str | None) -> Path:
+    """Return the file to write; InputError if there is none."""
+    there = [Path(named)] if named else [path for path in (BUILT, BROUGHT) if path.is_file()]
+    if not there:
+        remedy = "build it with .venv/bin/pio run -e megaatmega2560"
+        raise InputError(BUILT, "there is no such file", remedy=remedy)
+    return there[0]
 
 
 # The arguments of `plumb flash`.
@@ -52,7 +52,7 @@ EXAMPLES = (
     "plumb flash",
     "plumb flash --port /dev/ttyACM0",
 )
-EXIT = "Exit: 0 written; 2 no board, no firmware.hex, or avrdude refused."
+EXIT = "Exit: 0 written and read back; 2 no board, no file, or the board did not take it."
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -61,7 +61,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "hex",
         metavar="HEX",
         nargs="?",
-        default=".pio/build/megaatmega2560/firmware.hex",
-        help="the file to write [%(default)s]",
+        help="the file to write [what PlatformIO built here, else what came with plumb]",
     )
     add_shared(parser, "--port")

@@ -17,30 +17,34 @@ from urllib.request import urlopen
 import pytest
 from plumb.settings.files import read_settings
 from plumb.settings.toml import machine_toml
+from plumb.text.version import version
 from published_marks import MARKS, SETTINGS
 
 ROOT = Path(__file__).resolve().parents[3]
+sys.path.insert(0, str(ROOT / "tools/bench"))
+from board import built_firmware  # noqa: E402
+
 PIP = [sys.executable, "-m", "pip", "--disable-pip-version-check"]
+
+
+SDIST = "import sys; from scikit_build_core.build import build_sdist; build_sdist(sys.argv[1])"
 
 
 @pytest.fixture
 def wheel(tmp_path_factory):
-    """A wheel built from a copy of what the package is made of, without the folder test.
+    """A wheel built from what would be published: sources, and the firmware as it is flashed.
 
     The compiler's cache knows what the clone's build compiled.
     """
-    source = tmp_path_factory.mktemp("source")
-    for folder in ("lib", "src", "tools"):
-        shutil.copytree(
-            ROOT / folder, source / folder, ignore=shutil.ignore_patterns("__pycache__")
-        )
+    built_firmware()
     folder = tmp_path_factory.mktemp("wheel")
+    packed = [sys.executable, "-c", SDIST, folder]
+    subprocess.run(packed, cwd=ROOT, capture_output=True, check=True)
     options = ["--no-deps", "--no-build-isolation", "--wheel-dir", folder]
-    done = subprocess.run(
-        [*PIP, "wheel", *options, source / "tools"], capture_output=True, text=True
-    )
+    source = next(folder.glob("plumb_maslow-*.tar.gz"))
+    done = subprocess.run([*PIP, "wheel", *options, source], capture_output=True, text=True)
     assert done.returncode == 0, done.stdout + done.stderr
-    return next(folder.glob("plumb-*.whl"))
+    return next(folder.glob("plumb_maslow-*.whl"))
 
 
 run_to_its_end = partial(subprocess.run, capture_output=True)
@@ -132,8 +136,11 @@ def the_lab_is_served_with_its_page(plumb):
 def test_a_wheel_works_in_an_empty_folder(wheel, plumb):
     """In a single test: another worker would build the wheel once more."""
     with zipfile.ZipFile(wheel) as archive:
-        assert {"plumb/cli/answers.schema.json", "plumb/py.typed"} <= {*archive.namelist()}
+        brought = {"plumb/cli/answers.schema.json", "plumb/firmware.hex", "plumb/py.typed"}
+        assert brought <= {*archive.namelist()}
         name = next(n for n in archive.namelist() if n.endswith("METADATA"))
-        assert "Requires-Python: >=3.11" in archive.read(name).decode()
+        metadata = archive.read(name).decode()
+        assert metadata.startswith("Metadata-Version: ") and "\n# Plumb\n" in metadata
+        assert f"Name: plumb-maslow\nVersion: {version()}\n" in metadata
     every_command_runs(plumb)
     the_lab_is_served_with_its_page(plumb)

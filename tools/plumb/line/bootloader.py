@@ -1,0 +1,120 @@
+"""Writes a program into the Mega's flash: its bootloader takes it over the serial line (STK500v2).
+
+A reset starts the bootloader, which waits a second for a programmer. It never overwrites itself and
+leaves the EEPROM alone. So a board whose cable was pulled in the middle can be flashed again.
+"""
+
+from __future__ import annotations
+
+import shutil
+import subprocess
+import time
+from collections.abc import Callable
+from contextlib import suppress
+from pathlib import Path
+
+import serial
+from arduinobootloader import ArduinoBootloader
+
+from plumb.line.port import SerialPort
+from plumb.line.sender import Sender
+from plumb.text.errors import InputError
+
+BAUD = 115_200
+PAGE = 256  # [bytes] written at once
+MEGA = "ATmega2560"
+WAITS = (0.1, 0.3, 0.6, 0.3, 0.1)  # [s] from a reset until the bootloader is asked, in turns
+SILENT, PATIENCE = 0.1, 3.0  # [s] to wait for a byte: of the first answer, and of all others
+AVRDUDE = ("-p", "atmega2560", "-c", "wiring", "-b", str(BAUD), "-D")
+GREETINGS = ("Plumb v", "Firmware Version")
+
+
+def greeting_of(path: str) -> tuple[str, ...]:
+    """Return what the firmware of a board says at its start; empty if it says nothing."""
+    port = SerialPort(path)
+    sender = Sender(port)
+    try:
+        with suppress(InputError):  # an empty board is silent
+            sender.await_start()
+    finally:
+        port.close()
+    return sender.greeting
+
+
+def name_in(greeting: tuple[str, ...]) -> str:
+    """Return the firmware and its version; empty if none greets."""
+    named = [line for line in greeting if line.startswith(GREETINGS)]
+    return named[-1].partition(",")[0] if named else ""
+
+
+def write_program(
+    path: str, hex_file: Path, program: bytes, progress: Callable[[float], None]
+) -> None:
+    """Write a program and read it back: by avrdude where it is, else by a library. Raises
+    InputError.
+    """
+    avrdude = shutil.which("avrdude")
+    if avrdude:
+        _by_avrdude(avrdude, path, hex_file)
+        return
+    try:
+        _by_library(path, program, progress)
+    except OSError:  # of which serial's errors are some
+        raise InputError(path, "the line was lost", remedy="check the cable, and again") from None
+
+
+def _by_avrdude(avrdude: str, path: str, hex_file: Path) -> None:
+    """Let avrdude write it, which shows how far it is."""
+    if subprocess.run([avrdude, *AVRDUDE, "-P", path, "-U", f"flash:w:{hex_file}:i"]).returncode:
+        raise InputError(
+            path,
+            "avrdude could not write it",
+            remedy="close GroundControl or WebControl, check the cable and the board, and again",
+        )
+
+
+def _by_library(path: str, program: bytes, progress: Callable[[float], None]) -> None:
+    """Write page after page, and read all of them back."""
+    board = ArduinoBootloader()
+    bootloader = board.select_programmer("Stk500v2")
+    try:
+        if not any(_found(board, bootloader, path, wait) for wait in WAITS):
+            raise InputError(path, "no bootloader answers", remedy="connect a Mega, and try again")
+        if not bootloader.cpu_signature() or board.cpu_name != MEGA:
+            raise InputError(path, f"is {board.cpu_name or 'another board'}, not an {MEGA}")
+        pages = range(0, len(program), PAGE)
+        for done, at in enumerate(pages):
+            page = program[at : at + PAGE].ljust(PAGE, b"\xff")
+            if not bootloader.write_memory(bytearray(page), at):
+                raise InputError(path, f"stopped at byte {at}", remedy="check the cable, and again")
+            progress(0.5 * done / len(pages))
+        for done, at in enumerate(pages):
+            page = program[at : at + PAGE]
+            if (bootloader.read_memory(at, PAGE) or b"")[: len(page)] != page:
+                raise InputError(
+                    path, f"reads back otherwise at byte {at}", remedy="flash it again"
+                )
+            progress(0.5 + 0.5 * done / len(pages))
+        bootloader.leave_bootloader()
+        progress(1.0)
+    finally:
+        if board.device:
+            board.device.close()
+
+
+def _found(
+    board: ArduinoBootloader, bootloader: ArduinoBootloader.Stk500v2, path: str, wait: float
+) -> bool:
+    """Reset the board, and return whether its bootloader answers."""
+    if board.device:
+        board.device.close()
+    line = board.device = serial.Serial(path, BAUD, timeout=SILENT)
+    with suppress(OSError):  # a pseudo terminal has no such lines; opening it resets its machine
+        line.dtr = line.rts = False
+        time.sleep(0.05)
+        line.dtr = line.rts = True
+        line.reset_input_buffer()
+    time.sleep(wait)
+    is_found: bool = bootloader.get_sync()
+    line.timeout = PATIENCE
+    return is_found

@@ -1,0 +1,96 @@
+"""plumb flash against the bootloader of a real Mega, on the simulated one."""
+
+import re
+import struct
+import subprocess
+from pathlib import Path
+
+import pytest
+from intelhex import IntelHex
+from plumb.firmware.hex_file import hex_bytes
+from plumb.line.bootloader import write_program
+from plumb.text.errors import InputError
+from served_machine import plumb
+
+ROOT = Path(__file__).resolve().parents[3]
+BOOTLOADER = (
+    "/usr/share/arduino/hardware/arduino/avr/bootloaders/stk500v2/stk500boot_v2_mega2560.hex"
+)
+# A row of the published firmware's settings in its EEPROM: its offset, bytes and value.
+ROW = re.compile(r"\{\d+, (\d+), (\d), ([-\d.]+)f?\}")
+PULLED = 0.25  # of all that is done: half of it is written
+
+
+def published_memory():
+    """An EEPROM as the published firmware leaves it, by the table of its firmware's tests."""
+    memory = bytearray(b"\xff" * 4096)
+    memory[300], memory[301], memory[322], memory[494] = 5, 56, 56, 56
+    memory[310:322] = struct.pack("<3i", 217533, 217534, -1234)
+    table = (ROOT / "test/settings_host/published_image.h").read_text()
+    for offset, size, value in ROW.findall(table):
+        packed = (
+            struct.pack("<f", float(value)) if size == "4" else int(value).to_bytes(4, "little")
+        )
+        memory[340 + int(offset) : 340 + int(offset) + int(size)] = packed[: int(size)]
+    return bytes(memory)
+
+
+@pytest.fixture
+def silent(tmp_path):
+    """A program for the Mega that says nothing and leaves its EEPROM alone."""
+    source, program = tmp_path / "silent.c", tmp_path / "silent.elf"
+    source.write_text("int main(void) { for (;;) ; }\n")
+    subprocess.run(["avr-gcc", "-mmcu=atmega2560", source, "-o", program], check=True)
+    return str(program)
+
+
+@pytest.mark.slow
+def test_a_board_is_flashed_although_its_cable_was_pulled_and_takes_its_settings_over(
+    served, elf, silent, tmp_path, monkeypatch
+):
+    firmware, port = Path(elf).with_suffix(".hex"), str(tmp_path / "maslow")
+    (tmp_path / "memory.bin").write_bytes(published_memory())
+    # Any faster, the bootloader would not wait for avrdude.
+    board = ["--mega", silent, "--bootloader", BOOTLOADER, "--eeprom", "memory.bin"]
+    served(*board, "--speed", "1")
+
+    def pull(share):
+        if share > PULLED:
+            raise OSError("the cable was pulled")
+
+    with monkeypatch.context() as without_avrdude:
+        without_avrdude.setattr("shutil.which", lambda name: None)
+        with pytest.raises(InputError, match="the line was lost; check the cable"):
+            write_program(port, firmware, hex_bytes(firmware), pull)
+        said = plumb("flash", "--port", port, str(firmware), folder=tmp_path)
+    assert said.startswith("On the board: no firmware that greets.\nWritten and read back. Now: ")
+    numbers = plumb("read", "--port", port, folder=tmp_path)
+    assert re.search(r"sheet_width +2440.5", numbers) and re.search(r"motor_gap +3602.6", numbers)
+
+    other = IntelHex(str(firmware))
+    at = hex_bytes(firmware).index(b"Plumb v") + len("Plumb v")
+    other.puts(at, "9")
+    other.write_hex_file(tmp_path / "other.hex")
+    said = plumb("flash", "--port", port, "other.hex", folder=tmp_path)
+    assert re.search(r"On the board: Plumb v(\d).*\nWritten and read back. Now: Plumb v9", said)
+
+
+@pytest.mark.parametrize(
+    ("content", "why"),
+    [
+        (b"no program", "is not a HEX file with a program"),
+        (b":00000001FF\n", "is not a HEX file with a program"),
+    ],
+)
+def test_a_file_that_is_no_program_is_refused(tmp_path, content, why):
+    (tmp_path / "program.hex").write_bytes(content)
+    said = plumb("flash", "--port", "absent", "program.hex", folder=tmp_path, code=2)
+    assert why in said and said.count("\n") == 1
+
+
+def test_a_program_that_is_too_large_is_refused(tmp_path):
+    too_large = IntelHex()
+    too_large.frombytes(bytes(0x3E001))
+    too_large.write_hex_file(tmp_path / "program.hex")
+    said = plumb("flash", "--port", "absent", "program.hex", folder=tmp_path, code=2)
+    assert "program.hex: is larger than the Mega's flash" in said
