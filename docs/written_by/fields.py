@@ -43,7 +43,7 @@ def drawing(
         f'<rect width="{_n(width)}" height="{_n(height)}" fill="white"/>',
     ]
     for i, (label, pictures) in enumerate(rows):
-        lines.append(_text(BESIDE, tall * i + 20, label, size=15, bold=True))
+        lines.append(text(BESIDE, tall * i + 20, label, size=15, bold=True))
         for j, picture in enumerate(pictures):
             middle = ((j + 0.5) * wide, tall * i + ABOVE + SCALE * sheet[1] / 2)
             lines += _sheet(picture, sheet, middle)
@@ -60,13 +60,13 @@ def _sheet(picture: Picture, sheet: tuple[float, float], middle: tuple[float, fl
     width, height = SCALE * sheet[0], SCALE * sheet[1]
     left, top = middle[0] - width / 2, middle[1] - height / 2
     lines = [
-        _text(left, top - ABOVE + 40, picture.heading, size=12.5),
+        text(left, top - ABOVE + 40, picture.heading, size=12.5),
         f'<rect x="{_n(left)}" y="{_n(top)}" width="{_n(width)}" height="{_n(height)}" '
         f'fill="{WOOD}" stroke="{EDGE}" stroke-width="1.5"/>',
     ]
     starts = _on_paper(picture.sent, middle)
     if picture.errors is None:
-        said = _text(middle[0], top + height + 22, picture.note, size=12.5, anchor="middle")
+        said = text(middle[0], top + height + 22, picture.note, size=12.5, anchor="middle")
         return [*lines, _dots(starts), said]
     factor = factor_for(picture.errors)
     ends = _on_paper(picture.sent + factor * picture.errors, middle)
@@ -89,7 +89,7 @@ def _scale_bar(errors: Array, factor: float, left: float, height: float) -> list
         f'stroke="{INK}" stroke-width="1.6"/>'
     )
     said = f"{bar:g} mm; arrows {factor:g} times life size"
-    return [line, _text(right + 8, height + 4, said, size=12.5)]
+    return [line, text(right + 8, height + 4, said, size=12.5)]
 
 
 def _dots(places: Array) -> str:
@@ -128,7 +128,7 @@ def _on_paper(places: Array, middle: tuple[float, float]) -> Array:
     return np.array(middle) + SCALE * flipped
 
 
-def _text(
+def text(
     x: float, y: float, said: str, *, size: float, bold: bool = False, anchor: str = "start"
 ) -> str:
     weight = ' font-weight="bold"' if bold else ""

@@ -22,6 +22,7 @@ START = 12.0  # [s] a board that was reset by the line takes up to six
 SILENT = 1.5  # [s] a Maslow reports five times a second; after a sender of Grbl it does not
 QUESTION = "B05"  # turns its reports on
 VERSION = "Firmware Version"  # how its answer begins; an `ok` follows
+READY = "ready"  # ends the greeting of a board that was reset
 HOLD, GO_ON, STOP = b"\x84", b"~\n", b"!\n"
 ANSWERS = ("ok", "error:")
 WRONG = ("ALARM", "error:")  # beginnings of lines that must be shown
@@ -89,17 +90,25 @@ class Sender:
     _halted_from: int = 0  # reports that had come when it was last seen to do something
     _spare: int = 0  # answers to come that belong to no line
     _asked: int = 0  # questions at the start that may still be answered; a board that boots is deaf
+    _has_greeted: bool = False  # or has answered
+    _reported: float = 0.0  # [s] when the last report came, by the line's clock
     _has_held: bool = False  # no `~` has come since the last hold
     # Answers to come for lines that were on their way behind a refused line, or were slipped in.
     _left: int = 0
     _on_the_way: deque[tuple[str, int]] = field(default_factory=deque)
 
     def await_start(self) -> None:
-        """Wait until the machine reports; of its greeting only what is wrong is heard."""
-        begin = asked = self.port.seconds()
+        """Wait until the machine reports; of its greeting only what is wrong is heard.
+
+        A report that came before a greeting may have been on the line when the board was reset, so
+        a machine that does not greet has to report for longer than a board that starts is silent.
+        """
+        begin = asked = reported = self.port.seconds()
         greeted, said = list[str](), self.said
         self.said = greeted.append
-        while self.status is None:
+        while self.status is None or not (self._has_greeted or self._reported > reported + SILENT):
+            if self.status is None:
+                reported = self.port.seconds()
             self.listen()
             if self.port.seconds() - asked > SILENT:
                 asked = self.port.seconds()
@@ -241,6 +250,7 @@ class Sender:
 
     def _say(self, line: str) -> None:
         """Pass on all but answers, and note what the machine says of its numbers."""
+        self._has_greeted |= line == READY or line.startswith(VERSION)
         if line.startswith(VERSION) and self._is_late():
             self._asked -= 1
             self._spare += 1
@@ -329,7 +339,7 @@ class Sender:
             self._note_motion(self.status)
             self.reports += 1
             self.worked += match[1] != PAUSED
-            self.reported_at = monotonic()
+            self.reported_at, self._reported = monotonic(), self.port.seconds()
         return match is not None or line.startswith("[PE:")
 
     def _note_motion(self, status: Status) -> None:

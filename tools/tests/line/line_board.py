@@ -62,7 +62,7 @@ class SlowBoard:
         self.at = {}
         self.waiting, self.written = [], b""
         self.holds = self.is_pulled = self.is_closed = self.is_silent = False
-        self.greeting, self.state = b"", "Idle"
+        self.greeting, self.state = b"ready\r\n", "Idle"
         self.says = {}
 
     def write(self, characters):

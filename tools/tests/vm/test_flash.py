@@ -75,19 +75,6 @@ def test_a_board_is_flashed_although_its_cable_was_pulled_and_takes_its_settings
     assert re.search(r"On the board: Plumb v(\d).*\nWritten and read back. Now: Plumb v9", said)
 
 
-@pytest.mark.parametrize(
-    ("content", "why"),
-    [
-        (b"no program", "is not a HEX file with a program"),
-        (b":00000001FF\n", "is not a HEX file with a program"),
-    ],
-)
-def test_a_file_that_is_no_program_is_refused(tmp_path, content, why):
-    (tmp_path / "program.hex").write_bytes(content)
-    said = plumb("flash", "--port", "absent", "program.hex", folder=tmp_path, code=2)
-    assert why in said and said.count("\n") == 1
-
-
 def test_a_program_that_is_too_large_is_refused(tmp_path):
     too_large = IntelHex()
     too_large.frombytes(bytes(0x3E001))

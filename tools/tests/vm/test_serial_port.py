@@ -274,7 +274,7 @@ def test_the_sled_hangs_at_the_next_start_where_it_hung_at_the_end(served, tmp_p
         (["send", "--port", "absent", "G0 X1"], "absent: cannot be opened; check the cable"),
         (["send", "absent.nc"], "absent.nc: there is no such file"),
         (["read", "--port", "absent"], "absent: cannot be opened"),
-        (["flash", "--port", "absent"], "absent: there is no such line"),
+        (["flash", "here"], "here: is not a HEX file with a program"),
     ],
 )
 def test_impossible_values_are_refused_in_one_line(tmp_path, words, why):
