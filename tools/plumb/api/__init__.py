@@ -4,8 +4,6 @@
 calibration. Lengths are mm, forces N, angles rad.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path

@@ -1,7 +1,5 @@
 """One board of a kind: made, diagnosed, cured, and held against what is hidden in it."""
 
-from __future__ import annotations
-
 import time
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """Whether marks that fitted settings cut still lie where the fit promised, or what changed."""
 
-from __future__ import annotations
-
 import argparse
 from dataclasses import dataclass, replace
 

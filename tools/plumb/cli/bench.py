@@ -1,7 +1,5 @@
 """`plumb bench`: how often the diagnosis is right on boards with hidden effects."""
 
-from __future__ import annotations
-
 import argparse
 from collections.abc import Callable, Sequence
 

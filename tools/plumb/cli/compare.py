@@ -1,7 +1,5 @@
 """`plumb compare`: how far the marks lie from where the settings predict them."""
 
-from __future__ import annotations
-
 import argparse
 
 import numpy as np

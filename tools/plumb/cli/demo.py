@@ -1,7 +1,5 @@
 """`tools/demo`: an effect is hidden in a virtual machine, found and cured."""
 
-from __future__ import annotations
-
 import os
 import sys
 from collections.abc import Iterable, Sequence

@@ -1,7 +1,5 @@
 """`plumb diagnose`: which effects the settings miss, and how likely each is by the marks."""
 
-from __future__ import annotations
-
 import argparse
 from dataclasses import dataclass
 from operator import itemgetter

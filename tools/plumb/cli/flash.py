@@ -1,7 +1,5 @@
 """`plumb flash`: writes the firmware to the Mega by avrdude."""
 
-from __future__ import annotations
-
 import argparse
 import shutil
 import subprocess

@@ -1,7 +1,5 @@
 """How far a program is that is being sent: its line, its share, and the time that is left."""
 
-from __future__ import annotations
-
 import sys
 from collections.abc import Sequence
 from time import monotonic

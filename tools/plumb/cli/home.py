@@ -1,7 +1,5 @@
 """Keeps holes as home marks, and restores a lost position by them: `plumb recover`."""
 
-from __future__ import annotations
-
 import argparse
 from collections.abc import Sequence
 from dataclasses import dataclass, field
@@ -10,7 +8,6 @@ from math import dist
 from typing import Any
 
 import numpy as np
-from pydantic import computed_field
 
 from plumb.cli.output import STDOUT, say_failure, write_outputs
 from plumb.cli.screen import headline, next_step, print_json, sentences, table
@@ -34,7 +31,7 @@ from plumb.job.home import (
 )
 from plumb.job.slip import repair_program
 from plumb.settings.machine import MachineSettings
-from plumb.text.answers import Internal, json_of
+from plumb.text.answers import Internal, in_json, json_of
 from plumb.text.errors import InputError
 from plumb.text.files import alone_in
 from plumb.text.values import bare, signed, unit, worded
@@ -63,8 +60,7 @@ class HomeAnswer:
     fits: list[HomeFit] = field(default_factory=list)
     written: list[str] = field(default_factory=list)
 
-    @computed_field
-    @property
+    @in_json
     def marks(self) -> list[ShownMark]:
         """All home marks."""
         return [

@@ -1,7 +1,5 @@
 """`plumb inverse`: chain lengths for places, by the controller's formula or by our model."""
 
-from __future__ import annotations
-
 import argparse
 from collections.abc import Sequence
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """`plumb next`: the most useful next measurement, with the chance that it settles the question."""
 
-from __future__ import annotations
-
 import argparse
 from collections.abc import Sequence
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """Where results go: files, devices and pipes, and `-` for the standard output."""
 
-from __future__ import annotations
-
 import argparse
 import json
 import os

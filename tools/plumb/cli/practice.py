@@ -1,7 +1,5 @@
 """`plumb practice`: find what is hidden in a virtual machine."""
 
-from __future__ import annotations
-
 import argparse
 import secrets
 from contextlib import suppress

@@ -1,7 +1,5 @@
 """`plumb read`: the machine's numbers, and where its sled is."""
 
-from __future__ import annotations
-
 import argparse
 from dataclasses import dataclass
 from typing import Annotated

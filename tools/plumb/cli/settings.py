@@ -1,14 +1,10 @@
 """`plumb settings`: a fitted machine as lines for our firmware, with what its client needs."""
 
-from __future__ import annotations
-
 import argparse
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated
-
-from pydantic import computed_field
 
 from plumb.cli.arguments import add_shared, file
 from plumb.cli.output import write_outputs
@@ -17,7 +13,7 @@ from plumb.firmware.client_files import CLIENT_FILES, ClientFiles, client_files,
 from plumb.firmware.settings import SentSetting, firmware_numbers
 from plumb.fit.inputs import settings_in
 from plumb.settings.machine import CLIENTS, FIRMWARES, MachineSettings
-from plumb.text.answers import Internal, meant
+from plumb.text.answers import Internal, in_json, meant
 from plumb.text.errors import InputError
 
 
@@ -184,14 +180,12 @@ class WrittenFiles:
     written: tuple[str, ...]
     client: Internal[ClientFiles | None]
 
-    @computed_field
-    @property
+    @in_json
     def steps(self) -> tuple[str, ...]:
         """Steps of the owner with the files, a sentence each."""
         return self.client.steps if self.client else ()
 
-    @computed_field
-    @property
+    @in_json
     def typed(self) -> dict[str, str]:
         """Values to type into the client, by `section: key`."""
         return typed_json(self.client)

@@ -1,7 +1,5 @@
 """Whether a chain slipped by whole links, and the line that repairs it: `plumb recover --touch`."""
 
-from __future__ import annotations
-
 import argparse
 from collections.abc import Sequence
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """Adding effects to a machine: the fit before and after, and what to think of the numbers."""
 
-from __future__ import annotations
-
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Annotated
@@ -30,7 +28,7 @@ from plumb.model.lab_effects import LAB_EFFECTS
 from plumb.model.plain import noun_of, plain_name, plain_range, plain_size
 from plumb.model.predict import frame_words
 from plumb.settings.machine import MachineSettings
-from plumb.text.answers import Internal, Number, among, key, meant, part
+from plumb.text.answers import Internal, Number, among, in_json, key, meant, part
 from plumb.text.values import bare, worded
 
 Sizes = Mapping[str, Mapping[str, float]]  # of parameters, effect by effect
@@ -78,8 +76,7 @@ class Parameter:
         """Whether it is a term of the residual patch, which means nothing by itself."""
         return self.name.startswith(f"{PATCH}.")
 
-    @computed_field
-    @property
+    @in_json
     def plausible(self) -> bool:
         """Whether a real machine can have this value."""
         return self.plausible_range.holds(self.value)
@@ -145,20 +142,17 @@ class Addition:
         """The errors before anything was fitted."""
         return AsSet(self.raw.rms, self.raw.worst, self.raw.shape_rms)
 
-    @computed_field
-    @property
+    @in_json
     def sheet_rotation(self) -> float | None:
         """How the sheet is turned [rad]; null where the marks do not show it."""
         return self.after_fit.sheet_rotation if self.after_fit.shows_sheet_rotation else None
 
-    @computed_field
-    @property
+    @in_json
     def sheet_rise_mm(self) -> float | None:
         """The rise of the last sheet; null where the marks do not show it."""
         return self.sheet_rise if self.after_fit.shows_sheet_rotation else None
 
-    @computed_field
-    @property
+    @in_json
     def cures(self) -> tuple[str, ...]:
         """A sentence for each lab effect that was fitted: no setting holds it."""
         return tuple(

@@ -6,14 +6,10 @@ something is measured first. The headline, what speaks against the numbers, what
 before they hold and the screen that comes next are said here and nowhere else.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from math import hypot
 from typing import Annotated
-
-from pydantic import computed_field
 
 from plumb.cure.add import WEIGHTS, Addition, Note, add
 from plumb.cure.live_board import TooFewError
@@ -24,7 +20,7 @@ from plumb.diagnosis.expected_error import LeftOpen, RivalError, expected_error,
 from plumb.fit.inputs import Inputs
 from plumb.model.catalogue import every_effect
 from plumb.model.plain import noun_of, plainly, ranked
-from plumb.text.answers import Internal, among, key, part
+from plumb.text.answers import Internal, among, in_json, key, part
 from plumb.text.errors import to_do
 from plumb.text.values import bare, worded
 
@@ -60,8 +56,7 @@ class Decision:
 
     verdict = part("diagnosis.verdict", Verdict)
 
-    @computed_field
-    @property
+    @in_json
     def state(self) -> Annotated[str, among(STATES)]:
         """Result for the machine."""
         if self.diagnosis.outliers:
@@ -74,20 +69,17 @@ class Decision:
             return "unknown_cause"
         return "measure_first" if self.rivals else "better"
 
-    @computed_field
-    @property
+    @in_json
     def headline(self) -> str:
         """The decision for people, in at most forty words."""
         return _headline(self)
 
-    @computed_field
-    @property
+    @in_json
     def notes(self) -> tuple[Note, ...]:
         """Notes on the new numbers, the heaviest first."""
         return tuple(_notes(self))
 
-    @computed_field
-    @property
+    @in_json
     def slips(self) -> tuple[str, ...]:
         """Names of the readings that are wrong."""
         return tuple(slip.name for slip in self.diagnosis.outliers)

@@ -1,14 +1,11 @@
 """The answer of a diagnosis: what the marks prove, and what they do not."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from math import inf
 from typing import Annotated
 
 import numpy as np
-from pydantic import computed_field
 
 from plumb.diagnosis.expected_error import LeftOpen
 from plumb.diagnosis.explanation import Explanation
@@ -24,7 +21,7 @@ from plumb.fit.inputs import Stated
 from plumb.fit.problem import Checked
 from plumb.model.catalogue import place_of
 from plumb.model.plain import plainly
-from plumb.text.answers import Internal, among, key, meant, part
+from plumb.text.answers import Internal, among, in_json, key, meant, part
 from plumb.text.values import bare, worded
 
 VERDICTS = ("nothing_provable", "one_suspect", "cannot_tell", "not_in_library", "slip")
@@ -42,14 +39,12 @@ class RankedEffect:
     rms_after: Annotated[float, key("rms_after_mm")]
     hidden_share: float | None
 
-    @computed_field
-    @property
+    @in_json
     def where(self) -> Annotated[str, among(("firmware", "lab"))]:
         """Where the effect is written."""
         return place_of(self.effect)
 
-    @computed_field
-    @property
+    @in_json
     def plausible(self) -> bool:
         """Whether a real machine can have these sizes."""
         return all(size.plausible for size in self.sizes)
@@ -72,8 +67,7 @@ class Together:
     noise_rms: Annotated[float, key("noise_rms_mm", "What noise alone leaves of that fit.")]
     share: Annotated[float, meant("How likely it is among all accounts.")]
 
-    @computed_field
-    @property
+    @in_json
     def parameters(self) -> tuple[EffectSize, ...]:
         """All sizes in the order of the effects."""
         return tuple(
@@ -142,8 +136,7 @@ class Diagnosis:
     sigma_from = part("noise.source", Annotated[str, among(list(ORIGINS))])
     sigma_degrees = part("noise.degrees", float | None, "Of freedom; null: it was not estimated.")
 
-    @computed_field
-    @property
+    @in_json
     def sentence(self) -> str:
         """The verdict for people."""
         return verdict_sentence(self)
@@ -181,8 +174,7 @@ class Diagnosis:
         by_noise = left_by_noise(self.best, self.noise)
         return float(np.sqrt(max(self.best.rms**2 - by_noise**2, 0.0)))
 
-    @computed_field
-    @property
+    @in_json
     def suspects(self) -> tuple[str, ...]:
         """The effects in the explanations, best first."""
         names = (name for together in self.explanations for name in together.effects)

@@ -1,7 +1,5 @@
 """Whether settings are as good as marks can show: what is wrong with them noise alone may feign."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 
 import numpy as np

@@ -5,8 +5,6 @@ that is used, and how far its rivals would lead elsewhere, each by its share. Wh
 has is not counted.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -20,7 +18,7 @@ from plumb.fit.expected import places_over
 from plumb.fit.observations import Observations, visited
 from plumb.model.plain import ranked
 from plumb.model.predict import FOUND, NAMES, Array, lengths
-from plumb.text.answers import Internal
+from plumb.text.answers import Internal, in_json
 from plumb.text.values import worded
 
 COLUMNS, ROWS = 41, 21  # places of the sheet
@@ -145,8 +143,7 @@ class RivalError:
     mm: float  # RMS over that part of the sheet
     where: str  # for people
 
-    @computed_field
-    @property
+    @in_json
     def sentence(self) -> str:
         """By how much and where, for people."""
         return f"On the sheet the likely causes differ by {worded(self.mm, 1)} in {self.where}."

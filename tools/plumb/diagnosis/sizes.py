@@ -1,7 +1,5 @@
 """Sizes of effects: fitted with intervals, hidden in the frame, and how large they could be."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from typing import Annotated

@@ -4,8 +4,6 @@ An explanation refits the frame, so it changes what the frame alone leaves. That
 marks can show of it: its dots at the marks, and its curve against each covariate.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 

@@ -1,7 +1,5 @@
 """Course of a diary over time: errors of the fits, and each number with its interval."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from dataclasses import dataclass
 from datetime import datetime

@@ -4,8 +4,6 @@ The diary knows how well the numbers were known together when they were fitted. 
 marks may lie from where the settings put them, and which errors are too large for that.
 """
 
-from __future__ import annotations
-
 import tomllib
 from collections.abc import Sequence
 from dataclasses import dataclass, replace

@@ -1,7 +1,5 @@
 """The firmware's settings by $-number: what there are, and what they mean to the kinematics."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass
 from hashlib import sha256

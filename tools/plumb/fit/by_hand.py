@@ -4,8 +4,6 @@ An effect brings its readings along; those of the frame are here. The steps and 
 those of plumb next.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping
 from dataclasses import replace
 

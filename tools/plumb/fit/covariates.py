@@ -3,8 +3,6 @@
 Each covariate has a number for each visit and chain, by a model of the machine.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 

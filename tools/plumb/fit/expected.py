@@ -4,8 +4,6 @@ Each number of the frame is wrong by its stated error, and each effect that the 
 may be there in its typical size, all independent of each other.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache

@@ -1,7 +1,5 @@
 """Settings and readings of a board, as they go into a fit, a diagnosis and the proposals."""
 
-from __future__ import annotations
-
 import os
 from collections.abc import Mapping, Sequence
 from dataclasses import KW_ONLY, dataclass, field, replace

@@ -1,7 +1,5 @@
 """Observations for a fit: chains that were paid out, and where the sled was measured."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

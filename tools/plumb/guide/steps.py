@@ -1,7 +1,5 @@
 """The steps of the guide. Each takes a Visit, and says whether it is done."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Collection
 from dataclasses import dataclass, replace
 from pathlib import Path

@@ -1,7 +1,5 @@
 """How the guide speaks with its owner, what a short jog says, and how far the two came."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Callable
 from dataclasses import dataclass, field

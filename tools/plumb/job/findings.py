@@ -1,7 +1,5 @@
 """Findings of a dry run: answers to lines, times, and the pull of the chains."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
@@ -16,7 +14,7 @@ from plumb.model.plain import greatest, least
 from plumb.model.predict import CANNOT_HANG, REACH_WORDS, USABLE, Array, reach
 from plumb.model.reach import with_soft_chains
 from plumb.settings.machine import MachineSettings
-from plumb.text.answers import Internal, key
+from plumb.text.answers import Internal, in_json, key
 
 HALTS, LEAVES, WAITS, IGNORED = "halts", "leaves the sheet", "waits", "ignored"
 GOUGES, STILL, DEEP = "gouges", "spindle off", "too deep"
@@ -32,14 +30,12 @@ class Finding:
     says: str  # in the machine's words, or ours
     lines: Internal[tuple[int, ...]]
 
-    @computed_field
-    @property
+    @in_json
     def line(self) -> int:
         """The first of its lines."""
         return self.lines[0]
 
-    @computed_field
-    @property
+    @in_json
     def count(self) -> int:
         """How many lines it holds for."""
         return len(self.lines)

@@ -5,8 +5,6 @@ Whatever these settings do not know was in the hole too, so the same chains are 
 is back in it, also after the settings have become better.
 """
 
-from __future__ import annotations
-
 import tomllib
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -16,12 +14,12 @@ from pathlib import Path
 from typing import Annotated
 
 import numpy as np
-from pydantic import BeforeValidator, computed_field
+from pydantic import BeforeValidator
 
 from plumb.grid.options import APPROACH, PLUNGE_FEED, Grid
 from plumb.model.predict import FOUND, Array, believed_lengths, places
 from plumb.settings.machine import MachineSettings
-from plumb.text.answers import key
+from plumb.text.answers import in_json, key
 from plumb.text.errors import InputError, Source
 from plumb.text.files import parsed, read_text, write_whole
 from plumb.text.tables import Table, part, read_table, toml_text
@@ -71,8 +69,7 @@ class HomeFit:
     # [mm] within which two touches by hand agree, 99 of 100 times
     limit: Annotated[float, key("limit_mm")]
 
-    @computed_field
-    @property
+    @in_json
     def fits(self) -> bool:
         """Whether touching two holes by hand explains the error."""
         return float(np.hypot(*self.error)) <= self.limit

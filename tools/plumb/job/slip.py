@@ -6,8 +6,6 @@ it happens: a sheet that could lie anywhere explains any two marks a little, a s
 its pattern, but that well.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """How long a program on its way to the machine still takes: by its dry run, and by how it goes."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """The lab's web application: its routes, what a refusal looks like, and the guard before them."""
 
-from __future__ import annotations
-
 import json
 import sys
 from collections.abc import AsyncIterator

@@ -1,7 +1,5 @@
 """How far a cut came: kept in the folder, so that it can go on after a Stop or a restart."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress

@@ -1,7 +1,5 @@
 """Knowledge of the owner, as the fit takes it: errors stated, numbers measured."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass, replace
 
@@ -16,7 +14,7 @@ from plumb.model.effect_words import RuleReading
 from plumb.plan.separation import FRAME_CHECKS, NumberCheck, effect_checks
 from plumb.settings.machine import GRAVITY, MachineSettings
 from plumb.text.errors import InputError
-from plumb.text.values import shown_in, worded
+from plumb.text.values import worded
 
 
 @dataclass(frozen=True)
@@ -124,12 +122,11 @@ def _refused(
 ) -> dict[str, str]:
     """Why stated numbers cannot be, by name. What rests on such a number is not judged."""
     absurd = {check.name: check for check in stated(choices).checked if is_absurd(check, settings)}
-    with shown_in(choices.units):
-        return {
-            number.name: _why(number, absurd[number.name].value)
-            for number in numbers
-            if number.name in absurd and number.by not in absurd
-        }
+    return {
+        number.name: _why(number, absurd[number.name].value)
+        for number in numbers
+        if number.name in absurd and number.by not in absurd
+    }
 
 
 def _why(number: KnownNumber, value: float) -> str:

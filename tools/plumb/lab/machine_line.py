@@ -1,7 +1,5 @@
 """The machine that the lab is connected to: a board, or a virtual machine in this program."""
 
-from __future__ import annotations
-
 import os
 import re
 from collections.abc import Callable, Iterator, Mapping

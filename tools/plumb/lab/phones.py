@@ -5,8 +5,6 @@ until the lab ends or somebody sends it away: it looks, it types readings, it ho
 does all the rest only if the computer lets it.
 """
 
-from __future__ import annotations
-
 import io
 import re
 import secrets

@@ -1,7 +1,5 @@
 """The report: the lab's page as a single file, with the answers in it that it would ask for."""
 
-from __future__ import annotations
-
 import base64
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass

@@ -3,8 +3,6 @@
 To add an effect, write it here and give it a line in LAB_EFFECTS.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from dataclasses import dataclass

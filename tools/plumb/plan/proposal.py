@@ -1,7 +1,5 @@
 """Proposals to measure next, by their chance to settle the question for their minutes."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from math import erf, sqrt

@@ -4,8 +4,6 @@ A machine's settings come as the `groundcontrol.ini` or `webcontrol.json` of the
 or as a `machine.toml`.
 """
 
-from __future__ import annotations
-
 import json
 import re
 from collections.abc import Iterator, Mapping

@@ -1,7 +1,5 @@
 """`machine.toml`: every setting by name, with the effects and how they were fitted."""
 
-from __future__ import annotations
-
 import math
 import tomllib
 from collections.abc import Collection, Mapping, Sequence

@@ -4,8 +4,6 @@ A link that somebody names at a command line is followed. In a folder that may c
 none is: `links_refused` says so for all that is opened here, and `opened` is the door.
 """
 
-from __future__ import annotations
-
 import codecs
 import errno
 import fcntl

@@ -1,7 +1,5 @@
 """Single checks on values that people type; each raises ValueError with a sentence for them."""
 
-from __future__ import annotations
-
 import math
 import re
 from collections.abc import Iterable, Iterator

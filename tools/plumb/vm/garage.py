@@ -1,7 +1,5 @@
 """A machine in its garage: what is true of it, and what its owner believes."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from math import cos, sin

@@ -93,10 +93,11 @@ function Advised({ advice, chosen, take }: AdvisedParts) {
 }
 
 function Sum({ plan, looking }: { plan: Layout.Plan; looking: boolean }) {
+  const { outlines, seen, named } = plan.preview;
   return (
     <p class="sum" role="status" aria-busy={looking}>
-      <strong>About {Math.round(plan.minutes)} minutes.</strong> Of {plan.effects.length} causes in
-      their usual size, {plan.seen} would show and {plan.named} could be named.
+      <strong>About {Math.round(plan.minutes)} minutes.</strong> Of {outlines.length} causes in
+      their usual size, {seen} would show and {named} could be named.
       {looking && " Working …"}
     </p>
   );

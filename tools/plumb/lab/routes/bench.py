@@ -1,7 +1,5 @@
 """The bench for effects: add and take away, fit or hold, and see what is left of the errors."""
 
-from __future__ import annotations
-
 from collections.abc import Collection
 from contextlib import suppress
 from dataclasses import replace
@@ -49,7 +47,6 @@ from plumb.model.plain import noun_of, plain_size, plainly
 from plumb.model.predict import Array
 from plumb.text.answers import like
 from plumb.text.errors import InputError
-from plumb.text.values import shown_in
 
 router = APIRouter(tags=["bench"])
 NEW_MACHINE = "new.toml"
@@ -212,9 +209,8 @@ def refit(choice: BenchChoice, project: TheProject, warm: Warm) -> BenchFit:
     chosen = choice.chosen
     warm.live.refuse(chosen)
     fitted = warm.live.fit(chosen)
-    with shown_in(project.choices.units):
-        sizes = _sizes(fitted, chosen)
-        intervals = intervals_sentence(fitted.sigma, warm.live.noise.source)
+    sizes = _sizes(fitted, chosen)
+    intervals = intervals_sentence(fitted.sigma, warm.live.noise.source)
     title = f"+ {plainly(chosen.effects)}" if chosen.effects else "frame fitted"
     return BenchFit(
         **dict(fitted_state(title, fitted, warm.view, warm.doubts)),
@@ -250,8 +246,7 @@ def climb(choice: BenchChoice, project: TheProject, warm: Warm) -> BenchStairs:
     """Return how the error falls with each effect more. Nothing is written."""
     chosen = choice.chosen
     warm.live.refuse(chosen)
-    with shown_in(project.choices.units):
-        result = add_to(warm.live, warm.raw, chosen)
+    result = add_to(warm.live, warm.raw, chosen)
     qualities = [("frame fitted", result.before, False)]
     qualities += [(f"+ {noun_of(step.effect)}", step, step.only_fit) for step in result.by_effect]
     shown = as_set(warm.raw, warm.live.noise.sigma, doubts=warm.doubts)

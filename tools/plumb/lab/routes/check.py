@@ -1,7 +1,5 @@
 """Two check marks: where to cut them, and whether they are where the settings promise."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from typing import Any
 
@@ -36,7 +34,6 @@ from plumb.marks.read import read_marks
 from plumb.model.predict import known_effects
 from plumb.plan.planned_visits import check_places
 from plumb.text.errors import InputError
-from plumb.text.values import shown_in
 
 router = APIRouter(tags=["check"])
 
@@ -81,8 +78,7 @@ def show_check(project: TheProject, line: TheLine) -> CheckAnswer:
     places = _places(project, choices, form) if is_saved else _of_plan(plan)
     corner, sheet = choices.edges, inputs.settings.sheet
     checked = None if trouble or not is_saved else _checked(project, inputs, form)
-    with shown_in(choices.units):
-        sentence = check_sentence(checked) if checked else ""
+    sentence = check_sentence(checked) if checked else ""
     far = HowFar() if checked else _how_far(project, line, number)
     return CheckAnswer(
         **vars(far),
@@ -213,8 +209,7 @@ def _promising(project: Project) -> list[str]:
 
 def _entry(choices: Choices, form: str, checked: CheckRound) -> dict[str, Any]:
     """Return the result of a round of check marks as the diary has it. mm."""
-    with shown_in(choices.units):
-        sentence = check_sentence(checked)
+    sentence = check_sentence(checked)
     return {
         "form": form,
         "machine": choices.settings,

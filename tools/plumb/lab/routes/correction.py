@@ -1,7 +1,5 @@
 """The correction: each number before and after, accepted one by one, written, and taken back."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from functools import partial
 from pathlib import Path
@@ -33,7 +31,6 @@ from plumb.lab.routes.project import TheProject
 from plumb.lab.routes.verdict import TheBackground
 from plumb.model.plain import plain_change, plain_range
 from plumb.text.errors import InputError
-from plumb.text.values import shown_in
 
 router = APIRouter(tags=["correction"])
 CLIENT_OF = {Path(file).suffix: client for client, file in CLIENT_FILES.items()}
@@ -124,8 +121,7 @@ def show_correction(project: TheProject, background: TheBackground) -> Correctio
         progress(0.1)
         decision = decide(inputs)
         progress(0.6)
-        with shown_in(choices.units):
-            return correction_of(inputs, decision, choices)
+        return correction_of(inputs, decision, choices)
 
     answer = background.ask("correction", key, work)
     file = project.free_name("machine", *WRITTEN)

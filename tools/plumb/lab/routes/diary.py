@@ -1,7 +1,5 @@
 """The diary: each fit with its error, and how the numbers went."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from datetime import datetime
 
@@ -12,7 +10,6 @@ from plumb.diary.file import FIT, Diary, noted, read_diary
 from plumb.diary.history import Course, DiaryFit, Point, history_of
 from plumb.lab.routes.project import TheProject
 from plumb.model.plain import plain_change, plainly
-from plumb.text.values import shown_in
 
 router = APIRouter(tags=["diary"])
 MOST = 50  # other entries that are shown
@@ -60,8 +57,7 @@ class DiaryAnswer(BaseModel):
 @router.get("/diary")
 def show_diary(project: TheProject) -> DiaryAnswer:
     """Return the diary of the folder."""
-    with shown_in(project.choices.units):
-        return diary_answer(read_diary(project.folder))
+    return diary_answer(read_diary(project.folder))
 
 
 def diary_answer(diary: Diary) -> DiaryAnswer:

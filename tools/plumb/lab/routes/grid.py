@@ -1,7 +1,5 @@
 """Cutting the chosen marks: the program and its form into the folder, or to the machine."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from pathlib import Path
 

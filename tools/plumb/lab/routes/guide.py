@@ -1,7 +1,5 @@
 """A machine's first day on the page, step by step; the folder keeps how far."""
 
-from __future__ import annotations
-
 from typing import Annotated, Literal
 
 from fastapi import APIRouter, Depends, Request

@@ -1,7 +1,5 @@
 """Numbers that an owner can measure by hand, without a mark."""
 
-from __future__ import annotations
-
 from fastapi import APIRouter
 from pydantic import BaseModel
 

@@ -1,7 +1,5 @@
 """The line to the machine: connect it, send to it, hold it, stop it, read and write its numbers."""
 
-from __future__ import annotations
-
 import asyncio
 import json
 import re

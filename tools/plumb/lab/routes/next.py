@@ -1,7 +1,5 @@
 """Proposals for the next measurement, and taking one into the folder: a form and a program."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import partial
@@ -38,7 +36,6 @@ from plumb.plan.proposal import (
 from plumb.text.answers import like
 from plumb.text.errors import InputError
 from plumb.text.files import numbered
-from plumb.text.values import shown_in
 
 router = APIRouter(tags=["next"])
 MOST_OTHERS = 7
@@ -108,10 +105,9 @@ def show_next(project: TheProject, background: TheBackground) -> NextAnswer:
     said = command("next", *board_and_known(project, inputs))
     measurement = None
     if answer.result and answer.result.proposals:
-        with shown_in(project.choices.units):
-            measurement = measurement_of(
-                answer.result, partial(_taking, project, inputs, answer.result)
-            )
+        measurement = measurement_of(
+            answer.result, partial(_taking, project, inputs, answer.result)
+        )
         if measurement.taking:
             said = measurement.taking.command
     return NextAnswer(
@@ -166,8 +162,7 @@ def _proposed(project: Project, background: Background, inputs: api.Inputs) -> A
     choices = project.choices
 
     def work(progress: Progress) -> Next:
-        with shown_in(choices.units):  # the steps say where
-            return propose(api.diagnose(inputs), inputs, progress=progress)
+        return propose(api.diagnose(inputs), inputs, progress=progress)
 
     return background.ask("next", f"{key_of(project)}\n{choices.units}", work)
 
@@ -233,14 +228,13 @@ def _written(project: Project, advice: Next, place: int) -> _Written | None:
     if not len(option.visits):
         return None
     settings = str(project.path(project.choices.settings))
-    with shown_in(project.choices.units):  # the form is in the unit of the tape
-        form = form_of(
-            advice,
-            place,
-            str(project.path(f"{STEM}.toml")),  # the text is the same under any name
-            settings=settings,
-            sheet=settings_in(settings).sheet,
-        )
+    form = form_of(
+        advice,
+        place,
+        str(project.path(f"{STEM}.toml")),  # the text is the same under any name
+        settings=settings,
+        sheet=settings_in(settings).sheet,
+    )
     for stem in numbered(STEM):
         name, cut_by = f"{stem}.toml", f"{stem}.nc"
         program = program_of(advice, place, cut_by, form=name) if option.is_cut else None

@@ -1,7 +1,5 @@
 """Phones as a second pair of hands: how the next is paired, which there are, what they may do."""
 
-from __future__ import annotations
-
 from typing import Annotated, Literal
 
 from fastapi import APIRouter, Depends, Request, Response

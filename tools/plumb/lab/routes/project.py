@@ -1,10 +1,8 @@
 """The project: its files and choices, opening a file, saving a choice."""
 
-from __future__ import annotations
-
 import os
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import replace
 from pathlib import Path
 from tempfile import NamedTemporaryFile
@@ -33,7 +31,7 @@ from plumb.model.predict import known_effects
 from plumb.settings.machine import MachineSettings
 from plumb.text.answers import like
 from plumb.text.errors import InputError
-from plumb.text.values import shown_in
+from plumb.text.values import show_in
 from plumb.vm.practice import Score, score, secret_in
 
 router = APIRouter(tags=["project"])
@@ -71,10 +69,12 @@ class ChoicesChange(BaseModel):
     read: str
 
 
-def project_of(request: Request) -> Project:
-    """Return the project that this server serves."""
+async def project_of(request: Request) -> Project:
+    """Return the project that this server serves; from now on lengths are shown in its unit."""
     project = request.app.state.project
     assert isinstance(project, Project)
+    with suppress(InputError, OSError):  # who reads the choices says what is wrong with them
+        show_in(project.choices.units)
     return project
 
 
@@ -183,8 +183,7 @@ def show_doubts(project: TheProject, file: str) -> DoubtsAnswer:
         priors=known.priors,
         checked=known.checked,
     )
-    with shown_in(choices.units):
-        doubts = doubted_readings(inputs)
+    doubts = doubted_readings(inputs)
     return DoubtsAnswer(
         file=file,
         digest=digest,

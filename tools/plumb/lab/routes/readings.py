@@ -1,7 +1,5 @@
 """Readings of the tape: each is saved into a marks.toml as it is typed."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 

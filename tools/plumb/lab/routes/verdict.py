@@ -1,7 +1,5 @@
 """The verdict: a sentence, a card for each suspect, and what may act unseen."""
 
-from __future__ import annotations
-
 from typing import Annotated
 
 from fastapi import APIRouter, Depends, Request
@@ -26,7 +24,7 @@ from plumb.lab.routes.project import TheProject
 from plumb.model.catalogue import every_effect
 from plumb.model.plain import plain_range, plain_size, plainly, ranked
 from plumb.text.answers import like
-from plumb.text.values import shown_in, worded
+from plumb.text.values import worded
 
 router = APIRouter(tags=["verdict"])
 MOST_CARDS = 6
@@ -126,8 +124,7 @@ def show_verdict(project: TheProject, background: TheBackground) -> VerdictAnswe
         progress(0.6)
         decision = decide(inputs, diagnosis=diagnosis)
         progress(0.8)
-        with shown_in(choices.units):
-            return verdict_of(inputs, diagnosis, decision)
+        return verdict_of(inputs, diagnosis, decision)
 
     answer = background.ask("verdict", f"{key}\n{choices.units}", work)
     return VerdictAnswer(
