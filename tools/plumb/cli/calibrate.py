@@ -216,7 +216,8 @@ def _ending(
         case "good":
             return [verdict]
         case "better":
-            now = [_written_text(files, client)]
+            now = [sentences([f"Written: {', '.join(files)}"], mark="")]
+            now = [f"{now[0]}\n{client_text(client)}"] if client else now
             if client is None and arguments.firmware == "plumb":
                 now.append(into_machine(files[0]))
             return [verdict, *now, second_round(arguments, files)]
@@ -233,11 +234,6 @@ def _ending(
     if decision.chosen:
         parts.append(next_step("Or take the most likely one untested:", auto_words(arguments)))
     return parts
-
-
-def _written_text(files: list[str], client: ClientFiles | None) -> str:
-    written = sentences([f"Written: {', '.join(files)}"], mark="")
-    return f"{written}\n{client_text(client)}" if client else written
 
 
 def _read_again(this: CalibrationRound, arguments: argparse.Namespace) -> str:

@@ -327,8 +327,9 @@ def _job(checked: CheckedJob) -> str:
         rows.append(["removed", _volume(piece.removed), f"with {_bits(piece)}"])
     if hanging is not None:
         slack, tight = hanging.tension
+        push = f"by a push of 1 kg on the bit, most at line {hanging.give_line}"
         rows.append(["chains", f"{slack:.0f} to {tight:.0f} N", "slackest and tightest"])
-        rows.append(["give", worded(GRAVITY * hanging.give), _give(hanging)])
+        rows.append(["give", worded(GRAVITY * hanging.give), push])
     return table(["the job", "", ""], rows, words=[1, 2])
 
 
@@ -349,10 +350,6 @@ def _volume(volume: float) -> str:
 def _bits(piece: Piece) -> str:
     several = " and ".join(sorted({brief(bit.diameter) for bit in piece.bits}))
     return f"a bit of {several}" + ("" if piece.is_said else ", the usual; --bit says otherwise")
-
-
-def _give(hanging: Hanging) -> str:
-    return f"by a push of 1 kg on the bit, most at line {hanging.give_line}"
 
 
 def _parts(checked: CheckedJob) -> str:

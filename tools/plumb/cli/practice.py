@@ -87,7 +87,7 @@ class _Reader:
     def look(self, machine: VirtualMachine) -> None:
         """Look whether a form waits, and whether its marks are cut."""
         with suppress(FileNotFoundError):  # what is taken away meanwhile waits no more
-            for path in sorted(self._folder.glob("*.toml"), key=_age):
+            for path in sorted(self._folder.glob("*.toml"), key=lambda path: -path.stat().st_mtime):
                 form = path.read_text(encoding="utf-8", errors="replace")
                 if BLANK in form:
                     return self._fill(path, form, machine)
@@ -99,10 +99,6 @@ class _Reader:
         filled = self._tape.fill_when_cut(form, machine)
         if filled:
             write_whole(str(path), filled.encode())
-
-
-def _age(path: Path) -> float:
-    return -path.stat().st_mtime
 
 
 def _reveal(folder: Path, arguments: argparse.Namespace) -> int:

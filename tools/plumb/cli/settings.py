@@ -62,7 +62,9 @@ def run(arguments: argparse.Namespace) -> int:
         print(content.decode(), end="")
         if arguments.to == "table":
             print(f"\n{headline(_verdict(numbers, shown))}")
-            print(f"\n{next_step('For the machine:', _to_gcode(arguments.settings))}")
+            kept = ["--client", "groundcontrol", "--original", "groundcontrol.ini"]
+            words = ["settings", arguments.settings, "--to", "gcode", *kept, "-o", "machine.nc"]
+            print(f"\n{next_step('For the machine:', words)}")
     return 0
 
 
@@ -78,11 +80,6 @@ def _verdict(numbers: tuple[SentSetting, ...], shown: tuple[SentSetting, ...]) -
     count = len(_at_work(numbers))
     said = f"{count} numbers make this machine, {len(numbers) - count} are 0."
     return said if len(shown) == len(numbers) else f"{said} --details shows all."
-
-
-def _to_gcode(machine: str) -> list[str]:
-    kept = ["--client", "groundcontrol", "--original", "groundcontrol.ini"]
-    return ["settings", machine, "--to", "gcode", *kept, "-o", "machine.nc"]
 
 
 def _refuse_lines_alone(arguments: argparse.Namespace) -> None:

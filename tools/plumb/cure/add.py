@@ -340,7 +340,8 @@ def _surprises(parameters: Sequence[Parameter], known: Collection[str]) -> list[
     said = []
     for parameter in parameters:
         if parameter.possible and parameter.name not in known and may_be_zero(parameter):
-            said.append(_zero_sentence(parameter))
+            size = plain_size(parameter.name, parameter.value)
+            said.append(f"{size} may as well be zero: its interval contains it")
         moved = parameter.value - parameter.before
         trusted = parameter.prior_sigma
         if trusted and not parameter.of_patch and abs(moved) > FAR * trusted:
@@ -362,11 +363,6 @@ def may_be_zero(parameter: Parameter) -> bool:
     """Return whether a free parameter that was absent before may be absent still."""
     free = parameter.prior_sigma is None and parameter.before == 0
     return free and parameter.low < 0 < parameter.high
-
-
-def _zero_sentence(parameter: Parameter) -> str:
-    size = plain_size(parameter.name, parameter.value)
-    return f"{size} may as well be zero: its interval contains it"
 
 
 def _impossible(parameter: Parameter) -> str:

@@ -16,7 +16,7 @@ from plumb.cure.live_board import TooFewError
 from plumb.cure.machine_file import has_setting
 from plumb.diagnosis.answer import MOST_NAMED, Diagnosis, Verdict, odds_words
 from plumb.diagnosis.diagnosis import diagnose
-from plumb.diagnosis.expected_error import LeftOpen, RivalError, expected_error, rival_error
+from plumb.diagnosis.expected_error import RivalError, expected_error, rival_error
 from plumb.fit.inputs import Inputs
 from plumb.model.catalogue import every_effect
 from plumb.model.plain import noun_of, plainly, ranked
@@ -155,7 +155,7 @@ def decide(inputs: Inputs, *, patch: bool = False, diagnosis: Diagnosis | None =
     if diagnosis.verdict == "slip":
         return Decision(diagnosis, inputs, _slip_reason(diagnosis))
     if diagnosis.left_open.is_too_much:
-        return Decision(diagnosis, inputs, _open_reason(diagnosis.left_open))
+        return Decision(diagnosis, inputs, f"nothing was added. {diagnosis.left_open.sentence}")
     if diagnosis.is_good:
         return Decision(diagnosis, inputs, GOOD)
     is_known = diagnosis.verdict != "not_in_library"
@@ -249,10 +249,6 @@ def _slip_reason(diagnosis: Diagnosis) -> str:
             page="under Readings, or clear it there",
         )
     )
-
-
-def _open_reason(left_open: LeftOpen) -> str:
-    return f"nothing was added. {left_open.sentence}"
 
 
 def _reason(

@@ -375,7 +375,7 @@ def judge(readings: CleanReadings, stated: Stated | None) -> Judgement:
     if readings.outliers:
         return Judgement("slip", posterior, (), best)
     unknown = posterior.field_chance + sum(posterior.moved_chances.values())
-    if unknown > UNKNOWN or _misfits(readings, best, stated):
+    if unknown > UNKNOWN or misfit_chance(readings.explained(best), stated) < MISFIT:
         if posterior.with_fields.spot:
             first = posterior.likeliest_with_field
         else:
@@ -406,8 +406,3 @@ def _likelier(posterior: Posterior, first: Listed) -> Account:
 def is_silent(nothing_chance: float) -> bool:
     """Return whether it is too likely that nothing acts for any cause to be named."""
     return nothing_chance > NOTHING
-
-
-def _misfits(readings: CleanReadings, best: Account, stated: Stated | None) -> bool:
-    """Return whether even the likeliest account leaves more than noise ever does."""
-    return misfit_chance(readings.explained(best), stated) < MISFIT

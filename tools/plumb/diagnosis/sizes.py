@@ -154,14 +154,9 @@ def _largest(explanation: Explanation, raw: Array, total: Array, covariance: Arr
     axes = raw @ (directions * np.sqrt(np.maximum(values, 0.0)))
     radius = float(np.sqrt(scipy.special.chdtri(raw.shape[1], 0.10)))
     middle = board.rows.rms_of(board.sigma * raw @ total)
-    return middle + radius * max(board.rows.rms_of(board.sigma * axis) for axis in _main_axes(axes))
-
-
-def _main_axes(columns: Array) -> Array:
-    """Columns turned so that the first is the longest (as rows)."""
-    left, sizes, _ = np.linalg.svd(columns, full_matrices=False)
-    main: Array = (left * sizes).T
-    return main
+    # Turned so that the first is the longest.
+    left, sizes, _ = np.linalg.svd(axes, full_matrices=False)
+    return middle + radius * max(board.rows.rms_of(board.sigma * axis) for axis in (left * sizes).T)
 
 
 def intervals_sentence(sigma: float, source: str) -> str:

@@ -80,12 +80,10 @@ def model_by(explanation: Explanation) -> MachineSettings:
     return settings_of(values, like=problem.settings)
 
 
-def seen_by(
-    explanation: Explanation, rows: Observations, *, unknowns: Array | None = None
-) -> Sighting:
-    """Return what an explanation says is measured on each visit; with other unknowns, if given."""
+def seen_by(explanation: Explanation, rows: Observations) -> Sighting:
+    """Return what an explanation says is measured on each visit."""
     problem = explanation.board.problem
-    values, outside = problem.values(explanation.unknowns if unknowns is None else unknowns)
+    values, outside = problem.values(explanation.unknowns)
     return sighted(
         values,
         outside,
@@ -96,19 +94,11 @@ def seen_by(
     )
 
 
-def visits_all_over(
-    model: MachineSettings,
-    rows: Observations,
-    *,
-    counts: tuple[int, int] = (COLUMNS, ROWS),
-    share: float = 1.0,
-) -> Observations:
-    """Visits all over this share of the sheet, `counts` of them across and up. Each is made in the
-    way of the nearest mark: its sled, its approach, its round. Places that no chain reaches are
-    left out."""
-    width, height = share * model.sheet_width, share * model.sheet_height
-    across = np.linspace(-width / 2, width / 2, counts[0])
-    up = np.linspace(-height / 2, height / 2, counts[1])
+def visits_all_over(model: MachineSettings, rows: Observations) -> Observations:
+    """Visits all over the sheet. Each is made in the way of the nearest mark: its sled, its
+    approach, its round. Places that no chain reaches are left out."""
+    across = np.linspace(-model.sheet_width / 2, model.sheet_width / 2, COLUMNS)
+    up = np.linspace(-model.sheet_height / 2, model.sheet_height / 2, ROWS)
     places = np.stack(np.meshgrid(across, up), axis=-1).reshape(-1, 2)
     like = _nearest(hung_places(model, rows), places)
     chains, outcome = chains_to(model, places, rows.sled_weights[like])

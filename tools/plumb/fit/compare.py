@@ -121,7 +121,7 @@ def _promised(
 ) -> FitRecord | None:
     """Return the record of the fit, if all its boards are here, cut as it took them."""
     record = settings.fitted
-    whole = record and record.is_of([file_round.digest for file_round in measurements.rounds])
+    whole = record and record.is_of(each.digest for each in measurements.rounds)
     return record if whole and outside else None
 
 

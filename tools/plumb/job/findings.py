@@ -1,7 +1,7 @@
 """Findings of a dry run: answers to lines, times, and the pull of the chains."""
 
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Annotated
 
@@ -239,16 +239,14 @@ class Hanging:
     assumed: tuple[str, ...]
 
 
-def hanging_along(
-    settings: MachineSettings, moves: Moves, limits: Mapping[str, float]
-) -> Hanging | None:
+def hanging_along(settings: MachineSettings, moves: Moves) -> Hanging | None:
     """Return what hangs along the cuts; None where nothing is cut."""
     if not moves.cut.any():
         return None
     machine, assumed = with_soft_chains(settings.as_plumb_model())
     seen = [np.unique(_cells(block.sampled(STEP).places)) for _, block in moves.blocks()]
     cells = np.unique(np.concatenate(seen))
-    there = reach(machine, CELL * np.column_stack([cells.real, cells.imag]), **limits)
+    there = reach(machine, CELL * np.column_stack([cells.real, cells.imag]))
     counts = np.zeros(len(cells), dtype=int)  # of the cut places in each
     lines = np.zeros(len(cells), dtype=int)  # of the first cut there
     order: list[Rows] = []  # the cells, as cuts first come there

@@ -139,7 +139,8 @@ def show_correction(project: TheProject, background: TheBackground) -> Correctio
 def correction_of(inputs: Inputs, decision: Decision, choices: Choices) -> CorrectionParts:
     """Return what the marks would change, and what is accepted of it."""
     # What was written stays in view: it goes to the machine, or is taken back.
-    is_written = _is_fit_of(inputs)
+    record = inputs.settings.fitted
+    is_written = bool(record and record.is_of(each.digest for each in inputs.measurements.rounds))
     if decision.addition is None and not (decision.state == "good" and is_written):
         return CorrectionParts(
             said=decision.headline,
@@ -196,12 +197,12 @@ def write(known: Write, project: TheProject, line: TheLine) -> Written:
             name: "",
         },
     )
-    failure = _in_diary(project, made, inputs, name, text.decode())
+    entry = fit_entry(made, inputs, machine=name, settings=text.decode())
     return Written(
         file=name,
         files=[name, *more],
         steps=[*client.steps, *(f"{key}: {value}" for (_, key), value in client.typed.items())],
-        failure=failure,
+        failure=keep(str(project.path(name)), FIT, entry),
     )
 
 
@@ -215,13 +216,6 @@ def undo(known: Write, project: TheProject) -> Undone:
     chosen = choices.model_copy(update={"settings": name, "settings_before": earlier})
     project.save({FILE: choices_text(chosen)}, read={FILE: known.choices})
     return Undone(file=name)
-
-
-def _is_fit_of(inputs: Inputs) -> bool:
-    """Return whether the open settings were fitted to just these marks."""
-    record = inputs.settings.fitted
-    digests = [file_round.digest for file_round in inputs.measurements.rounds]
-    return record is not None and record.is_of(digests)
 
 
 def _parts(
@@ -316,9 +310,3 @@ def _client_words(choices: Choices) -> list[str]:
         return [NO_CLIENT]
     more = [] if original == choices.settings else ["--original", original]
     return [CLIENT_OF[Path(original).suffix], *more]
-
-
-def _in_diary(project: Project, made: Addition, inputs: Inputs, name: str, settings: str) -> str:
-    """Write the fit into the folder's diary; a sentence if that failed."""
-    entry = fit_entry(made, inputs, machine=name, settings=settings)
-    return keep(str(project.path(name)), FIT, entry)

@@ -286,8 +286,8 @@ async def live(websocket: WebSocket) -> None:
     said_at = 0.0
     while not gone.done() and not _is_sent_away(websocket):
         now = machine(line)
-        for answer in _taken(answers):
-            await websocket.send_text(answer)
+        while answers:
+            await websocket.send_text(answers.pop(0))
         if now != said or monotonic() - said_at >= SAID_EVERY:
             await websocket.send_text(TypeAdapter(MachineAnswer).dump_json(now).decode())
             said, said_at = now, monotonic()
@@ -300,12 +300,6 @@ def _is_sent_away(websocket: WebSocket) -> bool:
     """Return whether the phone at the other end is not paired any more."""
     is_phone = websocket.scope.get("phone") is not None
     return is_phone and websocket.app.state.phones.of(websocket.scope["key"]) is None
-
-
-def _taken(answers: list[str]) -> list[str]:
-    taken = answers[:]
-    answers.clear()
-    return taken
 
 
 async def _heard(websocket: WebSocket, line: MachineLine, answers: list[str]) -> None:
