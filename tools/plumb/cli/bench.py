@@ -21,10 +21,7 @@ def run(arguments: argparse.Namespace) -> int:
         jobs=arguments.jobs,
         cluster=arguments.cluster,
     )
-    if arguments.json:
-        print_json(report)
-    else:
-        print(as_text(report))
+    print_json(report) if arguments.json else print(as_text(report))
     return INTERRUPTED if report.interrupted else 0
 
 

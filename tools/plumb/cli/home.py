@@ -86,10 +86,7 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.at:
         _restore(arguments, answer)
     answer.written = _written(arguments, answer)
-    if arguments.json:
-        print_json(answer)
-    else:
-        print(_text(arguments, answer))
+    print_json(answer) if arguments.json else print(_text(arguments, answer))
     return int(not all(fit.fits for fit in answer.fits))
 
 
@@ -135,9 +132,7 @@ def _written(arguments: argparse.Namespace, answer: HomeAnswer) -> list[str]:
     if arguments.output:
         if not answer.lines:
             raise InputError(f"-o {arguments.output}: there is no program without --keep or --at")
-        content = "\n".join([*answer.lines, ""]).encode()
-        write_outputs({arguments.output: content}, inputs=[arguments.settings])
-        written += [] if arguments.output == STDOUT else [arguments.output]
+        written += write_program(arguments, answer.lines)
     if arguments.keep:
         name, _ = arguments.keep
         path = home_file(arguments.settings)
@@ -154,6 +149,13 @@ def _written(arguments: argparse.Namespace, answer: HomeAnswer) -> list[str]:
         }
         say_failure(keep(arguments.settings, HOME, entry, begin=False))
     return written
+
+
+def write_program(arguments: argparse.Namespace, lines: Sequence[str]) -> list[str]:
+    """Write a program; the names of the files."""
+    content = "\n".join([*lines, ""]).encode()
+    write_outputs({arguments.output: content}, inputs=[arguments.settings])
+    return [] if arguments.output == STDOUT else [arguments.output]
 
 
 # A command opens the line, which resets the board; and that keeps no place while z is not known.

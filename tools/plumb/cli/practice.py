@@ -106,10 +106,7 @@ def _reveal(folder: Path, arguments: argparse.Namespace) -> int:
     secret = secret_in(folder)
     answer = read_settings(arguments.answer or folder / SETTINGS, known=known_effects())
     result = score(secret, answer)
-    if arguments.json:
-        print_json(result)
-    else:
-        print(_as_text(result))
+    print_json(result) if arguments.json else print(_as_text(result))
     return int(bool(result.false or result.missed))
 
 

@@ -51,13 +51,6 @@ class RankedEffect:
 
 
 @dataclass(frozen=True)
-class EffectSize(Size):
-    """The same with the name of its effect."""
-
-    effect: str
-
-
-@dataclass(frozen=True)
 class Together:
     """A likely account of the marks: one effect, or several that act at once, or none."""
 
@@ -68,15 +61,11 @@ class Together:
     share: Annotated[float, meant("How likely it is among all accounts.")]
 
     @in_json
-    def parameters(self) -> tuple[EffectSize, ...]:
+    def parameters(self) -> tuple[Size, ...]:
         """All sizes in the order of the effects."""
-        return tuple(
-            EffectSize(**vars(size), effect=name)
-            for name in self.effects
-            for size in self.sizes[name]
-        )
+        return tuple(size for name in self.effects for size in self.sizes[name])
 
-    @property
+    @in_json
     def possible(self) -> bool:
         """Whether the intervals of all sizes reach what a real machine may have."""
         return all(size.possible for sizes in self.sizes.values() for size in sizes)
@@ -210,8 +199,8 @@ def _outlier(diagnosis: Diagnosis) -> str:
 
 
 def _nothing_provable(diagnosis: Diagnosis) -> str:
+    left = _left(diagnosis.rms_before, diagnosis.noise_rms)
     if diagnosis.is_good:
-        left = _left(diagnosis.rms_before, diagnosis.noise_rms)
         good = "as good as these marks can show"
         said = (
             f"Cured: the machine is now {good}" if diagnosis.is_cured else f"The machine is {good}"
@@ -222,7 +211,6 @@ def _nothing_provable(diagnosis: Diagnosis) -> str:
         if diagnosis.nothing_chance > LIKELIER
         else "Something may act, but the marks do not show what."
     )
-    left = _left(diagnosis.rms_before, diagnosis.noise_rms)
     return f"{said} With the frame fitted {left}."
 
 

@@ -17,6 +17,7 @@ from plumb.fit.sighting import Sighting, sighted
 from plumb.model.plain import ascending
 from plumb.model.predict import FOUND, Array, settings_of
 from plumb.settings.machine import MachineSettings
+from plumb.text.answers import Series
 
 COLUMNS, ROWS = 41, 21  # places of the sheet behind a curve
 BINS = 12  # of a curve, each with about as many places
@@ -28,10 +29,10 @@ SAME_PLACE = 1.0  # [mm] between marks that were visited in several ways
 class Curve:
     """Curve of an explanation on a chain against a covariate, over the whole sheet [mm]."""
 
-    at: Array  # (b,) of the covariate, rising
-    middle: Array  # (b,) mean
-    low: Array  # (b,) four fifths of the places lie between low and high
-    high: Array  # (b,)
+    at: Series  # (b,) of the covariate, rising
+    middle: Series  # (b,) mean
+    low: Series  # (b,) four fifths of the places lie between low and high
+    high: Series  # (b,)
 
 
 @dataclass(frozen=True)

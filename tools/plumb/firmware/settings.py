@@ -234,6 +234,12 @@ def numbers_in_force(settings: MachineSettings) -> dict[int, float]:
     }
 
 
+def called(number: int) -> tuple[str, str]:
+    """Return the name and the unit of a $-number; empty where no setting has it."""
+    rows = {row.number: row for row in every_setting()}
+    return (rows[number].name, rows[number].unit) if number in rows else ("", "")
+
+
 def digest_of_numbers(held: Mapping[int, float]) -> str:
     """Return a name for what a machine holds."""
     return sha256(repr(sorted(held.items())).encode()).hexdigest()[:16]

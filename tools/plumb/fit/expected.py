@@ -18,6 +18,7 @@ from plumb.fit.observations import rms
 from plumb.fit.problem import PRIORS, Checked
 from plumb.fit.sighting import SHEET_ROTATION
 from plumb.model.catalogue import parameter_words
+from plumb.model.plain import plain_range
 from plumb.model.predict import (
     FOUND,
     NAMES,
@@ -183,6 +184,12 @@ def plausible_range(name: str) -> PlausibleRange:
     if name not in words:
         return PlausibleRange()
     return PlausibleRange(words[name]["low"], words[name]["high"])
+
+
+def range_said(name: str) -> str:
+    """Return the same in words; empty: no limit is known."""
+    low, high = plausible_range(name).limits
+    return "" if low is None or high is None else plain_range(name, low, high)
 
 
 # Numbers that no real machine has: a slip of the pen, or another unit, and no measurement.

@@ -17,7 +17,7 @@ from starlette.middleware.gzip import GZipMiddleware
 from starlette.types import ASGIApp, Receive, Scope, Send
 
 from plumb.lab import routes
-from plumb.lab.background import LiveBoards
+from plumb.lab.background import Background, LiveBoards
 from plumb.lab.guard import Address, Guard
 from plumb.lab.guide_desk import GuideDesk
 from plumb.lab.machine_line import MachineLine
@@ -49,7 +49,7 @@ def lab_app(folder: Path, *, address: Address, token: str, paired: Phones | None
     )
     app.state.line, app.state.phones = line, paired
     app.state.project = Project(folder)
-    app.state.live_boards = LiveBoards()
+    app.state.live_boards, app.state.background = LiveBoards(), Background()
     app.state.guide_desk = GuideDesk()
     for router in ROUTERS:
         app.include_router(router, prefix="/api")

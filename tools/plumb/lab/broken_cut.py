@@ -66,14 +66,7 @@ def begin(
 ) -> None:
     """Send a program from its first mark; `paused` hears of its pauses. The machine moves."""
     cut = BrokenCut(digest=digest_of_sent(text), is_virtual=line.virtual is not None)
-    noting = Noting(project, program, cut, plunges_in(text))
-    line.worker.send(
-        program,
-        text.splitlines(),
-        then=lambda sender: noting.all_cut(),
-        paused=paused,
-        came=noting,
-    )
+    _send(project, line, program, text, cut, paused)
 
 
 def go_on(
@@ -94,9 +87,21 @@ def go_on(
     if not cut.marks <= on_sheet <= cut.begun:
         raise InputError(f"say how many marks are on the sheet: {cut.marks} to {cut.begun}")
     seen = cut.model_copy(update={"marks": on_sheet, "begun": on_sheet})
+    _send(project, line, program, text, seen, paused)
+
+
+def _send(
+    project: Project,
+    line: MachineLine,
+    program: str,
+    text: str,
+    cut: BrokenCut,
+    paused: Callable[[int], None],
+) -> None:
+    """Send the marks that are not cut, and note how far it comes."""
     plunges = plunges_in(text)
-    lines, before = rest_of(text.splitlines(), plunges, on_sheet)
-    noting = Noting(project, program, seen, plunges)
+    lines, before = rest_of(text.splitlines(), plunges, cut.marks)
+    noting = Noting(project, program, cut, plunges)
     line.worker.send(
         program,
         lines,

@@ -57,10 +57,8 @@ def choose(folder, **choices):
 
 def takings(client):
     """What can be taken, by its title."""
-    proposed = finished(client, "next")["next"]
-    each = {other["title"]: other["taking"] for other in proposed["others"]}
-    each |= {proposed["headline"]: proposed["taking"]}
-    return {title: taking for title, taking in each.items() if taking}
+    offers = finished(client, "next")["offers"]
+    return {each["proposal"]["title"]: each["taking"] for each in offers if each["taking"]}
 
 
 def wanted(taking):

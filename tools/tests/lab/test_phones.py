@@ -123,7 +123,7 @@ def test_a_lab_shared_to_move_asks_nobody_and_a_lab_that_is_not_shared_pairs_nob
     alone = lab_app(tmp_path, address=ADDRESS, token=TOKEN)
     computer = TestClient(alone, base_url=f"http://127.0.0.1:{ADDRESS.port}")
     said = got(computer.get("/api/phones", headers={"X-Plumb-Token": TOKEN}))
-    assert said == {"is_shared": False, "address": "", "pin": "", "code": "", "phones": []}
+    assert said == {"invitation": None, "phones": []}
 
 
 @pytest.fixture

@@ -41,7 +41,7 @@ from plumb.lab.rounds import (
     unit_words,
     usual_words,
 )
-from plumb.lab.routes.project import ProjectAnswer, TheProject, show
+from plumb.lab.routes.project import ProjectAnswer, TheProject, of_lab, show
 from plumb.model.catalogue import every_effect, parameter_words
 from plumb.model.plain import noun_of, plain_size, plainly
 from plumb.model.predict import Array
@@ -80,7 +80,6 @@ class BenchCovariate(BaseModel):
 
     name: str
     unit: str
-    of_chain: bool
     values: list[Ends]
 
 
@@ -98,7 +97,6 @@ class BenchAnswer(BaseModel):
     effects: list[BenchEffect]
     covariates: list[BenchCovariate]
     new_machine: str  # name of the file that the bench writes
-    new_digest: str
 
 
 class BenchChoice(BaseModel):
@@ -146,17 +144,7 @@ class BenchStairs(BaseModel):
     """How the error falls, effect by effect, and what to think of it."""
 
     stairs: list[BenchStair]
-    pays: bool
     warnings: list[str]
-
-
-class BenchCurve(BaseModel):
-    """Curve that an effect draws on a chain against a covariate [mm]."""
-
-    at: list[float]
-    middle: list[float]
-    low: list[float]
-    high: list[float]
 
 
 class BenchDrawn(BaseModel):
@@ -165,7 +153,7 @@ class BenchDrawn(BaseModel):
     noun: str
     moved: list[Pair | None]
     chains: list[Ends]
-    curves: dict[str, tuple[BenchCurve, BenchCurve]]
+    curves: dict[str, tuple[Curve, Curve]]
 
 
 class BenchSave(BenchChoice):
@@ -175,9 +163,7 @@ class BenchSave(BenchChoice):
 
 
 def _warm(request: Request, project: TheProject) -> WarmBoard:
-    boards = request.app.state.live_boards
-    assert isinstance(boards, LiveBoards)
-    return boards.of(project, inputs_of, board_words)
+    return of_lab("live_boards", LiveBoards)(request).of(project, inputs_of, board_words)
 
 
 Warm = Annotated[WarmBoard, Depends(_warm)]
@@ -199,7 +185,6 @@ def open_bench(project: TheProject, warm: Warm) -> BenchAnswer:
         effects=_effects(warm),
         covariates=covariates_of(warm),
         new_machine=NEW_MACHINE,
-        new_digest=project.digest(NEW_MACHINE),
     )
 
 
@@ -259,7 +244,6 @@ def climb(choice: BenchChoice, project: TheProject, warm: Warm) -> BenchStairs:
     ]
     return BenchStairs(
         stairs=[first, *stairs],
-        pays=result.pays or not chosen.effects,
         warnings=[*(slip.sentence for slip in warm.slips), *result.warnings],
     )
 
@@ -277,7 +261,10 @@ def draw(
         moved=among_all(moved, doubted, None),
         chains=among_all(ends(drawn.curves.chains), doubted, NO_ENDS),
         curves={
-            name: (_curve(name, left), _curve(name, right))
+            name: (
+                replace(left, at=_in_degrees(name, left.at)),
+                replace(right, at=_in_degrees(name, right.at)),
+            )
             for name, (left, right) in drawn.curves.curves.items()
         },
     )
@@ -338,15 +325,6 @@ def _covariate(covariate: Covariate, doubted: Collection[int]) -> BenchCovariate
         covariate,
         unit="°" if covariate.unit == "rad" else covariate.unit,
         values=among_all(ends(_in_degrees(covariate.name, covariate.values)), doubted, NO_ENDS),
-    )
-
-
-def _curve(name: str, curve: Curve) -> BenchCurve:
-    return BenchCurve(
-        at=_in_degrees(name, curve.at).tolist(),
-        middle=curve.middle.tolist(),
-        low=curve.low.tolist(),
-        high=curve.high.tolist(),
     )
 
 

@@ -13,7 +13,7 @@ from fastapi import APIRouter, WebSocket, WebSocketDisconnect
 from pydantic import BaseModel, Field, TypeAdapter
 
 from plumb.diary.file import write_and_keep
-from plumb.firmware.settings import digest_of_numbers, every_setting, machine_of_numbers
+from plumb.firmware.settings import called, digest_of_numbers, machine_of_numbers
 from plumb.job.dry_run import refuse_what_is_no_program
 from plumb.lab.broken_cut import end_virtual
 from plumb.lab.guard import PROTOCOL
@@ -246,24 +246,13 @@ def _written(
     written, kept, failure = line.do(write)
     if line.virtual:
         line.virtual.settings = machine_of_numbers(line.state.numbers)
-    return NumbersAnswer(
-        changed=_changes(written), back=back, kept=Path(kept).name, failure=failure
-    )
-
-
-def _changes(written: WrittenNumbers) -> list[NumberChange]:
-    """Return what was changed, by the names of the machine's table."""
-    rows = {row.number: row for row in every_setting()}
-    return [
-        NumberChange(
-            number=number,
-            name=rows[number].name if number in rows else "",
-            unit=rows[number].unit if number in rows else "",
-            before=before,
-            after=after,
+    changed = []
+    for number, (before, after) in written.changed.items():
+        name, unit = called(number)
+        changed.append(
+            NumberChange(number=number, name=name, unit=unit, before=before, after=after)
         )
-        for number, (before, after) in written.changed.items()
-    ]
+    return NumbersAnswer(changed=changed, back=back, kept=Path(kept).name, failure=failure)
 
 
 # The live line: how the machine is, all the time; and Stop and Hold, which wait for no request.

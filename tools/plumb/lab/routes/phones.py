@@ -5,7 +5,8 @@ from typing import Annotated, Literal
 from fastapi import APIRouter, Depends, Request, Response
 from pydantic import BaseModel, Field
 
-from plumb.lab.phones import COOKIE, Phone, Phones
+from plumb.lab.phones import COOKIE, Invitation, Phone, Phones
+from plumb.lab.routes.project import of_lab
 
 router = APIRouter(tags=["phones"])
 
@@ -13,10 +14,7 @@ router = APIRouter(tags=["phones"])
 class PhonesAnswer(BaseModel):
     """The phones of this lab."""
 
-    is_shared: bool
-    address: str  # for a phone's browser; empty: this computer is in no network
-    pin: str
-    code: str  # the address and the PIN as a QR code, the source of an image
+    invitation: Invitation | None  # None: the lab is not shared
     phones: list[Phone]
 
 
@@ -40,24 +38,14 @@ class Permission(BaseModel):
     may_move: bool
 
 
-def _phones(request: Request) -> Phones:
-    phones = request.app.state.phones
-    assert isinstance(phones, Phones)
-    return phones
-
-
-ThePhones = Annotated[Phones, Depends(_phones)]
+ThePhones = Annotated[Phones, Depends(of_lab("phones", Phones))]
 
 
 @router.get("/phones")
 def show_phones(phones: ThePhones) -> PhonesAnswer:
     """Return the phones, and how to pair another."""
-    if phones.sharing == "no":
-        return PhonesAnswer(is_shared=False, address="", pin="", code="", phones=[])
-    now = phones.invitation
-    return PhonesAnswer(
-        is_shared=True, address=now.address, pin=now.pin, code=now.picture, phones=phones.paired
-    )
+    shared = phones.sharing != "no"
+    return PhonesAnswer(invitation=phones.invitation if shared else None, phones=phones.paired)
 
 
 @router.post("/phones/pair")

@@ -1,12 +1,12 @@
 """The project: its files and choices, opening a file, saving a choice."""
 
 import os
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from dataclasses import replace
 from pathlib import Path
 from tempfile import NamedTemporaryFile
-from typing import Annotated
+from typing import Annotated, TypeVar
 
 from fastapi import APIRouter, Depends, Request, UploadFile
 from pydantic import BaseModel
@@ -43,7 +43,6 @@ class Machine(BaseModel):
     """The machine of the opened settings. mm, N."""
 
     file: str
-    controller: str
     sheet: tuple[float, float]  # width, height
     frame: dict[str, float]  # by name of the setting
     effects: dict[str, dict[str, float]]
@@ -76,6 +75,20 @@ async def project_of(request: Request) -> Project:
     with suppress(InputError, OSError):  # who reads the choices says what is wrong with them
         show_in(project.choices.units)
     return project
+
+
+Kept = TypeVar("Kept")
+
+
+def of_lab(name: str, kind: type[Kept]) -> Callable[[Request], Kept]:
+    """Return what finds a thing that the server keeps under this name."""
+
+    def found(request: Request) -> Kept:
+        thing = getattr(request.app.state, name)
+        assert isinstance(thing, kind)
+        return thing
+
+    return found
 
 
 TheProject = Annotated[Project, Depends(project_of)]
