@@ -5,7 +5,7 @@ marks can show of it: its dots at the marks, and its curve against each covariat
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -106,17 +106,13 @@ def visits_all_over(model: MachineSettings, rows: Observations) -> Observations:
     good = outcome == FOUND
     like, places, chains = like[good], places[good], chains[good]
     count = len(places)
-    return replace(
-        rows,
+    return Observations(
         chains=chains,
         sled_weights=rows.sled_weights[like],
         mark_rows=np.arange(count),
         measured=places,
         targets=places,
         names=("",) * count,
-        distance_rows=np.zeros((0, 2), dtype=int),
-        distances=np.zeros(0),
-        distance_rounds=np.zeros(0, dtype=int),
         approaches=rows.approaches[like],
         rounds=rows.rounds[like],
         zero_groups=rows.zero_groups[like],

@@ -33,24 +33,19 @@ USUAL = Grid()  # heights and feeds, as a grid has them
 SURE = 3.03  # sigmas of a coordinate: beyond this length 1 % of the errors in a plane lie
 
 
-@dataclass(frozen=True)
-class HomeMark:
-    """A hole. mm, from the middle of the sheet, y up."""
+class HomeTable(Table):
+    """A table [mark.NAME] of the file."""
 
-    name: str
-    place: Point  # where the machine was when it made the hole
-    chains: Point  # left and right paid out there
+    place: Annotated[Point, BeforeValidator(pair)]  # where the machine was when it made the hole
+    chains: Annotated[Point, BeforeValidator(pair)]  # left and right paid out there
     date: str = ""
     settings: str = ""  # name of the settings' file then
 
 
-class HomeTable(Table):
-    """A table [mark.NAME] of the file."""
+class HomeMark(HomeTable):
+    """A hole. mm, from the middle of the sheet, y up."""
 
-    place: Annotated[Point, BeforeValidator(pair)]
-    chains: Annotated[Point, BeforeValidator(pair)]
-    date: str = ""
-    settings: str = ""
+    name: str
 
 
 class HomeFile(Table):
@@ -88,7 +83,10 @@ def new_home_mark(
         left, right = believed_lengths(settings, np.array([place], dtype=float))[0].tolist()
     except ValueError as error:
         raise InputError(f"home mark {name}: {error}") from None
-    return HomeMark(name, place, (left, right), date, settings.file.name if settings.file else "")
+    file = settings.file.name if settings.file else ""
+    return HomeMark.model_construct(
+        name=name, place=place, chains=(left, right), date=date, settings=file
+    )
 
 
 def hole_program(mark: HomeMark) -> list[str]:
@@ -131,7 +129,7 @@ def read_home_marks(path: Source) -> dict[str, HomeMark]:
         return {}
     head = parsed(path, read_text(path), tomllib.loads, "TOML")
     marks = read_table(HomeFile, head, path).mark
-    return {name: HomeMark(name, **dict(each)) for name, each in marks.items()}
+    return {name: HomeMark.model_construct(name=name, **dict(each)) for name, each in marks.items()}
 
 
 def write_home_marks(path: Source, marks: Mapping[str, HomeMark]) -> None:

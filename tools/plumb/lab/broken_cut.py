@@ -3,7 +3,9 @@
 import re
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
+from typing import Annotated
 
+from fastapi import Body
 from pydantic import BaseModel, ConfigDict, NonNegativeInt, TypeAdapter, ValidationError
 
 from plumb.lab.machine_line import MachineLine
@@ -36,10 +38,8 @@ class HowFar(BaseModel):
     goes_on: bool = False  # the next mark can be cut on that sheet
 
 
-class GoOnRequest(BaseModel):
-    """How many marks are on the sheet, as somebody sees there."""
-
-    cut: int
+# How many marks are on the sheet, as somebody sees there.
+OnSheet = Annotated[int, Body(embed=True)]
 
 
 def how_far(project: Project, line: MachineLine, program: str, text: str) -> HowFar:

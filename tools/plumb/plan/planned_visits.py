@@ -86,9 +86,6 @@ class Visits:
             measured=np.zeros((count, 2)),
             targets=self.targets,
             names=self.names,
-            distance_rows=np.zeros((0, 2), dtype=int),
-            distances=np.zeros(0),
-            distance_rounds=np.zeros(0, dtype=int),
             approaches=self.approaches,
             # As the first round: for a few more marks nobody zeroes chains or takes another sheet.
             rounds=np.zeros(count, dtype=int),

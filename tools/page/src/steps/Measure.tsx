@@ -92,12 +92,11 @@ function Advised({ advice, chosen, take }: AdvisedParts) {
   );
 }
 
-function Sum({ plan, looking }: { plan: Layout.Plan; looking: boolean }) {
-  const { outlines, seen, named } = plan.preview;
+function Sum({ plan: { minutes, preview }, looking }: { plan: Layout.Plan; looking: boolean }) {
   return (
     <p class="sum" role="status" aria-busy={looking}>
-      <strong>About {Math.round(plan.minutes)} minutes.</strong> Of {outlines.length} causes in
-      their usual size, {seen} would show and {named} could be named.
+      <strong>About {Math.round(minutes)} minutes.</strong> Of {preview.outlines.length} causes in
+      their usual size, {preview.seen} would show and {preview.named} could be named.
       {looking && " Working …"}
     </p>
   );

@@ -12,7 +12,7 @@ from plumb.diary.file import CHECK as NOTED
 from plumb.diary.file import append, read_diary
 from plumb.fit.inputs import Inputs, settings_in
 from plumb.grid import program
-from plumb.lab.broken_cut import GoOnRequest, HowFar, begin, go_on, how_far
+from plumb.lab.broken_cut import HowFar, OnSheet, begin, go_on, how_far
 from plumb.lab.machine_line import TheLine, refuse_other_machine, refuse_unknown_place
 from plumb.lab.project import Choices, Project, save_choices
 from plumb.lab.rounds import (
@@ -121,12 +121,12 @@ def cut_check(project: TheProject, line: TheLine) -> MachineAnswer:
 
 
 @router.post("/check/go-on")
-def go_on_with_check(request: GoOnRequest, project: TheProject, line: TheLine) -> MachineAnswer:
+def go_on_with_check(cut: OnSheet, project: TheProject, line: TheLine) -> MachineAnswer:
     """Send the mark that is not on the sheet. The machine moves."""
     refuse_unknown_place(line)
     name = f"{CHECK}{_newest(project)}.nc"
     refuse_other_machine(project, line)
-    go_on(project, line, name, _text(project, name), request.cut)
+    go_on(project, line, name, _text(project, name), cut)
     return machine(line)
 
 

@@ -1,6 +1,8 @@
 """Numbers that an owner can measure by hand, without a mark."""
 
-from fastapi import APIRouter
+from typing import Annotated
+
+from fastapi import APIRouter, Body
 from pydantic import BaseModel
 
 from plumb.firmware.settings import Difference
@@ -23,12 +25,6 @@ class KnownAnswer(BaseModel):
     command: str
 
 
-class Measuring(BaseModel):
-    """The number that somebody measures."""
-
-    name: str
-
-
 @router.get("/known")
 def show_known(project: TheProject) -> KnownAnswer:
     """Return what the owner may know, and the command that goes by what is known now."""
@@ -43,15 +39,15 @@ def show_known(project: TheProject) -> KnownAnswer:
 
 
 @router.post("/known/measured")
-def measure(measuring: Measuring, project: TheProject, line: TheLine) -> Number:
+def measure(name: Annotated[str, Body(embed=True)], project: TheProject, line: TheLine) -> Number:
     """Let the owner of the virtual machine measure a number of it, as well as a careful reading."""
     owner = line.virtual
     if owner is None:
         raise InputError("a virtual machine alone is measured by the lab: type what you measured")
     checks = number_checks()
-    refuse_unknown([measuring.name], checks)
-    sigma = checks[measuring.name].sigmas[measuring.name.rpartition(".")[2]]
-    (checked,) = owner.check([PlannedCheck(measuring.name, sigma)])
+    refuse_unknown([name], checks)
+    sigma = checks[name].sigmas[name.rpartition(".")[2]]
+    (checked,) = owner.check([PlannedCheck(name, sigma)])
     return Number(value=checked.value, sigma=checked.sigma)
 
 

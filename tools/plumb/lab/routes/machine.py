@@ -9,7 +9,7 @@ from pathlib import Path
 from time import monotonic
 from typing import Annotated, Literal
 
-from fastapi import APIRouter, WebSocket, WebSocketDisconnect
+from fastapi import APIRouter, Body, WebSocket, WebSocketDisconnect
 from pydantic import BaseModel, Field, TypeAdapter
 
 from plumb.diary.file import write_and_keep
@@ -46,12 +46,6 @@ class MachineAnswer(LineState):
     numbers_digest: str  # of those that it last listed; empty if it listed none
 
 
-class BoardRequest(BaseModel):
-    """The port of a board."""
-
-    port: str = Field(max_length=200)
-
-
 class VirtualRequest(BaseModel):
     """A virtual machine to try: what it hides, drawn by the seed; how fast it works."""
 
@@ -62,23 +56,11 @@ class VirtualRequest(BaseModel):
     speed: Speed = 100.0
 
 
-class SpeedRequest(BaseModel):
-    """How many times as fast as real time the virtual machine works."""
-
-    speed: Speed
-
-
 class ProgramRequest(BaseModel):
     """G-code to send."""
 
     title: str = Field(max_length=80)
     text: str
-
-
-class LineRequest(BaseModel):
-    """A single line for the machine."""
-
-    text: str = Field(max_length=120)
 
 
 class NumbersRequest(BaseModel):
@@ -131,9 +113,11 @@ def list_ports() -> list[Port]:
 
 
 @router.post("/machine/board")
-def connect_board(request: BoardRequest, line: TheLine) -> MachineAnswer:
+def connect_board(
+    port: Annotated[str, Body(embed=True, max_length=200)], line: TheLine
+) -> MachineAnswer:
     """Connect a board."""
-    line.connect_board(request.port)
+    line.connect_board(port)
     return machine(line)
 
 
@@ -150,9 +134,9 @@ def connect_virtual(request: VirtualRequest, project: TheProject, line: TheLine)
 
 
 @router.post("/machine/speed")
-def set_speed(request: SpeedRequest, line: TheLine) -> MachineAnswer:
+def set_speed(speed: Annotated[Speed, Body(embed=True)], line: TheLine) -> MachineAnswer:
     """Let the virtual machine hurry."""
-    line.set_speed(request.speed)
+    line.set_speed(speed)
     return machine(line)
 
 
@@ -172,9 +156,9 @@ def send_program(request: ProgramRequest, line: TheLine) -> MachineAnswer:
 
 
 @router.post("/machine/line")
-def send_line(request: LineRequest, line: TheLine) -> list[str]:
+def send_line(text: Annotated[str, Body(embed=True, max_length=120)], line: TheLine) -> list[str]:
     """Send a single line, and what the machine says to it."""
-    return line.do(lambda sender: sender.ask(request.text))
+    return line.do(lambda sender: sender.ask(text))
 
 
 @router.post("/machine/hold")

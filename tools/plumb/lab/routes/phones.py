@@ -2,7 +2,7 @@
 
 from typing import Annotated, Literal
 
-from fastapi import APIRouter, Depends, Request, Response
+from fastapi import APIRouter, Body, Depends, Request, Response
 from pydantic import BaseModel, Field
 
 from plumb.lab.phones import COOKIE, Invitation, Phone, Phones
@@ -32,12 +32,6 @@ class Pairing(BaseModel):
     kind: Literal["iPhone", "iPad", "Android", "phone"] = "phone"
 
 
-class Permission(BaseModel):
-    """Whether a phone may move the machine, and change what else there is."""
-
-    may_move: bool
-
-
 ThePhones = Annotated[Phones, Depends(of_lab("phones", Phones))]
 
 
@@ -64,9 +58,11 @@ def who_asks(request: Request) -> PhoneAnswer:
 
 
 @router.post("/phones/{number}/let")
-def let(number: int, permission: Permission, phones: ThePhones) -> PhonesAnswer:
+def let(
+    number: int, may_move: Annotated[bool, Body(embed=True)], phones: ThePhones
+) -> PhonesAnswer:
     """Let a phone move the machine, or no longer."""
-    phones.let(number, may_move=permission.may_move)
+    phones.let(number, may_move=may_move)
     return show_phones(phones)
 
 

@@ -14,8 +14,7 @@ interface CardParts {
   lay?: () => void;
 }
 
-export function SuspectCard({ card, units, isLaid, lay }: CardParts) {
-  const { account } = card;
+export function SuspectCard({ card, card: { account }, units, isLaid, lay }: CardParts) {
   return (
     <article class="card" aria-label={card.title}>
       <div class="head">
