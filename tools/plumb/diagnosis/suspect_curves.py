@@ -39,7 +39,7 @@ class Curve:
 class SuspectCurves:
     """Chain that an explanation adds to the frame's fit."""
 
-    effects: tuple[str, ...]
+    moved: Array  # (k, 2) [mm] of the marks on the sheet
     chains: Array  # (k, 2) [mm] at the marks, left and right
     curves: Mapping[str, tuple[Curve, Curve]]  # by covariate, left and right
 
@@ -55,7 +55,7 @@ def suspect_curves(
     by_place = covariates(model, sheet)
     drawn = added_chains(frame, explanation, sheet)
     return SuspectCurves(
-        effects=explanation.effects,
+        moved=_moved(frame, explanation, rows)[rows.mark_rows],
         chains=added_chains(frame, explanation, rows)[rows.mark_rows],
         curves={
             covariate.name: _curves(covariate, drawn)
@@ -70,8 +70,13 @@ def added_chains(frame: Explanation, explanation: Explanation, rows: Observation
     chain.
     """
     model = model_by(frame)
-    moved = seen_by(explanation, rows).read.where - seen_by(frame, rows).read.where
+    moved = _moved(frame, explanation, rows)
     return chain_errors(model, hung_places(model, rows), moved, rows.sled_weights)
+
+
+def _moved(frame: Explanation, explanation: Explanation, rows: Observations) -> Array:
+    """Return the same on the sheet (r, 2) [mm]."""
+    return np.asarray(seen_by(explanation, rows).read.where - seen_by(frame, rows).read.where)
 
 
 def model_by(explanation: Explanation) -> MachineSettings:

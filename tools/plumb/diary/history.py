@@ -57,18 +57,12 @@ class Course:
         return now.low > before.high or now.high < before.low
 
 
-@dataclass(frozen=True)
-class History:
-    """All fits of a diary, the oldest first, and how their numbers went."""
-
-    fits: tuple[DiaryFit, ...]
-    courses: tuple[Course, ...]  # in the order in which the numbers came up
-
-
-def history_of(diary: Diary) -> History:
-    """Return what the fits of a diary show over time."""
+def history_of(diary: Diary) -> tuple[tuple[DiaryFit, ...], tuple[Course, ...]]:
+    """Return all fits of a diary, the oldest first, and how their numbers went, in the order in
+    which they came up.
+    """
     fits = diary.of_kind(FIT)
-    return History(tuple(map(_fit, fits)), tuple(_courses(fits)))
+    return tuple(map(_fit, fits)), tuple(_courses(fits))
 
 
 def _fit(entry: Entry) -> DiaryFit:

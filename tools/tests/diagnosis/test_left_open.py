@@ -42,7 +42,9 @@ def test_better_readings_and_more_of_them_leave_less():
 def test_before_anything_is_measured_it_is_what_is_normal():
     bare = replace(MAKER, effects={})
     normal = expected_error(bare, PRIORS)
-    assert open_of(plan(3, 3), settings=bare).before == pytest.approx(normal.all_shape, rel=0.1)
+    assert open_of(plan(3, 3), settings=bare).before == pytest.approx(
+        normal.among_marks_mm, rel=0.1
+    )
 
 
 def test_nothing_is_fitted_to_too_little_by_any_door():

@@ -259,13 +259,13 @@ def draw(
     return BenchDrawn(
         noun=plainly(effects),
         moved=among_all(moved, doubted, None),
-        chains=among_all(ends(drawn.curves.chains), doubted, NO_ENDS),
+        chains=among_all(ends(drawn.chains), doubted, NO_ENDS),
         curves={
             name: (
                 replace(left, at=_in_degrees(name, left.at)),
                 replace(right, at=_in_degrees(name, right.at)),
             )
-            for name, (left, right) in drawn.curves.curves.items()
+            for name, (left, right) in drawn.curves.items()
         },
     )
 

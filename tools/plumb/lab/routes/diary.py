@@ -37,10 +37,10 @@ def show_diary(project: TheProject) -> DiaryAnswer:
 
 def diary_answer(diary: Diary) -> DiaryAnswer:
     """Return a diary as the page shows it."""
-    history = history_of(diary)
+    fits, courses = history_of(diary)
     return DiaryAnswer(
-        fits=history.fits,
-        courses=history.courses,
+        fits=fits,
+        courses=courses,
         others=_others(diary),
         spoilt=len(diary.spoilt),
     )
