@@ -34,6 +34,7 @@ DECORATORS = [
     "@*.websocket",
     "@*_validator",
     "@computed_field",
+    "@in_json",
 ]
 FUNCTIONS = {"function", "method", "property", "class"}
 

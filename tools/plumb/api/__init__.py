@@ -4,18 +4,14 @@
 calibration. Lengths are mm, forces N, angles rad.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 
 from plumb.cure.add import Addition
 from plumb.cure.add import add as add_effects
-from plumb.cure.decision import Decision
-from plumb.cure.decision import decide as decision_of
-from plumb.diagnosis import Checked, Diagnosis
-from plumb.diagnosis import diagnose as diagnosis_of
+from plumb.cure.decision import Decision, decide
+from plumb.diagnosis import Checked, Diagnosis, diagnose
 from plumb.fit.compare import Comparison, compare
 from plumb.fit.expected import refuse_absurd
 from plumb.fit.inputs import Inputs, read_inputs
@@ -69,11 +65,6 @@ def read(
     return replace(inputs, sigma=sigma, priors=frame, checked=checks)
 
 
-def diagnose(inputs: Inputs) -> Diagnosis:
-    """Return which effects the settings miss, and how likely each is by the marks."""
-    return diagnosis_of(inputs)
-
-
 def next(inputs: Inputs, diagnosis: Diagnosis | None = None) -> Next:
     """Return what to measure next, best first."""
     return propose(diagnosis or diagnose(inputs), inputs)
@@ -82,11 +73,6 @@ def next(inputs: Inputs, diagnosis: Diagnosis | None = None) -> Next:
 def add(inputs: Inputs, effects: Sequence[str] = (), *, patch: bool = False) -> Addition:
     """Return the machine with its frame and these effects fitted to the marks."""
     return add_effects(inputs, effects=effects, patch=patch)
-
-
-def decide(inputs: Inputs) -> Decision:
-    """Return what to write: the machine with what the marks ask for, or why nothing is written."""
-    return decision_of(inputs)
 
 
 def write(addition: Addition, path: AnyPath) -> Path:

@@ -1,7 +1,5 @@
 """Boards with something hidden: cut by the maker's settings, the sled hung by the judge."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 from itertools import combinations
 from math import cos

@@ -1,7 +1,5 @@
 """Effects to hide in boards, drawn by chance or in turns, and slips of the pen."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 

@@ -4,8 +4,6 @@ It shares no formula with the laws that the lab fits, so a slip in a law cannot 
 in the data.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 
 import numpy as np

@@ -1,13 +1,11 @@
 """One board: made, diagnosed, cured, and compared with what is hidden in it."""
 
-from __future__ import annotations
-
 import time
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 
-from plumb.bench.boards import TrueMachine
 from plumb.bench.causes import HALF
 from plumb.bench.hiding import SMALLEST
 from plumb.bench.kinds import KINDS, board_of
@@ -18,7 +16,7 @@ from plumb.fit.compare import best_pose
 from plumb.fit.fit import fit
 from plumb.fit.inputs import Inputs
 from plumb.fit.observations import rms
-from plumb.model.predict import FOUND, lengths
+from plumb.model.predict import FOUND, Array, lengths
 from plumb.settings.machine import MachineSettings
 
 NAMED = ("one_suspect", "cannot_tell")
@@ -61,9 +59,9 @@ def judge_board(kind: str, index: int, *, marks: int, seed: int) -> JudgedBoard:
     best = set(diagnosis.explanations[0].effects) if diagnosis.explanations else set[str]()
     said = best if diagnosis.verdict in NAMED or diagnosis.is_finding else set[str]()
     outliers = tuple(outlier.name for outlier in diagnosis.outliers)
-    machine = hidden.board.machine
-    before = shape_error(machine, settings)
-    after = shape_error(machine, addition.settings) if addition else before
+    sleds = hidden.board.machine.sleds
+    before = shape_error(settings, sleds)
+    after = shape_error(addition.settings, sleds) if addition else before
     return JudgedBoard(
         kind=kind,
         index=index,
@@ -79,7 +77,7 @@ def judge_board(kind: str, index: int, *, marks: int, seed: int) -> JudgedBoard:
         readings=set(outliers) == set(hidden.slipped),
         before=before,
         after=after,
-        fitted=shape_error(machine, _with_what_is_there(inputs, diagnosis, truth)),
+        fitted=shape_error(_with_what_is_there(inputs, diagnosis, truth), sleds),
         worse=after > before + WORSE,
         cpu=cpu,
     )
@@ -106,12 +104,13 @@ def sheet() -> np.ndarray:
     return np.array([(x, y) for y in up for x in across])
 
 
-def shape_error(machine: TrueMachine, settings: MachineSettings) -> float:
+def shape_error(settings: MachineSettings, landed: Callable[[Array], Array]) -> float:
     """RMS [mm] of how far the judge's sled, sent by these settings to places all over the sheet,
-    is from them once the sheet is laid at its best. Nothing rubs: no setting knows of friction."""
+    is from them once the sheet is laid at its best; `landed` says where it is by its chains.
+    Nothing rubs: no setting knows of friction."""
     wanted = sheet()
     chains, outcome = lengths(settings, wanted)
     if not (outcome == FOUND).all():
         return float("inf")
-    pose = best_pose(wanted, machine.sleds(chains))
+    pose = best_pose(wanted, landed(chains))
     return rms(pose.errors) if pose else 0.0

@@ -4,8 +4,6 @@ All of a board comes from its seed, the hidden sizes too, so boards of a new see
 nobody.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import dataclass
 from zlib import crc32

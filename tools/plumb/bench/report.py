@@ -1,7 +1,5 @@
 """The bench run through: boards played side by side, and a row of rates for each kind."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass

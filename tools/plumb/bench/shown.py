@@ -1,7 +1,5 @@
 """Hidden effects that the marks of a board can show, without any noise."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 

@@ -6,8 +6,6 @@ import argparse
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from pydantic import computed_field
-
 from plumb.cli.addition import (
     addition_text,
     decision_verdict,
@@ -45,6 +43,7 @@ from plumb.fit.covariates import PATCH
 from plumb.fit.inputs import Inputs
 from plumb.model.plain import noun_of
 from plumb.pictures.drawing import Panel, draw
+from plumb.text.answers import in_json
 from plumb.text.errors import InputError
 
 NONE = "none"  # as an effect: the frame alone
@@ -54,8 +53,7 @@ NONE = "none"  # as an effect: the frame alone
 class WrittenMachine(WrittenFiles):
     """Files of the new machine."""
 
-    @computed_field
-    @property
+    @in_json
     def unsaid(self) -> tuple[str, ...]:
         """Limits of the firmware, a sentence each."""
         return self.client.unsaid if self.client else ()

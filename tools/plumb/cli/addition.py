@@ -1,7 +1,5 @@
 """The decision for people: few facts or all, and the headline in its colour."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 from plumb.cli.diagnose import explanation_table

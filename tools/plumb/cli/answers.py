@@ -3,8 +3,6 @@
 The schema is written from the types of the answers; with --check it is only compared.
 """
 
-from __future__ import annotations
-
 import json
 import sys
 from dataclasses import dataclass

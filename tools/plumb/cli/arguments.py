@@ -1,7 +1,5 @@
 """The arguments that several commands share, and the values that they take."""
 
-from __future__ import annotations
-
 import argparse
 import math
 from collections.abc import Callable, Mapping

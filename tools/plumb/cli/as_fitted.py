@@ -1,7 +1,5 @@
 """A check that marks cut with fitted settings lie where the fit promised, or what changed."""
 
-from __future__ import annotations
-
 import argparse
 from dataclasses import dataclass, replace
 
@@ -24,7 +22,7 @@ from plumb.diary.recheck import (
 from plumb.fit.inputs import Inputs
 from plumb.job.home import HomeTouch, Point, are_apart
 from plumb.model.plain import in_feet, plain_change, plain_name, words_of
-from plumb.text.answers import Moment, json_of
+from plumb.text.answers import Moment, in_json, json_of, part
 from plumb.text.values import bare, signed, unit, worded
 
 SHOWN = 4  # changes
@@ -41,17 +39,21 @@ class RecheckedMark:
 
 
 @dataclass(frozen=True)
-class RecheckAnswer:
+class RecheckAnswer(Recheck):
     """Whether marks still lie where the fit promised."""
 
-    holds: bool
-    sentence: str
-    chi_square: float
-    limit: float  # of chi-square
-    marks: list[RecheckedMark]
-    fit: Moment  # of the diary
-    sheet_turned_rad: float
-    changes: tuple[LikelyChange, ...]  # single changes that may explain the errors, the best first
+    at = part("fit.at", Moment, "Of the diary.", name="fit")
+
+    @in_json
+    def sentence(self) -> str:
+        """The verdict in a sentence."""
+        return sentence(self)
+
+    @in_json
+    def marks(self) -> list[RecheckedMark]:
+        """The marks, in the order in which they were read."""
+        both = zip(self.touches, self.errors.tolist(), self.expected.tolist(), strict=True)
+        return [RecheckedMark(touch.name, touch.hole, (x, y), most) for touch, (x, y), most in both]
 
 
 def checked_by_fit(inputs: Inputs, path: str) -> Recheck | None:
@@ -86,22 +88,7 @@ def is_all(checked: Recheck) -> bool:
 
 def report(arguments: argparse.Namespace, checked: Recheck) -> int:
     """Keep the answer in the diary, print it, and return the exit code."""
-    marks = [
-        RecheckedMark(touch.name, touch.hole, (x, y), expected)
-        for touch, (x, y), expected in zip(
-            checked.touches, checked.errors.tolist(), checked.expected.tolist(), strict=True
-        )
-    ]
-    answer = RecheckAnswer(
-        checked.holds,
-        sentence(checked),
-        checked.chi_square,
-        checked.limit,
-        marks,
-        checked.fit.at,
-        checked.turn,
-        checked.changes,
-    )
+    answer = RecheckAnswer(**vars(checked))
     say_failure(keep(arguments.settings, RECHECK, json_of(answer), begin=False))
     print_json(answer) if arguments.json else print(_text(answer))
     return int(not answer.holds)

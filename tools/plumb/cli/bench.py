@@ -1,7 +1,5 @@
 """`plumb bench`: how often the diagnosis is right on boards with hidden effects."""
 
-from __future__ import annotations
-
 import argparse
 from collections.abc import Callable, Sequence
 
@@ -23,10 +21,7 @@ def run(arguments: argparse.Namespace) -> int:
         jobs=arguments.jobs,
         cluster=arguments.cluster,
     )
-    if arguments.json:
-        print_json(report)
-    else:
-        print(as_text(report))
+    print_json(report) if arguments.json else print(as_text(report))
     return INTERRUPTED if report.interrupted else 0
 
 

@@ -1,11 +1,7 @@
 """`plumb calibrate`: from marks to new settings in one go, or to what has to be measured first."""
 
-from __future__ import annotations
-
 import argparse
 from dataclasses import dataclass, replace
-
-from pydantic import computed_field
 
 from plumb.cli.add import WantedFiles, written
 from plumb.cli.addition import KINDS, details_text, short_text
@@ -39,7 +35,7 @@ from plumb.fit.compare import Comparison, compare
 from plumb.fit.inputs import Inputs
 from plumb.model.plain import plainly
 from plumb.plan import Next, Proposal, propose
-from plumb.text.answers import Internal, part
+from plumb.text.answers import Internal, in_json, part
 from plumb.text.values import in_inches, worded
 
 
@@ -55,22 +51,19 @@ class CalibrationRound:
     expected_mm = part("decision.expected_mm", float | None, "RMS error over the sheet, once done.")
     addition = part("decision.addition", Addition | None)
 
-    @computed_field
-    @property
+    @in_json
     def next(self) -> tuple[Proposal, ...]:
         """Proposed measurements, the best first."""
         return self.advice.proposals if self.advice else ()
 
-    @computed_field
-    @property
+    @in_json
     def done(self) -> bool:
         """Whether nothing is left that the marks could decide: new settings can be written, or
         those that are there are good.
         """
         return self.decision.state in ("better", "good")
 
-    @computed_field
-    @property
+    @in_json
     def sentence(self) -> str:
         """The end of the round in one sentence."""
         if self.decision.state not in TO_MEASURE:
@@ -223,7 +216,8 @@ def _ending(
         case "good":
             return [verdict]
         case "better":
-            now = [_written_text(files, client)]
+            now = [sentences([f"Written: {', '.join(files)}"], mark="")]
+            now = [f"{now[0]}\n{client_text(client)}"] if client else now
             if client is None and arguments.firmware == "plumb":
                 now.append(into_machine(files[0]))
             return [verdict, *now, second_round(arguments, files)]
@@ -240,11 +234,6 @@ def _ending(
     if decision.chosen:
         parts.append(next_step("Or take the most likely one untested:", auto_words(arguments)))
     return parts
-
-
-def _written_text(files: list[str], client: ClientFiles | None) -> str:
-    written = sentences([f"Written: {', '.join(files)}"], mark="")
-    return f"{written}\n{client_text(client)}" if client else written
 
 
 def _read_again(this: CalibrationRound, arguments: argparse.Namespace) -> str:

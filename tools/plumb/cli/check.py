@@ -1,14 +1,11 @@
 """`plumb check`: runs a program dry, and says what to expect of it."""
 
-from __future__ import annotations
-
 import argparse
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
-from pydantic import computed_field
 
 from plumb.cli.arguments import PROGRAM, add_shared, file, length
 from plumb.cli.inputs import inputs_of, picture_form
@@ -38,7 +35,7 @@ from plumb.pictures.drawing import BAD as WRONG
 from plumb.pictures.drawing import GOOD as CUT
 from plumb.pictures.drawing import NOWHERE, QUIET, Corners, Panel, Spot, Ways, draw, shades_of
 from plumb.settings.machine import GRAVITY, MachineSettings
-from plumb.text.answers import Internal, part
+from plumb.text.answers import Internal, in_json, part
 from plumb.text.values import bare, brief, signed, time_text, unit, worded
 
 NAMED = 30  # parts that get their number in the picture
@@ -67,8 +64,7 @@ class JobAnswer:
     parts = part("checked.parts", tuple[Part, ...])
     piece = part("checked.piece", Piece | None, "Null where nothing is cut.")
 
-    @computed_field
-    @property
+    @in_json
     def moves(self) -> int:
         """The number of moves in the program."""
         return len(self.checked.done.moves)
@@ -331,8 +327,9 @@ def _job(checked: CheckedJob) -> str:
         rows.append(["removed", _volume(piece.removed), f"with {_bits(piece)}"])
     if hanging is not None:
         slack, tight = hanging.tension
+        push = f"by a push of 1 kg on the bit, most at line {hanging.give_line}"
         rows.append(["chains", f"{slack:.0f} to {tight:.0f} N", "slackest and tightest"])
-        rows.append(["give", worded(GRAVITY * hanging.give), _give(hanging)])
+        rows.append(["give", worded(GRAVITY * hanging.give), push])
     return table(["the job", "", ""], rows, words=[1, 2])
 
 
@@ -353,10 +350,6 @@ def _volume(volume: float) -> str:
 def _bits(piece: Piece) -> str:
     several = " and ".join(sorted({brief(bit.diameter) for bit in piece.bits}))
     return f"a bit of {several}" + ("" if piece.is_said else ", the usual; --bit says otherwise")
-
-
-def _give(hanging: Hanging) -> str:
-    return f"by a push of 1 kg on the bit, most at line {hanging.give_line}"
 
 
 def _parts(checked: CheckedJob) -> str:

@@ -1,7 +1,5 @@
 """`plumb compare`: how far the marks lie from where the settings predict them."""
 
-from __future__ import annotations
-
 import argparse
 
 import numpy as np
@@ -66,14 +64,13 @@ def kind_of(comparison: Comparison, inputs: Inputs) -> str:
     return GOOD if comparison.rms <= NOISY * read else OPEN
 
 
-def panel_of(
-    comparison: Comparison, *, when: str = "As the settings are", good: bool = False
-) -> Panel:
+def panel_of(comparison: Comparison, *, good: bool = False) -> Panel:
     """Return the comparison as a panel of a picture."""
     if not comparison.marks:
         raise InputError("--picture: there are distances only, so no errors to draw on a sheet")
+    sizes = f"{about(comparison.rms)} mm RMS, worst {about(comparison.worst)} mm"
     return Panel(
-        title=f"{when}: {about(comparison.rms)} mm RMS, worst {about(comparison.worst)} mm",
+        title=f"As the settings are: {sizes}",
         predicted=np.array([mark.predicted for mark in comparison.marks]),
         errors=np.array([mark.error for mark in comparison.marks]),
         good=good,

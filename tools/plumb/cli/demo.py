@@ -1,10 +1,8 @@
 """`tools/demo`: an effect is hidden in a virtual machine, found and cured."""
 
-from __future__ import annotations
-
 import os
 import sys
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -42,7 +40,8 @@ def _run(arguments: Sequence[str] | None) -> int:
     files = made.files | ({parsed.picture: made.picture} if parsed.picture else {})
     write_outputs(files, inputs=[])
     print(loop_text(made.loop))
-    _say_written(files)
+    print("\nWritten:")
+    print(sentences([os.path.relpath(path) for path in files], mark="  "))
     print(f"\n{reveal(made.loop)}")
     return int(not made.fell)
 
@@ -52,11 +51,6 @@ def _make(folder: str) -> None:
         Path(folder).mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise InputError(folder, f"cannot be made ({error.strerror})") from None
-
-
-def _say_written(files: Iterable[str]) -> None:
-    print("\nWritten:")
-    print(sentences([os.path.relpath(path) for path in files], mark="  "))
 
 
 def _parser() -> Parser:

@@ -1,7 +1,5 @@
 """`plumb diagnose`: which effects the settings miss, and how likely each is by the marks."""
 
-from __future__ import annotations
-
 import argparse
 from dataclasses import dataclass
 from operator import itemgetter
@@ -24,7 +22,7 @@ from plumb.diagnosis import Diagnosis, diagnose
 from plumb.diagnosis.answer import SHOWN, Together, odds_words
 from plumb.diagnosis.unseen import unseen_by
 from plumb.model.catalogue import every_effect
-from plumb.model.plain import noun_of, plain_size, ranked
+from plumb.model.plain import noun_of, ranked
 from plumb.plan import Proposal, propose
 from plumb.text.values import worded
 
@@ -96,11 +94,7 @@ def likeliest(diagnosis: Diagnosis) -> list[str]:
     if diagnosis.explanations:
         first, *_ = shown = diagnosis.explanations[:FEW]
         rows = [[diagnosis.called(each), *_numbers_of(each)] for each in shown]
-        sizes = [
-            plain_size(f"{name}.{size.name}", size.value, size.low, size.high)
-            for name in first.effects
-            for size in first.sizes[name]
-        ]
+        sizes = [size.said for size in first.parameters]
         parts.append(table(HEADER, rows))
         parts += [sentences(sizes, mark="  ")] if 0 < len(sizes) <= SIZES else []
     odd = [slip.sentence for slip in diagnosis.outliers] or list(diagnosis.disagreements)
@@ -164,8 +158,7 @@ def _numbers_of(explanation: Together) -> list[str]:
 def _size_rows(explanation: Together, name: str) -> list[list[str]]:
     rows = []
     for size in explanation.sizes[name]:
-        said = plain_size(f"{name}.{size.name}", size.value, size.low, size.high)
-        rows.append([f"  {said}", *EMPTY])
+        rows.append([f"  {size.said}", *EMPTY])
         if not size.possible:
             rows.append(["  impossible: something else looks like it", *EMPTY])
     return rows

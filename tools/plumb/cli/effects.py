@@ -1,7 +1,5 @@
 """`plumb effects`: the library of effects, with units, usual values and look-alikes."""
 
-from __future__ import annotations
-
 import argparse
 from collections import Counter
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """`plumb flash`: writes the firmware to the Mega, and says what was on it before and is now."""
 
-from __future__ import annotations
-
 import argparse
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """The progress of a program that is being sent: its line, its share, and the time left."""
 
-from __future__ import annotations
-
 import sys
 from collections.abc import Sequence
 from time import monotonic

@@ -1,7 +1,5 @@
 """`plumb forward`: places for chain lengths, by our model."""
 
-from __future__ import annotations
-
 import argparse
 from dataclasses import dataclass
 from typing import Annotated

@@ -1,7 +1,5 @@
 """`plumb grid`: the G-code for calibration marks, by the room `grid`."""
 
-from __future__ import annotations
-
 import argparse
 import os
 from dataclasses import dataclass

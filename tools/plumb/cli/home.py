@@ -1,7 +1,5 @@
 """Keeps holes as home marks, and restores a lost position by them: `plumb recover`."""
 
-from __future__ import annotations
-
 import argparse
 from collections.abc import Sequence
 from dataclasses import dataclass, field
@@ -10,7 +8,6 @@ from math import dist
 from typing import Any
 
 import numpy as np
-from pydantic import computed_field
 
 from plumb.cli.output import STDOUT, say_failure, write_outputs
 from plumb.cli.screen import headline, next_step, print_json, sentences, table
@@ -34,7 +31,7 @@ from plumb.job.home import (
 )
 from plumb.job.slip import repair_program
 from plumb.settings.machine import MachineSettings
-from plumb.text.answers import Internal, json_of
+from plumb.text.answers import Internal, in_json, json_of
 from plumb.text.errors import InputError
 from plumb.text.files import alone_in
 from plumb.text.values import bare, signed, unit, worded
@@ -63,8 +60,7 @@ class HomeAnswer:
     fits: list[HomeFit] = field(default_factory=list)
     written: list[str] = field(default_factory=list)
 
-    @computed_field
-    @property
+    @in_json
     def marks(self) -> list[ShownMark]:
         """All home marks."""
         return [
@@ -90,10 +86,7 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.at:
         _restore(arguments, answer)
     answer.written = _written(arguments, answer)
-    if arguments.json:
-        print_json(answer)
-    else:
-        print(_text(arguments, answer))
+    print_json(answer) if arguments.json else print(_text(arguments, answer))
     return int(not all(fit.fits for fit in answer.fits))
 
 
@@ -139,9 +132,7 @@ def _written(arguments: argparse.Namespace, answer: HomeAnswer) -> list[str]:
     if arguments.output:
         if not answer.lines:
             raise InputError(f"-o {arguments.output}: there is no program without --keep or --at")
-        content = "\n".join([*answer.lines, ""]).encode()
-        write_outputs({arguments.output: content}, inputs=[arguments.settings])
-        written += [] if arguments.output == STDOUT else [arguments.output]
+        written += write_program(arguments, answer.lines)
     if arguments.keep:
         name, _ = arguments.keep
         path = home_file(arguments.settings)
@@ -158,6 +149,13 @@ def _written(arguments: argparse.Namespace, answer: HomeAnswer) -> list[str]:
         }
         say_failure(keep(arguments.settings, HOME, entry, begin=False))
     return written
+
+
+def write_program(arguments: argparse.Namespace, lines: Sequence[str]) -> list[str]:
+    """Write a program; the names of the files."""
+    content = "\n".join([*lines, ""]).encode()
+    write_outputs({arguments.output: content}, inputs=[arguments.settings])
+    return [] if arguments.output == STDOUT else [arguments.output]
 
 
 # A command opens the line, which resets the board; and that keeps no place while z is not known.

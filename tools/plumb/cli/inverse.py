@@ -1,7 +1,5 @@
 """`plumb inverse`: chain lengths for places, by the controller's formula or by our model."""
 
-from __future__ import annotations
-
 import argparse
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -47,7 +45,11 @@ def run(arguments: argparse.Namespace) -> int:
     settings = settings_in(arguments.settings)
     if bool(arguments.points) == bool(arguments.places):
         raise InputError("say which places: X,Y one after the other, or --points FILE")
-    points = np.array(arguments.places) if arguments.places else _in_file(arguments.points)
+    points = (
+        np.array(arguments.places)
+        if arguments.places
+        else read_pairs(arguments.points, names=("x", "y"))
+    )
     whose = arguments.controller or settings.controller
     moved = np.zeros(len(points), dtype=bool)
     if whose == "plumb":
@@ -68,10 +70,6 @@ def run(arguments: argparse.Namespace) -> int:
             print(f"{moved.sum()} off the sheet: the {whose} controller moves them to its edge.\n")
         print(answers_table(("x", "y"), points, ("left", "right"), answers, words))
     return int(bool((outcome != FOUND).any()))
-
-
-def _in_file(path: str) -> Array:
-    return read_pairs(path, names=("x", "y"))
 
 
 def published_lengths(

@@ -1,7 +1,5 @@
 """`plumb lab`: the lab in the browser, on this computer and, if it is shared, on phones."""
 
-from __future__ import annotations
-
 import argparse
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """`plumb next`: the most useful next measurement, with the chance that it settles the question."""
 
-from __future__ import annotations
-
 import argparse
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -36,10 +34,7 @@ from plumb.plan.proposal import (
     REREAD,
     SETTLE,
     form_of,
-    headline_of,
     program_of,
-    promise_of,
-    steps_of,
 )
 from plumb.settings.machine import MachineSettings
 from plumb.text.answers import Internal, part
@@ -177,7 +172,7 @@ def other_ways(advice: Next, shown: int = 1) -> list[str]:
         return []
     question = others[0][1].question
     rows = [
-        [f"{i}", each.option.title, f"{each.option.minutes:.0f}", promise_of(each)]
+        [f"{i}", each.option.title, f"{each.option.minutes:.0f}", each.promise]
         for i, each in others
     ]
     return [
@@ -206,7 +201,7 @@ def first_proposal(
     """Return what to measure, how, and the commands after it."""
     if best is None:
         return [headline("Nothing that can be proposed would tell more.")]
-    first = f"{headline(f'Next: {headline_of(best)}.')}\n{to_read(best, steps_of(best), settings)}"
+    first = f"{headline(f'Next: {best.headline}.')}\n{to_read(best, best.steps, settings)}"
     return [first, after(best, arguments, settings)]
 
 
@@ -259,7 +254,7 @@ def _table(advice: Next) -> str:
 
 
 def _row(place: str, proposal: Proposal, counted: bool) -> list[str]:
-    row = [place, proposal.option.title, f"{proposal.option.minutes:.0f}", promise_of(proposal)]
+    row = [place, proposal.option.title, f"{proposal.option.minutes:.0f}", proposal.promise]
     if counted:
         pairs = (
             f"{len(proposal.parts)} pair{'s' if len(proposal.parts) != 1 else ''}"

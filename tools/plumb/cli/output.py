@@ -1,7 +1,5 @@
 """Where results go: files, devices and pipes, and `-` for the standard output."""
 
-from __future__ import annotations
-
 import argparse
 import json
 import os
@@ -72,7 +70,9 @@ def write_outputs(files: Mapping[str, bytes], *, inputs: Sequence[str]) -> None:
             _refuse_foreign(path)
     write_all({path: content for path, content in files.items() if path != STDOUT})
     if STDOUT in files:
-        _print_bytes(files[STDOUT], way.results)
+        way.results.flush()
+        way.results.buffer.write(files[STDOUT])
+        way.results.flush()
 
 
 def refuse_twins(*paths: str | None) -> None:
@@ -101,12 +101,6 @@ def _refuse_foreign(path: str) -> None:
             "exists, and plumb did not write it",
             remedy="give the result another name, or --force to replace the file",
         )
-
-
-def _print_bytes(content: bytes, stream: TextIO) -> None:
-    stream.flush()
-    stream.buffer.write(content)
-    stream.flush()
 
 
 # How a program of the lab ends: done, refused, interrupted, or with nobody left to read.

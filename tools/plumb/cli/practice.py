@@ -1,7 +1,5 @@
 """`plumb practice`: find what is hidden in a virtual machine."""
 
-from __future__ import annotations
-
 import argparse
 import secrets
 from contextlib import suppress
@@ -89,7 +87,7 @@ class _Reader:
     def look(self, machine: VirtualMachine) -> None:
         """Look whether a form waits, and whether its marks are cut."""
         with suppress(FileNotFoundError):  # what is taken away meanwhile waits no more
-            for path in sorted(self._folder.glob("*.toml"), key=_age):
+            for path in sorted(self._folder.glob("*.toml"), key=lambda path: -path.stat().st_mtime):
                 form = path.read_text(encoding="utf-8", errors="replace")
                 if BLANK in form:
                     return self._fill(path, form, machine)
@@ -103,19 +101,12 @@ class _Reader:
             write_whole(str(path), filled.encode())
 
 
-def _age(path: Path) -> float:
-    return -path.stat().st_mtime
-
-
 def _reveal(folder: Path, arguments: argparse.Namespace) -> int:
     """Say what is hidden, and what the answer is worth."""
     secret = secret_in(folder)
     answer = read_settings(arguments.answer or folder / SETTINGS, known=known_effects())
     result = score(secret, answer)
-    if arguments.json:
-        print_json(result)
-    else:
-        print(_as_text(result))
+    print_json(result) if arguments.json else print(_as_text(result))
     return int(bool(result.false or result.missed))
 
 

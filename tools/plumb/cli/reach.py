@@ -1,13 +1,10 @@
 """`plumb reach`: which part of the sheet a machine can use, and what limits the rest."""
 
-from __future__ import annotations
-
 import argparse
 from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
-from pydantic import computed_field
 
 from plumb import _core
 from plumb.cli.arguments import add_shared, limit
@@ -20,7 +17,7 @@ from plumb.fit.problem import priors_with
 from plumb.model.predict import REACH_WORDS
 from plumb.model.reach import Give, Pull, Survey, conclusion_of, percent, survey_sheet
 from plumb.pictures.drawing import Panel, draw
-from plumb.text.answers import Internal, part
+from plumb.text.answers import Internal, in_json, part
 from plumb.text.errors import InputError
 from plumb.text.values import bare, unit, worded
 
@@ -52,20 +49,17 @@ class SheetReach:
     softest = part("survey.softest", Give | None)
     assumed = part("survey.assumed", tuple[str, ...], "What the settings do not say.")
 
-    @computed_field
-    @property
+    @in_json
     def usable_share(self) -> float:
         """The share of the sheet that the machine can use."""
         return self.survey.shares[REACH_WORDS[0]]
 
-    @computed_field
-    @property
+    @in_json
     def shares(self) -> dict[str, float]:
         """The share of the sheet of each verdict."""
         return {word.replace(" ", "_"): share for word, share in self.survey.shares.items()}
 
-    @computed_field
-    @property
+    @in_json
     def map(self) -> list[str]:
         """The sheet in characters, from the top down; edges included."""
         rows = self.survey.reached.verdict.reshape(len(self.survey.y), len(self.survey.x))

@@ -1,7 +1,5 @@
 """`plumb read`: the machine's numbers, and where its sled is."""
 
-from __future__ import annotations
-
 import argparse
 from dataclasses import dataclass
 from typing import Annotated
@@ -11,7 +9,7 @@ from pydantic import Field
 from plumb.cli.arguments import add_shared
 from plumb.cli.output import write_outputs
 from plumb.cli.screen import print_json, sentences, table
-from plumb.firmware.settings import every_setting, machine_of_numbers
+from plumb.firmware.settings import called, machine_of_numbers
 from plumb.firmware.telemetry import slip_suspicion, telemetry_in
 from plumb.line.memory import read_numbers
 from plumb.line.port import SerialPort, port_for
@@ -95,17 +93,9 @@ def _way_back(lost: str) -> list[str]:
 
 
 def _table(numbers: dict[int, float]) -> str:
-    names = {row.number: row for row in every_setting()}
-    rows = [
-        [
-            f"${number}",
-            names[number].name if number in names else "",
-            f"{value:g}",
-            names[number].unit if number in names else "",
-        ]
-        for number, value in numbers.items()
-        if value or number < FIRST_EFFECT
-    ]
+    shown = [item for item in numbers.items() if item[1] or item[0] < FIRST_EFFECT]
+    named = [(number, value, *called(number)) for number, value in shown]
+    rows = [[f"${number}", name, f"{value:g}", unit] for number, value, name, unit in named]
     return table(["number", "name", "value", "unit"], rows)
 
 

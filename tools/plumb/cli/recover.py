@@ -1,7 +1,5 @@
 """`plumb recover`: keeps home marks, brings a lost place back, and repairs a slipped chain."""
 
-from __future__ import annotations
-
 import argparse
 import re
 

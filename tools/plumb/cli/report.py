@@ -1,7 +1,5 @@
 """`plumb report`: all that the marks say, as a page to read, print and keep."""
 
-from __future__ import annotations
-
 import argparse
 from dataclasses import dataclass
 from functools import partial

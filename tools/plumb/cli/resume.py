@@ -1,7 +1,5 @@
 """`plumb resume`: writes a program that goes on with a job after a halt."""
 
-from __future__ import annotations
-
 import argparse
 from dataclasses import dataclass
 from pathlib import Path

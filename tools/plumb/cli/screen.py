@@ -3,8 +3,6 @@
 Colour and width come from rich: none in a file, in a pipe, or with NO_COLOR set.
 """
 
-from __future__ import annotations
-
 import argparse
 import json
 import math

@@ -1,7 +1,5 @@
 """`plumb send`: streams a program to the machine, or writes its numbers."""
 
-from __future__ import annotations
-
 import argparse
 import signal
 import sys

@@ -1,14 +1,10 @@
 """`plumb settings`: a fitted machine as lines for our firmware, with what its client needs."""
 
-from __future__ import annotations
-
 import argparse
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated
-
-from pydantic import computed_field
 
 from plumb.cli.arguments import add_shared, file
 from plumb.cli.output import write_outputs
@@ -17,7 +13,7 @@ from plumb.firmware.client_files import CLIENT_FILES, ClientFiles, client_files,
 from plumb.firmware.settings import SentSetting, firmware_numbers
 from plumb.fit.inputs import settings_in
 from plumb.settings.machine import CLIENTS, FIRMWARES, MachineSettings
-from plumb.text.answers import Internal, meant
+from plumb.text.answers import Internal, in_json, meant
 from plumb.text.errors import InputError
 
 
@@ -66,7 +62,9 @@ def run(arguments: argparse.Namespace) -> int:
         print(content.decode(), end="")
         if arguments.to == "table":
             print(f"\n{headline(_verdict(numbers, shown))}")
-            print(f"\n{next_step('For the machine:', _to_gcode(arguments.settings))}")
+            kept = ["--client", "groundcontrol", "--original", "groundcontrol.ini"]
+            words = ["settings", arguments.settings, "--to", "gcode", *kept, "-o", "machine.nc"]
+            print(f"\n{next_step('For the machine:', words)}")
     return 0
 
 
@@ -82,11 +80,6 @@ def _verdict(numbers: tuple[SentSetting, ...], shown: tuple[SentSetting, ...]) -
     count = len(_at_work(numbers))
     said = f"{count} numbers make this machine, {len(numbers) - count} are 0."
     return said if len(shown) == len(numbers) else f"{said} --details shows all."
-
-
-def _to_gcode(machine: str) -> list[str]:
-    kept = ["--client", "groundcontrol", "--original", "groundcontrol.ini"]
-    return ["settings", machine, "--to", "gcode", *kept, "-o", "machine.nc"]
 
 
 def _refuse_lines_alone(arguments: argparse.Namespace) -> None:
@@ -184,14 +177,12 @@ class WrittenFiles:
     written: tuple[str, ...]
     client: Internal[ClientFiles | None]
 
-    @computed_field
-    @property
+    @in_json
     def steps(self) -> tuple[str, ...]:
         """Steps of the owner with the files, a sentence each."""
         return self.client.steps if self.client else ()
 
-    @computed_field
-    @property
+    @in_json
     def typed(self) -> dict[str, str]:
         """Values to type into the client, by `section: key`."""
         return typed_json(self.client)

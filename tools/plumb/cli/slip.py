@@ -1,15 +1,12 @@
 """Chains that slipped by whole links, and the line that repairs them: `plumb recover --touch`."""
 
-from __future__ import annotations
-
 import argparse
-from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
-from plumb.cli.home import asked_signs, touches_of
-from plumb.cli.output import STDOUT, say_failure, write_outputs
+from plumb.cli.home import asked_signs, touches_of, write_program
+from plumb.cli.output import say_failure
 from plumb.cli.screen import BAD, GOOD, OPEN, headline, next_step, print_json, sentences, table
 from plumb.diary.file import SLIP as SLIP_ENTRY
 from plumb.diary.file import keep
@@ -28,7 +25,7 @@ from plumb.job.slip import (
     next_hole,
     repair_program,
 )
-from plumb.text.answers import json_of
+from plumb.text.answers import Internal, in_json, json_of, part
 from plumb.text.values import bare, signed, unit, worded
 
 SIDES = ("left", "right")
@@ -49,14 +46,33 @@ class SlipTouch(HomeTouch):
 class SlipAnswer:
     """Verdict on the chains, and the repair."""
 
-    verdict: str
-    sentence: str
-    accounts: tuple[SlipAccount, ...]  # the likeliest first
-    touches: list[SlipTouch]
-    sigma_mm: float
-    lines: list[str]  # the repair, if there is something to repair
+    finding: Internal[SlipFinding]
     written: list[str]
     touch_next: Point | None  # where a hole would tell most
+
+    verdict = part("finding.verdict", str)
+    accounts = part("finding.accounts", tuple[SlipAccount, ...], "The likeliest first.")
+    sigma_mm = part("finding.sigma", float)
+
+    @in_json
+    def sentence(self) -> str:
+        """The verdict in a sentence."""
+        return sentence(self.finding)
+
+    @in_json
+    def touches(self) -> list[SlipTouch]:
+        """The touched marks."""
+        found = self.finding
+        numbers = (each.tolist() for each in (found.errors, found.left, found.believed))
+        return [
+            SlipTouch(**vars(touch), error=error, left=left, chains=chains)
+            for touch, error, left, chains in zip(found.touches, *numbers, strict=True)
+        ]
+
+    @in_json
+    def lines(self) -> list[str]:
+        """The repair, if there is something to repair."""
+        return repair_lines(self.finding)
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -69,47 +85,23 @@ def run(arguments: argparse.Namespace) -> int:
         fixed=arguments.fixed,
         taped=arguments.taped,
     )
-    lines = _lines(finding)
+    lines = repair_lines(finding) if arguments.output else []
     answer = SlipAnswer(
-        verdict=finding.verdict,
-        sentence=sentence(finding),
-        accounts=finding.accounts,
-        touches=_touches(finding),
-        sigma_mm=finding.sigma,
-        lines=lines,
-        written=_written(arguments, lines),
+        finding=finding,
+        written=write_program(arguments, lines) if lines else [],
         touch_next=next_hole(settings, finding) if finding.verdict == CANNOT_TELL else None,
     )
     say_failure(keep(arguments.settings, SLIP_ENTRY, json_of(answer), begin=False))
-    if arguments.json:
-        print_json(answer)
-    else:
-        print(_text(answer, arguments))
+    print_json(answer) if arguments.json else print(_text(answer, arguments))
     return int(finding.verdict not in (NOTHING, SHEET))
 
 
-def _touches(finding: SlipFinding) -> list[SlipTouch]:
-    numbers = (each.tolist() for each in (finding.errors, finding.left, finding.believed))
-    return [
-        SlipTouch(**vars(touch), error=error, left=left, chains=chains)
-        for touch, error, left, chains in zip(finding.touches, *numbers, strict=True)
-    ]
-
-
-def _lines(finding: SlipFinding) -> list[str]:
+def repair_lines(finding: SlipFinding) -> list[str]:
     """Return the repair, if there is something to repair."""
     if finding.verdict != SLIP:
         return []
     where = f"the hole of touch {finding.touches[-1].name}"
     return repair_program(finding.true_chains, where=where)
-
-
-def _written(arguments: argparse.Namespace, lines: Sequence[str]) -> list[str]:
-    if not (arguments.output and lines):
-        return []
-    content = "\n".join([*lines, ""]).encode()
-    write_outputs({arguments.output: content}, inputs=[arguments.settings])
-    return [] if arguments.output == STDOUT else [arguments.output]
 
 
 def _text(answer: SlipAnswer, arguments: argparse.Namespace) -> str:

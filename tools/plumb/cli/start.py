@@ -1,7 +1,5 @@
 """The door of the command `plumb`: Ctrl-C ends it quietly, also while its modules load."""
 
-from __future__ import annotations
-
 import signal
 import sys
 

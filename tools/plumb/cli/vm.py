@@ -1,7 +1,5 @@
 """`plumb vm`: a virtual machine that clients open like a board."""
 
-from __future__ import annotations
-
 import argparse
 import struct
 import time

@@ -1,7 +1,5 @@
 """Adding effects to a machine: the fit before and after, and what to think of the numbers."""
 
-from __future__ import annotations
-
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Annotated
@@ -30,7 +28,7 @@ from plumb.model.lab_effects import LAB_EFFECTS
 from plumb.model.plain import noun_of, plain_name, plain_range, plain_size
 from plumb.model.predict import frame_words
 from plumb.settings.machine import MachineSettings
-from plumb.text.answers import Internal, Number, among, key, meant, part
+from plumb.text.answers import Internal, Number, among, in_json, key, meant, part
 from plumb.text.values import bare, worded
 
 Sizes = Mapping[str, Mapping[str, float]]  # of parameters, effect by effect
@@ -78,8 +76,7 @@ class Parameter:
         """Whether it is a term of the residual patch, which means nothing by itself."""
         return self.name.startswith(f"{PATCH}.")
 
-    @computed_field
-    @property
+    @in_json
     def plausible(self) -> bool:
         """Whether a real machine can have this value."""
         return self.plausible_range.holds(self.value)
@@ -145,20 +142,17 @@ class Addition:
         """The errors before anything was fitted."""
         return AsSet(self.raw.rms, self.raw.worst, self.raw.shape_rms)
 
-    @computed_field
-    @property
+    @in_json
     def sheet_rotation(self) -> float | None:
         """The rotation of the sheet [rad]; null where the marks do not show it."""
         return self.after_fit.sheet_rotation if self.after_fit.shows_sheet_rotation else None
 
-    @computed_field
-    @property
+    @in_json
     def sheet_rise_mm(self) -> float | None:
         """The rise of the last sheet; null where the marks do not show it."""
         return self.sheet_rise if self.after_fit.shows_sheet_rotation else None
 
-    @computed_field
-    @property
+    @in_json
     def cures(self) -> tuple[str, ...]:
         """A sentence for each lab effect that was fitted: no setting holds it."""
         return tuple(
@@ -346,7 +340,8 @@ def _surprises(parameters: Sequence[Parameter], known: Collection[str]) -> list[
     said = []
     for parameter in parameters:
         if parameter.possible and parameter.name not in known and may_be_zero(parameter):
-            said.append(_zero_sentence(parameter))
+            size = plain_size(parameter.name, parameter.value)
+            said.append(f"{size} may as well be zero: its interval contains it")
         moved = parameter.value - parameter.before
         trusted = parameter.prior_sigma
         if trusted and not parameter.of_patch and abs(moved) > FAR * trusted:
@@ -368,11 +363,6 @@ def may_be_zero(parameter: Parameter) -> bool:
     """Return whether a free parameter that was absent before may be absent still."""
     free = parameter.prior_sigma is None and parameter.before == 0
     return free and parameter.low < 0 < parameter.high
-
-
-def _zero_sentence(parameter: Parameter) -> str:
-    size = plain_size(parameter.name, parameter.value)
-    return f"{size} may as well be zero: its interval contains it"
 
 
 def _impossible(parameter: Parameter) -> str:

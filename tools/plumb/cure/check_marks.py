@@ -4,8 +4,6 @@ A fit promises a place with an interval: what the marks and the priors leave ope
 and the noise of the new reading. A small residual of the fit itself is no accuracy; this is.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 
 import numpy as np

@@ -6,25 +6,21 @@ something is measured first. The headline, what speaks against the numbers, what
 before they hold and the screen that comes next are said here and nowhere else.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from math import hypot
 from typing import Annotated
-
-from pydantic import computed_field
 
 from plumb.cure.add import WEIGHTS, Addition, Note, add
 from plumb.cure.live_board import TooFewError
 from plumb.cure.machine_file import has_setting
 from plumb.diagnosis.answer import MOST_NAMED, Diagnosis, Verdict, odds_words
 from plumb.diagnosis.diagnosis import diagnose
-from plumb.diagnosis.expected_error import LeftOpen, RivalError, expected_error, rival_error
+from plumb.diagnosis.expected_error import RivalError, expected_error, rival_error
 from plumb.fit.inputs import Inputs
 from plumb.model.catalogue import every_effect
 from plumb.model.plain import noun_of, plainly, ranked
-from plumb.text.answers import Internal, among, key, part
+from plumb.text.answers import Internal, among, in_json, key, part
 from plumb.text.errors import to_do
 from plumb.text.values import bare, worded
 
@@ -60,8 +56,7 @@ class Decision:
 
     verdict = part("diagnosis.verdict", Verdict)
 
-    @computed_field
-    @property
+    @in_json
     def state(self) -> Annotated[str, among(STATES)]:
         """Result for the machine."""
         if self.diagnosis.outliers:
@@ -74,20 +69,17 @@ class Decision:
             return "unknown_cause"
         return "measure_first" if self.rivals else "better"
 
-    @computed_field
-    @property
+    @in_json
     def headline(self) -> str:
         """The decision for people, in at most forty words."""
         return _headline(self)
 
-    @computed_field
-    @property
+    @in_json
     def notes(self) -> tuple[Note, ...]:
         """Notes on the new numbers, the heaviest first."""
         return tuple(_notes(self))
 
-    @computed_field
-    @property
+    @in_json
     def slips(self) -> tuple[str, ...]:
         """Names of the readings that are wrong."""
         return tuple(slip.name for slip in self.diagnosis.outliers)
@@ -130,7 +122,7 @@ class Decision:
             return None
         both = zip(self.diagnosis.fits, self.diagnosis.explanations, strict=True)
         rivals = [(fit, each.share) for fit, each in both if fit is not self.diagnosis.best]
-        expected = expected_error(self.diagnosis.best, rivals).rms
+        expected = expected_error(self.diagnosis.best, rivals)
         is_known = self.diagnosis.verdict != "not_in_library"
         return expected if is_known else hypot(expected, self.diagnosis.pattern_mm)
 
@@ -163,7 +155,7 @@ def decide(inputs: Inputs, *, patch: bool = False, diagnosis: Diagnosis | None =
     if diagnosis.verdict == "slip":
         return Decision(diagnosis, inputs, _slip_reason(diagnosis))
     if diagnosis.left_open.is_too_much:
-        return Decision(diagnosis, inputs, _open_reason(diagnosis.left_open))
+        return Decision(diagnosis, inputs, f"nothing was added. {diagnosis.left_open.sentence}")
     if diagnosis.is_good:
         return Decision(diagnosis, inputs, GOOD)
     is_known = diagnosis.verdict != "not_in_library"
@@ -257,10 +249,6 @@ def _slip_reason(diagnosis: Diagnosis) -> str:
             page="under Readings, or clear it there",
         )
     )
-
-
-def _open_reason(left_open: LeftOpen) -> str:
-    return f"nothing was added. {left_open.sentence}"
 
 
 def _reason(

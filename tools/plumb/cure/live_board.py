@@ -13,13 +13,11 @@ from functools import cached_property, partial
 from threading import Lock
 from typing import Protocol
 
-import numpy as np
-
 from plumb.diagnosis.explanation import Board, Explanation, explain
 from plumb.diagnosis.noise import Noise
 from plumb.diagnosis.outliers import described
 from plumb.diagnosis.readings import clear_outliers
-from plumb.diagnosis.suspect_curves import SuspectCurves, seen_by, suspect_curves
+from plumb.diagnosis.suspect_curves import SuspectCurves, suspect_curves
 from plumb.firmware.settings import Difference, both_values, differences, numbers_in_force
 from plumb.fit.compare import chain_errors, hung_places
 from plumb.fit.covariates import PATCH, Covariate, covariates
@@ -208,14 +206,6 @@ def noise_of(inputs: Inputs, board: Board) -> tuple[Noise, tuple[str, ...]]:
 # and fall when an effect is added.
 
 
-@dataclass(frozen=True)
-class Drawn:
-    """Shifts that effects add to the frame's fit."""
-
-    moved: Array  # (k, 2) [mm] of the marks on the sheet
-    curves: SuspectCurves
-
-
 class BoardView:
     """The view of a board."""
 
@@ -239,13 +229,11 @@ class BoardView:
         rows = self.board.rows
         return chain_errors(self.model, self._places, errors, rows.sled_weights[rows.mark_rows])
 
-    def drawn(self, *effects: str) -> Drawn:
+    def drawn(self, *effects: str) -> SuspectCurves:
         """Return what effects draw into the marks once the frame is refitted with them."""
         frame, rows = self._frame, self.board.rows
         explanation = explain(frame.board, effects, start=frame)
-        moved = seen_by(explanation, rows).read.where - seen_by(frame, rows).read.where
-        curves = suspect_curves(frame, explanation, rows)
-        return Drawn(np.asarray(moved[rows.mark_rows]), curves)
+        return suspect_curves(frame, explanation, rows)
 
     @property
     def _frame(self) -> Explanation:

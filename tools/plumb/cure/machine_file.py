@@ -1,7 +1,5 @@
 """The machine.toml of a fitted machine: its numbers, below what the fit says of them."""
 
-from __future__ import annotations
-
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path

@@ -1,14 +1,11 @@
 """The answer of a diagnosis: what the marks prove, and what they do not."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from math import inf
 from typing import Annotated
 
 import numpy as np
-from pydantic import computed_field
 
 from plumb.diagnosis.expected_error import LeftOpen
 from plumb.diagnosis.explanation import Explanation
@@ -24,7 +21,7 @@ from plumb.fit.inputs import Stated
 from plumb.fit.problem import Checked
 from plumb.model.catalogue import place_of
 from plumb.model.plain import plainly
-from plumb.text.answers import Internal, among, key, meant, part
+from plumb.text.answers import Internal, among, in_json, key, meant, part
 from plumb.text.values import bare, worded
 
 VERDICTS = ("nothing_provable", "one_suspect", "cannot_tell", "not_in_library", "slip")
@@ -42,24 +39,15 @@ class RankedEffect:
     rms_after: Annotated[float, key("rms_after_mm")]
     hidden_share: float | None
 
-    @computed_field
-    @property
+    @in_json
     def where(self) -> Annotated[str, among(("firmware", "lab"))]:
         """Where the effect is written."""
         return place_of(self.effect)
 
-    @computed_field
-    @property
+    @in_json
     def plausible(self) -> bool:
         """Whether a real machine can have these sizes."""
         return all(size.plausible for size in self.sizes)
-
-
-@dataclass(frozen=True)
-class EffectSize(Size):
-    """The same with the name of its effect."""
-
-    effect: str
 
 
 @dataclass(frozen=True)
@@ -72,17 +60,12 @@ class Together:
     noise_rms: Annotated[float, key("noise_rms_mm", "What noise alone leaves of that fit.")]
     share: Annotated[float, meant("How likely it is among all accounts.")]
 
-    @computed_field
-    @property
-    def parameters(self) -> tuple[EffectSize, ...]:
+    @in_json
+    def parameters(self) -> tuple[Size, ...]:
         """All sizes in the order of the effects."""
-        return tuple(
-            EffectSize(**vars(size), effect=name)
-            for name in self.effects
-            for size in self.sizes[name]
-        )
+        return tuple(size for name in self.effects for size in self.sizes[name])
 
-    @property
+    @in_json
     def possible(self) -> bool:
         """Whether the intervals of all sizes reach what a real machine may have."""
         return all(size.possible for sizes in self.sizes.values() for size in sizes)
@@ -142,8 +125,7 @@ class Diagnosis:
     sigma_from = part("noise.source", Annotated[str, among(list(ORIGINS))])
     sigma_degrees = part("noise.degrees", float | None, "Of freedom; null: it was not estimated.")
 
-    @computed_field
-    @property
+    @in_json
     def sentence(self) -> str:
         """The verdict for people."""
         return verdict_sentence(self)
@@ -181,8 +163,7 @@ class Diagnosis:
         by_noise = left_by_noise(self.best, self.noise)
         return float(np.sqrt(max(self.best.rms**2 - by_noise**2, 0.0)))
 
-    @computed_field
-    @property
+    @in_json
     def suspects(self) -> tuple[str, ...]:
         """The effects in the explanations, best first."""
         names = (name for together in self.explanations for name in together.effects)
@@ -218,8 +199,8 @@ def _outlier(diagnosis: Diagnosis) -> str:
 
 
 def _nothing_provable(diagnosis: Diagnosis) -> str:
+    left = _left(diagnosis.rms_before, diagnosis.noise_rms)
     if diagnosis.is_good:
-        left = _left(diagnosis.rms_before, diagnosis.noise_rms)
         good = "as good as these marks can show"
         said = (
             f"Cured: the machine is now {good}" if diagnosis.is_cured else f"The machine is {good}"
@@ -230,7 +211,6 @@ def _nothing_provable(diagnosis: Diagnosis) -> str:
         if diagnosis.nothing_chance > LIKELIER
         else "Something may act, but the marks do not show what."
     )
-    left = _left(diagnosis.rms_before, diagnosis.noise_rms)
     return f"{said} With the frame fitted {left}."
 
 
@@ -383,7 +363,7 @@ def judge(readings: CleanReadings, stated: Stated | None) -> Judgement:
     if readings.outliers:
         return Judgement("slip", posterior, (), best)
     unknown = posterior.field_chance + sum(posterior.moved_chances.values())
-    if unknown > UNKNOWN or _misfits(readings, best, stated):
+    if unknown > UNKNOWN or misfit_chance(readings.explained(best), stated) < MISFIT:
         if posterior.with_fields.spot:
             first = posterior.likeliest_with_field
         else:
@@ -414,8 +394,3 @@ def _likelier(posterior: Posterior, first: Listed) -> Account:
 def is_silent(nothing_chance: float) -> bool:
     """Return whether it is too likely that nothing acts for any cause to be named."""
     return nothing_chance > NOTHING
-
-
-def _misfits(readings: CleanReadings, best: Account, stated: Stated | None) -> bool:
-    """Return whether even the likeliest account leaves more than noise ever does."""
-    return misfit_chance(readings.explained(best), stated) < MISFIT

@@ -1,7 +1,5 @@
 """A test whether the marks can fault the settings, or noise alone could explain the errors."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 
 import numpy as np

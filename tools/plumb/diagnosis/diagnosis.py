@@ -1,7 +1,5 @@
 """The diagnosis: observe, weigh all accounts, set outliers aside, and read the answers off."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 

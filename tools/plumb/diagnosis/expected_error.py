@@ -5,13 +5,10 @@ that is used, and how far its rivals would lead elsewhere, each by its share. Wh
 has is not counted.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from pydantic import computed_field
 
 from plumb.diagnosis.explanation import Explanation
 from plumb.diagnosis.suspect_curves import model_by
@@ -20,43 +17,27 @@ from plumb.fit.expected import places_over
 from plumb.fit.observations import Observations, visited
 from plumb.model.plain import ranked
 from plumb.model.predict import FOUND, NAMES, Array, lengths
-from plumb.text.answers import Internal
+from plumb.text.answers import in_json
 from plumb.text.values import worded
 
 COLUMNS, ROWS = 41, 21  # places of the sheet
 
 
-@dataclass(frozen=True)
-class ExpectedError:
-    """One standard deviation of the sled's place, x and y together, all over the sheet."""
-
-    x: Internal[Array]  # (COLUMNS,) [mm]
-    y: Internal[Array]  # (ROWS,) [mm] from the top down
-    sigma: Internal[Array]  # (ROWS, COLUMNS) [mm]; nan where no chain reaches
-
-    @computed_field(alias="rms_mm")
-    @property
-    def rms(self) -> float:
-        """Over all places that are reached [mm]."""
-        return float(np.sqrt(np.nanmean(self.sigma**2)))
-
-    @computed_field(alias="worst_mm")
-    @property
-    def worst(self) -> float:
-        """At the worst place [mm]."""
-        return float(np.nanmax(self.sigma))
-
-
-def expected_error(
-    used: Explanation, rivals: Sequence[tuple[Explanation, float]] = ()
-) -> ExpectedError:
-    """Return the error to expect of a machine set as `used` says; rivals with their shares of what
-    is likely, the rest being the share of `used`.
+def expected_error(used: Explanation, rivals: Sequence[tuple[Explanation, float]] = ()) -> float:
+    """Return the error [mm RMS] to expect over the sheet of a machine set as `used` says; rivals
+    with their shares of what is likely, the rest being the share of `used`.
     """
     width, height = model_by(used).sheet
     x = np.linspace(-width / 2, width / 2, COLUMNS)
     y = np.linspace(height / 2, -height / 2, ROWS)
     places = np.stack(np.meshgrid(x, y), axis=-1).reshape(-1, 2)
+    return float(np.sqrt(np.nanmean(sigmas(used, rivals, places) ** 2)))
+
+
+def sigmas(used: Explanation, rivals: Sequence[tuple[Explanation, float]], places: Array) -> Array:
+    """Return one standard deviation (n,) [mm] of the sled's places (n, 2), x and y together; nan
+    where no chain reaches.
+    """
     chains, outcome = lengths(model_by(used), places)
     where, slopes, hanging = hung(used, chains)
     variance = _variance(used, slopes)
@@ -65,8 +46,7 @@ def expected_error(
         elsewhere, _, reached = hung(rival, chains)
         variance += share * np.sum((elsewhere - where) ** 2, axis=1)
         good &= reached == FOUND
-    sigma = np.where(good, np.sqrt(variance), np.nan).reshape(ROWS, COLUMNS)
-    return ExpectedError(x, y, sigma)
+    return np.where(good, np.sqrt(variance), np.nan)
 
 
 def hung(explanation: Explanation, chains: Array) -> tuple[Array, Array, Array]:
@@ -101,18 +81,10 @@ def _variance(explanation: Explanation, slopes: Array) -> Array:
 def _visits(chains: Array, weight: float) -> Observations:
     """Visits (n,) with these chains and the usual sled, of which nothing is read."""
     count = len(chains)
-    none = np.zeros((0, 2))
     first = np.zeros(count, dtype=int)
     return Observations(
         chains=chains,
         sled_weights=np.full(count, weight),
-        mark_rows=np.zeros(0, dtype=int),
-        measured=none,
-        targets=none,
-        names=(),
-        distance_rows=np.zeros((0, 2), dtype=int),
-        distances=np.zeros(0),
-        distance_rounds=np.zeros(0, dtype=int),
         approaches=np.zeros((count, 2)),
         rounds=first,
         zero_groups=first,
@@ -145,8 +117,7 @@ class RivalError:
     mm: float  # RMS over that part of the sheet
     where: str  # for people
 
-    @computed_field
-    @property
+    @in_json
     def sentence(self) -> str:
         """By how much and where, for people."""
         return f"On the sheet the likely causes differ by {worded(self.mm, 1)} in {self.where}."

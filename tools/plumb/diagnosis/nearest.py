@@ -5,8 +5,6 @@ of which machine to set. What predicts best the readings that a fit did not see 
 effect has to take a good part of that error, or it is left out.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np

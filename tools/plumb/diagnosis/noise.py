@@ -1,7 +1,5 @@
 """The noise of a reading: what is stated, repeats and scatter say of it, as one posterior."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -7,7 +7,6 @@ from dataclasses import dataclass, replace
 from typing import Annotated
 
 import numpy as np
-from pydantic import computed_field
 
 from plumb.diagnosis.explanation import Board
 from plumb.diagnosis.noise import library_basis
@@ -15,7 +14,7 @@ from plumb.fit.compare import Comparison
 from plumb.fit.observations import Observations
 from plumb.marks.read import Measurements
 from plumb.model.plain import greatest
-from plumb.text.answers import Internal, key
+from plumb.text.answers import Internal, in_json, key
 from plumb.text.values import worded
 
 # Single readings: a mark's place or a distance, and how far a reading is off.
@@ -157,8 +156,7 @@ class Outlier:
         """Kind and name."""
         return f"{'distance' if len(self.offset) == 1 else 'mark'} {self.name}"
 
-    @computed_field
-    @property
+    @in_json
     def sentence(self) -> str:
         """Advice for people."""
         because = f"; {self.guess}" if self.guess else self._advice

@@ -3,8 +3,6 @@
 Each number stands here with its source. To change what the lab believes, change it here.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """The readings that can be trusted: mix-ups put right, outliers set aside, the noise known."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 from functools import cached_property
 

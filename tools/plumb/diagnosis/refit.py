@@ -1,7 +1,5 @@
 """The fit of an account: the frame and its effects, with what every machine has held near usual."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from plumb.diagnosis.evidence import Accounts, Effects, accounts_of

@@ -1,7 +1,5 @@
 """Sizes of effects: fitted with intervals, hidden in the frame, and how large they could be."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from typing import Annotated
@@ -11,9 +9,10 @@ import scipy
 
 from plumb.diagnosis.explanation import Explanation, beyond, covariance_of, span
 from plumb.diagnosis.noise import ORIGINS, Noise
-from plumb.fit.expected import plausible_range
+from plumb.fit.expected import plausible_range, range_said
 from plumb.model.catalogue import parameter_words
-from plumb.text.answers import Internal, key, meant
+from plumb.model.plain import plain_size
+from plumb.text.answers import in_json, key, meant
 from plumb.text.values import worded
 
 Array = np.ndarray
@@ -23,13 +22,29 @@ Array = np.ndarray
 class Size:
     """A parameter of an effect, fitted, with its 95 % interval."""
 
+    effect: str
     name: str  # without the effect's
     value: float
     low: float | None  # None: these marks say nothing of it
     high: float | None
     unit: str
     plausible: bool  # whether a real machine can have the value
-    possible: Internal[bool]  # whether its interval reaches what a real machine may have
+    possible: bool  # whether its interval reaches what a real machine may have
+
+    @in_json
+    def said(self) -> str:
+        """The same in words."""
+        return plain_size(f"{self.effect}.{self.name}", self.value, self.low, self.high)
+
+    @in_json
+    def limits(self) -> tuple[float | None, float | None]:
+        """The least and the largest that real machines have; null: no limit is known."""
+        return plausible_range(f"{self.effect}.{self.name}").limits
+
+    @in_json
+    def range_said(self) -> str:
+        """The same in words; empty: no limit is known."""
+        return range_said(f"{self.effect}.{self.name}")
 
 
 @dataclass(frozen=True)
@@ -66,6 +81,7 @@ def sizes_of(explanation: Explanation, effect: str, noise: Noise) -> tuple[Size,
         least = 0.0 if min(plausible.low, value) >= 0 else -np.inf
         sizes.append(
             Size(
+                effect=effect,
                 name=name.partition(".")[2],
                 value=value,
                 low=max(float(value - half), least) if felt else None,
@@ -156,14 +172,9 @@ def _largest(explanation: Explanation, raw: Array, total: Array, covariance: Arr
     axes = raw @ (directions * np.sqrt(np.maximum(values, 0.0)))
     radius = float(np.sqrt(scipy.special.chdtri(raw.shape[1], 0.10)))
     middle = board.rows.rms_of(board.sigma * raw @ total)
-    return middle + radius * max(board.rows.rms_of(board.sigma * axis) for axis in _main_axes(axes))
-
-
-def _main_axes(columns: Array) -> Array:
-    """Columns turned so that the first is the longest (as rows)."""
-    left, sizes, _ = np.linalg.svd(columns, full_matrices=False)
-    main: Array = (left * sizes).T
-    return main
+    # Turned so that the first is the longest.
+    left, sizes, _ = np.linalg.svd(axes, full_matrices=False)
+    return middle + radius * max(board.rows.rms_of(board.sigma * axis) for axis in (left * sizes).T)
 
 
 def intervals_sentence(sigma: float, source: str) -> str:

@@ -5,8 +5,6 @@ over the whole sheet those are looked for that the marks ask for most, if all ef
 about the best of them the grid is made finer as long as that pays for its smaller share.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from itertools import product
 

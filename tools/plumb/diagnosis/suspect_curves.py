@@ -4,10 +4,8 @@ An explanation refits the frame, so it changes what the frame alone leaves. That
 marks can show of it: its dots at the marks, and its curve against each covariate.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -19,6 +17,7 @@ from plumb.fit.sighting import Sighting, sighted
 from plumb.model.plain import ascending
 from plumb.model.predict import FOUND, Array, settings_of
 from plumb.settings.machine import MachineSettings
+from plumb.text.answers import Series
 
 COLUMNS, ROWS = 41, 21  # places of the sheet behind a curve
 BINS = 12  # of a curve, each with about as many places
@@ -30,17 +29,17 @@ SAME_PLACE = 1.0  # [mm] between marks that were visited in several ways
 class Curve:
     """Curve of an explanation on a chain against a covariate, over the whole sheet [mm]."""
 
-    at: Array  # (b,) of the covariate, rising
-    middle: Array  # (b,) mean
-    low: Array  # (b,) four fifths of the places lie between low and high
-    high: Array  # (b,)
+    at: Series  # (b,) of the covariate, rising
+    middle: Series  # (b,) mean
+    low: Series  # (b,) four fifths of the places lie between low and high
+    high: Series  # (b,)
 
 
 @dataclass(frozen=True)
 class SuspectCurves:
     """Chain that an explanation adds to the frame's fit."""
 
-    effects: tuple[str, ...]
+    moved: Array  # (k, 2) [mm] of the marks on the sheet
     chains: Array  # (k, 2) [mm] at the marks, left and right
     curves: Mapping[str, tuple[Curve, Curve]]  # by covariate, left and right
 
@@ -56,7 +55,7 @@ def suspect_curves(
     by_place = covariates(model, sheet)
     drawn = added_chains(frame, explanation, sheet)
     return SuspectCurves(
-        effects=explanation.effects,
+        moved=_moved(frame, explanation, rows)[rows.mark_rows],
         chains=added_chains(frame, explanation, rows)[rows.mark_rows],
         curves={
             covariate.name: _curves(covariate, drawn)
@@ -71,8 +70,13 @@ def added_chains(frame: Explanation, explanation: Explanation, rows: Observation
     chain.
     """
     model = model_by(frame)
-    moved = seen_by(explanation, rows).read.where - seen_by(frame, rows).read.where
+    moved = _moved(frame, explanation, rows)
     return chain_errors(model, hung_places(model, rows), moved, rows.sled_weights)
+
+
+def _moved(frame: Explanation, explanation: Explanation, rows: Observations) -> Array:
+    """Return the same on the sheet (r, 2) [mm]."""
+    return np.asarray(seen_by(explanation, rows).read.where - seen_by(frame, rows).read.where)
 
 
 def model_by(explanation: Explanation) -> MachineSettings:
@@ -82,12 +86,10 @@ def model_by(explanation: Explanation) -> MachineSettings:
     return settings_of(values, like=problem.settings)
 
 
-def seen_by(
-    explanation: Explanation, rows: Observations, *, unknowns: Array | None = None
-) -> Sighting:
-    """Return what an explanation says is measured on each visit; with other unknowns, if given."""
+def seen_by(explanation: Explanation, rows: Observations) -> Sighting:
+    """Return what an explanation says is measured on each visit."""
     problem = explanation.board.problem
-    values, outside = problem.values(explanation.unknowns if unknowns is None else unknowns)
+    values, outside = problem.values(explanation.unknowns)
     return sighted(
         values,
         outside,
@@ -98,36 +100,24 @@ def seen_by(
     )
 
 
-def visits_all_over(
-    model: MachineSettings,
-    rows: Observations,
-    *,
-    counts: tuple[int, int] = (COLUMNS, ROWS),
-    share: float = 1.0,
-) -> Observations:
-    """Visits all over this share of the sheet, `counts` of them across and up. Each is made in the
-    way of the nearest mark: its sled, its approach, its round. Places that no chain reaches are
-    left out."""
-    width, height = share * model.sheet_width, share * model.sheet_height
-    across = np.linspace(-width / 2, width / 2, counts[0])
-    up = np.linspace(-height / 2, height / 2, counts[1])
+def visits_all_over(model: MachineSettings, rows: Observations) -> Observations:
+    """Visits all over the sheet. Each is made in the way of the nearest mark: its sled, its
+    approach, its round. Places that no chain reaches are left out."""
+    across = np.linspace(-model.sheet_width / 2, model.sheet_width / 2, COLUMNS)
+    up = np.linspace(-model.sheet_height / 2, model.sheet_height / 2, ROWS)
     places = np.stack(np.meshgrid(across, up), axis=-1).reshape(-1, 2)
     like = _nearest(hung_places(model, rows), places)
     chains, outcome = chains_to(model, places, rows.sled_weights[like])
     good = outcome == FOUND
     like, places, chains = like[good], places[good], chains[good]
     count = len(places)
-    return replace(
-        rows,
+    return Observations(
         chains=chains,
         sled_weights=rows.sled_weights[like],
         mark_rows=np.arange(count),
         measured=places,
         targets=places,
         names=("",) * count,
-        distance_rows=np.zeros((0, 2), dtype=int),
-        distances=np.zeros(0),
-        distance_rounds=np.zeros(0, dtype=int),
         approaches=rows.approaches[like],
         rounds=rows.rounds[like],
         zero_groups=rows.zero_groups[like],

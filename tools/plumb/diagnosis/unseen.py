@@ -2,8 +2,6 @@
 report.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 from plumb.diagnosis.answer import Diagnosis

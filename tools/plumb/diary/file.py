@@ -4,8 +4,6 @@ Entries are only added. Each line begins with a digest of its rest, so a line th
 middle is noticed, and the next entry begins on a line by itself. Writers wait for each other.
 """
 
-from __future__ import annotations
-
 import fcntl
 import json
 import os

@@ -1,14 +1,13 @@
 """Course of a diary over time: errors of the fits, and each number with its interval."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from dataclasses import dataclass
 from datetime import datetime
 from typing import Annotated
 
 from plumb.diary.file import FIT, Diary, Entry
-from plumb.text.answers import Moment, Number, key
+from plumb.model.plain import PlainChange, plain_change, plainly
+from plumb.text.answers import Moment, Number, in_json, key
 
 
 @dataclass(frozen=True)
@@ -23,6 +22,11 @@ class DiaryFit:
     left_out: Annotated[Number, key("left_out_mm")]  # RMS of marks that took no part
     effects: tuple[str, ...]
 
+    @in_json
+    def said(self) -> str:
+        """The effects in words."""
+        return plainly(self.effects)
+
 
 @dataclass(frozen=True)
 class Point:
@@ -32,6 +36,7 @@ class Point:
     value: float
     low: float
     high: float
+    said: str  # the number as text
 
 
 @dataclass(frozen=True)
@@ -39,10 +44,11 @@ class Course:
     """The history of a number, fit by fit."""
 
     name: str
-    unit: str
+    noun: str
+    unit: str  # of the text
     points: tuple[Point, ...]
 
-    @property
+    @in_json
     def has_moved(self) -> bool:
         """Whether the newest interval and the interval before have no value in common."""
         if len(self.points) < 2:
@@ -51,18 +57,12 @@ class Course:
         return now.low > before.high or now.high < before.low
 
 
-@dataclass(frozen=True)
-class History:
-    """All fits of a diary, the oldest first, and how their numbers went."""
-
-    fits: tuple[DiaryFit, ...]
-    courses: tuple[Course, ...]  # in the order in which the numbers came up
-
-
-def history_of(diary: Diary) -> History:
-    """Return what the fits of a diary show over time."""
+def history_of(diary: Diary) -> tuple[tuple[DiaryFit, ...], tuple[Course, ...]]:
+    """Return all fits of a diary, the oldest first, and how their numbers went, in the order in
+    which they came up.
+    """
     fits = diary.of_kind(FIT)
-    return History(tuple(map(_fit, fits)), tuple(_courses(fits)))
+    return tuple(map(_fit, fits)), tuple(_courses(fits))
 
 
 def _fit(entry: Entry) -> DiaryFit:
@@ -80,14 +80,16 @@ def _fit(entry: Entry) -> DiaryFit:
 
 def _courses(fits: Iterable[Entry]) -> Iterable[Course]:
     points: dict[str, list[Point]] = {}
-    units: dict[str, str] = {}
+    words: dict[str, PlainChange] = {}
     for entry in fits:
         for each in entry.content["numbers"]:
-            point = Point(entry.at, *(_number(each[end]) for end in ("value", "low", "high")))
-            points.setdefault(each["name"], []).append(point)
-            units[each["name"]] = each["unit"]
+            name = each["name"]
+            value, low, high = (_number(each[end]) for end in ("value", "low", "high"))
+            words[name] = plain_change(name, value, value, low, high)
+            point = Point(entry.at, value, low, high, words[name].after)
+            points.setdefault(name, []).append(point)
     for name, course in points.items():
-        yield Course(name, units[name], tuple(course))
+        yield Course(name, words[name].noun, words[name].unit, tuple(course))
 
 
 def _number(value: float | None) -> float:

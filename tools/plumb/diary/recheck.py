@@ -4,11 +4,10 @@ The diary knows how well the numbers were known together when they were fitted. 
 marks may lie from where the settings put them, and which errors are too large for that.
 """
 
-from __future__ import annotations
-
 import tomllib
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from typing import Annotated
 
 import numpy as np
 import scipy
@@ -21,7 +20,7 @@ from plumb.model.plain import ranked
 from plumb.model.predict import FOUND, NAMES, Array, places_with_slopes, values_of
 from plumb.settings.machine import MachineSettings
 from plumb.settings.toml import machine_in
-from plumb.text.answers import Internal
+from plumb.text.answers import Internal, in_json, key
 from plumb.text.errors import InputError
 
 STEP = 0.1  # [mm] of chain
@@ -47,18 +46,19 @@ class LikelyChange:
 class Recheck:
     """Marks against what the fit promised."""
 
-    fit: Entry
-    touches: tuple[HomeTouch, ...]
-    errors: Array  # (n, 2) [mm] hole - place by the settings
-    expected: Array  # (n,) [mm] length that an error of an unchanged machine rarely exceeds
+    fit: Internal[Entry]
+    touches: Internal[tuple[HomeTouch, ...]]
+    errors: Internal[Array]  # (n, 2) [mm] hole - place by the settings
+    expected: Internal[
+        Array
+    ]  # (n,) [mm] length that an error of an unchanged machine rarely exceeds
     chi_square: float
     limit: float  # of chi-square
-    turn: (
-        float  # [rad] of the sheet, counter-clockwise: as it was fitted, or 0 if it hangs straight
-    )
+    # [rad] of the sheet, counter-clockwise: as it was fitted, or 0 if it hangs straight
+    turn: Annotated[float, key("sheet_turned_rad")]
     changes: tuple[LikelyChange, ...]  # the best first
 
-    @property
+    @in_json
     def holds(self) -> bool:
         """Whether the marks lie within the interval of the fit."""
         return self.chi_square <= self.limit

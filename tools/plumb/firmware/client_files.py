@@ -5,8 +5,6 @@ A client sends the numbers that it keeps each time it connects, and the firmware
 corrections. So whoever writes lines for the machine writes the client's numbers with them.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path

@@ -1,7 +1,5 @@
 """The firmware's settings by $-number: what there are, and what they mean to the kinematics."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass
 from hashlib import sha256
@@ -234,6 +232,12 @@ def numbers_in_force(settings: MachineSettings) -> dict[int, float]:
         40: published.left_tolerance,
         41: published.right_tolerance,
     }
+
+
+def called(number: int) -> tuple[str, str]:
+    """Return the name and the unit of a $-number; empty where no setting has it."""
+    rows = {row.number: row for row in every_setting()}
+    return (rows[number].name, rows[number].unit) if number in rows else ("", "")
 
 
 def digest_of_numbers(held: Mapping[int, float]) -> str:

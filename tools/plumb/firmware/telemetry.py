@@ -3,8 +3,6 @@
 docs/telemetry.md describes the fields.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass

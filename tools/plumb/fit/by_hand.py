@@ -4,8 +4,6 @@ An effect brings its readings along; those of the frame are here. The steps and 
 those of plumb next.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping
 from dataclasses import replace
 
@@ -20,8 +18,15 @@ WEIGHED = 0.2  # [kg] to which a sled is weighed
 
 
 def readings(settings: MachineSettings, sled_weight: float) -> Mapping[str, RuleReading]:
-    """Return the readings by the names of effects' numbers, for this sheet and this weight [N]."""
-    read: dict[str, RuleReading] = {}
+    """Return the readings by the names of numbers, for this sheet and this weight [N]."""
+    edge = settings.sheet_height / 2
+    height = "how far the motors are above the sheet's top edge, the mean of both"
+    read = {
+        "motor_gap": RuleReading("the gap between the motors", 1.0),
+        "motor_height": RuleReading(height, 1.0, zero=-edge),
+        "rotation_radius": RuleReading("from the bit to the first link pin of a chain", 0.5),
+        WEIGHT: RuleReading("the weight of the sled", WEIGHED, GRAVITY, "kg"),
+    }
     for words in library():
         for parameter in words["parameters"]:
             if parameter["reading"]:
@@ -87,16 +92,4 @@ def number_read(
 
 
 def _reading_of(name: str, settings: MachineSettings) -> RuleReading | None:
-    return {**_of_frame(settings), **readings(settings, settings.sled_weight)}.get(name)
-
-
-def _of_frame(settings: MachineSettings) -> dict[str, RuleReading]:
-    edge = settings.sheet_height / 2
-    return {
-        "motor_gap": RuleReading("the gap between the motors", 1.0),
-        "motor_height": RuleReading(
-            "how far the motors are above the sheet's top edge, the mean of both", 1.0, zero=-edge
-        ),
-        "rotation_radius": RuleReading("from the bit to the first link pin of a chain", 0.5),
-        WEIGHT: RuleReading("the weight of the sled", WEIGHED, GRAVITY, "kg"),
-    }
+    return readings(settings, settings.sled_weight).get(name)

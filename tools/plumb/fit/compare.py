@@ -7,7 +7,6 @@ from dataclasses import dataclass
 from typing import Annotated
 
 import numpy as np
-from pydantic import computed_field
 
 from plumb.fit.inputs import Inputs, known_outside
 from plumb.fit.observations import Observations, chains_to, rms
@@ -16,7 +15,7 @@ from plumb.marks.read import Measurements
 from plumb.model.predict import FOUND, FOUND_WORDS, values_of
 from plumb.settings.machine import MachineSettings
 from plumb.settings.toml import FitRecord
-from plumb.text.answers import Internal, key
+from plumb.text.answers import Internal, in_json, key
 from plumb.text.errors import InputError, to_do
 
 Point = tuple[float, float]
@@ -80,8 +79,7 @@ class Comparison:
     warnings: tuple[str, ...] = ()
     rounds: tuple[ComparedRound, ...] = ()  # if there are several files
 
-    @computed_field
-    @property
+    @in_json
     def promised_rms_mm(self) -> float | None:
         """Error of these marks by that fit [mm]."""
         return self.promised.rms if self.promised else None
@@ -123,7 +121,7 @@ def _promised(
 ) -> FitRecord | None:
     """Return the record of the fit, if all its boards are here, cut as it took them."""
     record = settings.fitted
-    whole = record and record.is_of([file_round.digest for file_round in measurements.rounds])
+    whole = record and record.is_of(each.digest for each in measurements.rounds)
     return record if whole and outside else None
 
 

@@ -3,8 +3,6 @@
 Each covariate has a number for each visit and chain, by a model of the machine.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
@@ -27,7 +25,6 @@ class Covariate:
     name: str
     unit: str
     values: Array  # (n, 2) of left and right chain; nan where it is not known
-    of_chain: bool  # whether it is another for each chain
 
 
 def covariates(model: MachineSettings, rows: Observations) -> tuple[Covariate, ...]:
@@ -50,15 +47,15 @@ def covariates(model: MachineSettings, rows: Observations) -> tuple[Covariate, .
     past_noon = angle if model.feed == "top" else np.pi - angle
     order = np.arange(1.0, len(places) + 1)
     return (
-        Covariate("tension", "N", strands.tension, of_chain=True),
-        Covariate("length", "mm", strands.span, of_chain=True),
-        Covariate("angle", "rad", angle, of_chain=True),
-        Covariate("wrap", "mm", model.sprocket_radius * past_noon, of_chain=True),
-        Covariate("phase", "rad", turned, of_chain=True),
-        Covariate("x", "mm", _both(places[:, 0]), of_chain=False),
-        Covariate("y", "mm", _both(places[:, 1]), of_chain=False),
-        Covariate("order", "", _both(order), of_chain=False),
-        Covariate("approach", "rad", _both(_headings(rows.approaches)), of_chain=False),
+        Covariate("tension", "N", strands.tension),
+        Covariate("length", "mm", strands.span),
+        Covariate("angle", "rad", angle),
+        Covariate("wrap", "mm", model.sprocket_radius * past_noon),
+        Covariate("phase", "rad", turned),
+        Covariate("x", "mm", _both(places[:, 0])),
+        Covariate("y", "mm", _both(places[:, 1])),
+        Covariate("order", "", _both(order)),
+        Covariate("approach", "rad", _both(_headings(rows.approaches))),
     )
 
 

@@ -4,8 +4,6 @@ Each number of the frame is wrong by its stated error, and each effect that the 
 may be there in its typical size, all independent of each other.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
@@ -13,13 +11,13 @@ from math import inf
 from typing import Any
 
 import numpy as np
-from pydantic import computed_field
 
 from plumb.fit.compare import best_pose
 from plumb.fit.observations import rms
 from plumb.fit.problem import PRIORS, Checked
 from plumb.fit.sighting import SHEET_ROTATION
 from plumb.model.catalogue import parameter_words
+from plumb.model.plain import plain_range
 from plumb.model.predict import (
     FOUND,
     NAMES,
@@ -30,7 +28,7 @@ from plumb.model.predict import (
     values_of,
 )
 from plumb.settings.machine import FRAME_FIELDS, MachineSettings
-from plumb.text.answers import Internal
+from plumb.text.answers import Internal, in_json
 from plumb.text.errors import InputError, to_do
 from plumb.text.values import worded
 
@@ -47,15 +45,13 @@ class Expected:
     shape: Internal[float]  # by the same, the sheet laid at its best
     effects: Internal[float]  # by effects that the settings leave out, the sheet laid at its best
 
-    @computed_field(alias="whole_mm")
-    @property
-    def whole(self) -> float:
+    @in_json
+    def whole_mm(self) -> float:
         """All of it, as a tape from the sheet's edges reads it."""
         return float(np.hypot(self.frame, self.effects))
 
-    @computed_field(alias="among_marks_mm")
-    @property
-    def all_shape(self) -> float:
+    @in_json
+    def among_marks_mm(self) -> float:
         """All of it, the sheet laid at its best."""
         return float(np.hypot(self.shape, self.effects))
 
@@ -74,8 +70,8 @@ def expected_sentence(expected: Expected | None) -> str:
         return ""
     return (
         "Before anything is corrected, marks may well be off by "
-        f"{worded(expected.all_shape, 1)} among each other, and all together by "
-        f"{worded(expected.whole, 0)} where the sheet hangs otherwise. That is normal."
+        f"{worded(expected.among_marks_mm, 1)} among each other, and all together by "
+        f"{worded(expected.whole_mm, 0)} where the sheet hangs otherwise. That is normal."
     )
 
 
@@ -119,7 +115,7 @@ def expected_anywhere(settings: MachineSettings, priors: Mapping[str, float]) ->
         expected = expected_error(settings, priors)
     except ValueError:
         return None
-    return expected if np.isfinite(expected.whole) else None
+    return expected if np.isfinite(expected.whole_mm) else None
 
 
 def places_over(sheet: tuple[float, float]) -> Array:
@@ -185,6 +181,12 @@ def plausible_range(name: str) -> PlausibleRange:
     if name not in words:
         return PlausibleRange()
     return PlausibleRange(words[name]["low"], words[name]["high"])
+
+
+def range_said(name: str) -> str:
+    """Return the same in words; empty: no limit is known."""
+    low, high = plausible_range(name).limits
+    return "" if low is None or high is None else plain_range(name, low, high)
 
 
 # Numbers that no real machine has: a slip of the pen, or another unit, and no measurement.

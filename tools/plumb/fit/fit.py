@@ -1,7 +1,5 @@
 """Fitting the model to what was measured: estimates with intervals, and honest errors."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """Settings and readings of a board, as they go into a fit, a diagnosis and the proposals."""
 
-from __future__ import annotations
-
 import os
 from collections.abc import Mapping, Sequence
 from dataclasses import KW_ONLY, dataclass, field, replace
@@ -132,7 +130,8 @@ def with_settings_in_force(
                 page="put the settings that were in force into the folder, and name them there",
             ),
         )
-    if record and record.knows_other_settings(settings) and not _reports_chains(part):
+    needs_settings = any(mark.chains is None for mark in part.marks)
+    if record and needs_settings and any(each.cut_with != settings for each in record.boards):
         name = settings.file.name if settings.file else "these settings"
         raise InputError(
             part.source,
@@ -178,13 +177,6 @@ def _of_record(record: FitRecord) -> dict[str, float]:
         for name, size in parameters.items()
     }
     return {SHEET_ROTATION: record.sheet_rotation, **sizes}
-
-
-def _reports_chains(part: Measurements) -> bool:
-    """Return whether the machine reported the chains of every mark, so that no settings are
-    needed.
-    """
-    return all(mark.chains is not None for mark in part.marks)
 
 
 def _others(record: FitRecord) -> str:

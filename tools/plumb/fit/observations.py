@@ -1,8 +1,7 @@
 """Observations for a fit: chains that were paid out, and where the sled was measured."""
 
-from __future__ import annotations
-
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from functools import partial
 
 import numpy as np
 
@@ -22,7 +21,12 @@ from plumb.text.errors import InputError
 Array = np.ndarray
 
 
-@dataclass(frozen=True)
+# Where nothing was read.
+NO_PLACES, NO_LENGTHS = partial(np.zeros, (0, 2)), partial(np.zeros, 0)
+NO_ROWS, NO_PAIRS = partial(np.zeros, 0, dtype=int), partial(np.zeros, (0, 2), dtype=int)
+
+
+@dataclass(frozen=True, kw_only=True)
 class Observations:
     """Rows of chains paid out, and what was measured of the places they led to.
 
@@ -32,13 +36,14 @@ class Observations:
 
     chains: Array  # (r, 2) [mm] paid out, by what the machine believed
     sled_weights: Array  # (r,) [N]
-    mark_rows: Array  # (k,) the row of each measured mark
-    measured: Array  # (k, 2) [mm]
-    targets: Array  # (k, 2) [mm]
-    names: tuple[str, ...]  # (k,) of the marks
-    distance_rows: Array  # (m, 2) the rows at both ends
-    distances: Array  # (m,) [mm]
-    distance_rounds: Array  # (m,) int: the file of each; its rows may be visits of an earlier file
+    mark_rows: Array = field(default_factory=NO_ROWS)  # (k,) the row of each measured mark
+    measured: Array = field(default_factory=NO_PLACES)  # (k, 2) [mm]
+    targets: Array = field(default_factory=NO_PLACES)  # (k, 2) [mm]
+    names: tuple[str, ...] = ()  # (k,) of the marks
+    distance_rows: Array = field(default_factory=NO_PAIRS)  # (m, 2) the rows at both ends
+    distances: Array = field(default_factory=NO_LENGTHS)  # (m,) [mm]
+    # (m,) int: the file of each; its rows may be visits of an earlier file
+    distance_rounds: Array = field(default_factory=NO_ROWS)
     approaches: Array  # (r, 2) unit vectors of the last move of each visit; zero if not known
     rounds: Array  # (r,) int: the file of each visit
     zero_groups: Array  # (r,) int: visits with equal numbers have the chains' zeros in common

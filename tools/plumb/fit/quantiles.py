@@ -1,7 +1,5 @@
 """Residuals against noise: each as large as it is, and as large as noise alone would make it."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import lru_cache
 

@@ -4,8 +4,6 @@ Each such round adds unknowns to those of the frame: how far the zeros of both c
 how the sheet lies against the first.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass

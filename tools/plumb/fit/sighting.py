@@ -1,7 +1,5 @@
 """From where the sled hangs to what is measured: friction, the turned sheet, edges, the tape."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 

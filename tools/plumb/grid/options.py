@@ -3,8 +3,6 @@
 Frame: origin in the middle of the sheet, x right, y up. Lengths are mm, forces N, feeds mm/min.
 """
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 from plumb.text.errors import to_do

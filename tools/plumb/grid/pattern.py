@@ -1,7 +1,5 @@
 """The distances that are taped between the marks of a grid."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Sequence
 from typing import NamedTuple

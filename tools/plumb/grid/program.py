@@ -1,7 +1,5 @@
 """The G-code of a grid."""
 
-from __future__ import annotations
-
 from plumb.grid.options import APPROACH, PLUNGE_FEED, UNITS, Grid, PlainMachine
 from plumb.grid.pattern import (
     check,

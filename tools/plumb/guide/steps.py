@@ -1,7 +1,5 @@
 """The steps of the guide. Each takes a Visit, and says whether it is done."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Collection
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -233,7 +231,8 @@ def first_mark(visit: GuideVisit) -> bool:
     alarm = visit.move("B15")
     place = visit.sender.status.place if visit.sender.status else (np.inf, np.inf, 0.0)
     if alarm or max(abs(place[0]), abs(place[1])) > NEAR:
-        talk.say(f"The sled is not in the middle: {alarm or _reported(place)}")
+        reported = f"it reports {bare(place[0])}, {bare(place[1])} {unit()}"
+        talk.say(f"The sled is not in the middle: {alarm or reported}")
         return False
     moves = (
         "Switch the router on, its bit just above the sheet. The Z motor lowers the bit by "
@@ -247,10 +246,6 @@ def first_mark(visit: GuideVisit) -> bool:
         talk.say(f"The machine stopped: {alarm}")
         return False
     return _judge_mark(visit, settings)
-
-
-def _reported(place: tuple[float, float, float]) -> str:
-    return f"it reports {bare(place[0])}, {bare(place[1])} {unit()}"
 
 
 def _judge_mark(visit: GuideVisit, settings: MachineSettings) -> bool:

@@ -1,7 +1,5 @@
 """The guide's dialogue with its owner, the evidence of a short jog, and the progress so far."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Callable
 from dataclasses import dataclass, field

@@ -1,3 +1,1 @@
 """Jobs: programs of G-code, as the firmware would do them, before and after a halt."""
-
-from __future__ import annotations

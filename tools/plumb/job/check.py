@@ -71,7 +71,6 @@ def check_job(
     lines: Sequence[str],
     *,
     inputs: Inputs | None = None,
-    limits: Mapping[str, float] | None = None,
     numbers: Mapping[int, float] | None = None,
     tools: Tools | None = None,
     start: tuple[float, float, float] = (0.0, 0.0, 0.0),
@@ -93,8 +92,9 @@ def check_job(
     findings = [*findings_of(done), *spoiled(over_sheet, taken, tools, lines)]
     findings += [*ends_too_high(settings, done), *meant_otherwise(done, lines)]
     if inputs:
-        parts = with_errors(Believed.of(inputs), settings, parts)
-    hanging = hanging_along(settings, over_sheet, limits or {})
+        believed = Believed.of(inputs)
+        parts = tuple(with_errors(believed, settings, part) for part in parts)
+    hanging = hanging_along(settings, over_sheet)
     far(1.0)
     return CheckedJob(
         done=done,
@@ -176,14 +176,7 @@ class Believed:
         return errors[hangs], by_name[hangs]
 
 
-def with_errors(
-    believed: Believed, settings: MachineSettings, parts: Sequence[Part]
-) -> tuple[Part, ...]:
-    """Return the parts with the error to expect of each, cut with these settings."""
-    return tuple(_with_errors(believed, settings, part) for part in parts)
-
-
-def _with_errors(believed: Believed, settings: MachineSettings, part: Part) -> Part:
+def with_errors(believed: Believed, settings: MachineSettings, part: Part) -> Part:
     places, (width, height) = part.places, part.size
     errors, slopes = believed.seen(settings, places)
     if len(errors) < len(places) or max(width, height) < NARROW:

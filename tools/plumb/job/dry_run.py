@@ -77,14 +77,11 @@ class Run:
         left, right = chains[0]
         lines += [SIMULATED, f"B06 L{left:.4f} R{right:.4f}", f"G10 Z{start[2]:.4f}"]
         self._machine.send(lines)
-        self._refuse_what_was_said(lines)
-        self._setup = len(lines)
-        self._begun = self._machine.seconds
-
-    def _refuse_what_was_said(self, lines: Sequence[str]) -> None:
         for number, text in self._machine.said():
             if text.startswith(("error:", "ALARM")):
                 raise InputError(f"the firmware refuses {lines[number]!r}: {text}")
+        self._setup = len(lines)
+        self._begun = self._machine.seconds
 
     def send(self, lines: Sequence[str], *, first: int = 1, progress: Share | None = None) -> None:
         """Send lines of a file; `first` is the number of the first."""
@@ -231,11 +228,8 @@ class Moves:
         move = np.repeat(np.arange(len(self)), counts)
         first = np.cumsum(counts) - counts
         share = (np.arange(len(move)) - first[move]) / (counts[move] - 1)
-        return Samples(move, self.places_at(move, share), self._z_at(move, share))
-
-    def _z_at(self, move: Rows, share: Array) -> Array:
         low, high = self["z_from"][move], self["z_to"][move]
-        return np.asarray(low + share * (high - low))
+        return Samples(move, self.places_at(move, share), low + share * (high - low))
 
     def places_at(self, move: Rows, share: Array) -> Array:
         """Return places (k, 2) [mm] at shares of some moves."""

@@ -1,9 +1,7 @@
 """Findings of a dry run: answers to lines, times, and the pull of the chains."""
 
-from __future__ import annotations
-
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Annotated
 
@@ -16,7 +14,7 @@ from plumb.model.plain import greatest, least
 from plumb.model.predict import CANNOT_HANG, REACH_WORDS, USABLE, Array, reach
 from plumb.model.reach import with_soft_chains
 from plumb.settings.machine import MachineSettings
-from plumb.text.answers import Internal, key
+from plumb.text.answers import Internal, in_json, key
 
 HALTS, LEAVES, WAITS, IGNORED = "halts", "leaves the sheet", "waits", "ignored"
 GOUGES, STILL, DEEP = "gouges", "spindle off", "too deep"
@@ -32,14 +30,12 @@ class Finding:
     says: str  # in the machine's words, or ours
     lines: Internal[tuple[int, ...]]
 
-    @computed_field
-    @property
+    @in_json
     def line(self) -> int:
         """The first of its lines."""
         return self.lines[0]
 
-    @computed_field
-    @property
+    @in_json
     def count(self) -> int:
         """The number of lines that have it."""
         return len(self.lines)
@@ -243,16 +239,14 @@ class Hanging:
     assumed: tuple[str, ...]
 
 
-def hanging_along(
-    settings: MachineSettings, moves: Moves, limits: Mapping[str, float]
-) -> Hanging | None:
+def hanging_along(settings: MachineSettings, moves: Moves) -> Hanging | None:
     """Return what hangs along the cuts; None where nothing is cut."""
     if not moves.cut.any():
         return None
     machine, assumed = with_soft_chains(settings.as_plumb_model())
     seen = [np.unique(_cells(block.sampled(STEP).places)) for _, block in moves.blocks()]
     cells = np.unique(np.concatenate(seen))
-    there = reach(machine, CELL * np.column_stack([cells.real, cells.imag]), **limits)
+    there = reach(machine, CELL * np.column_stack([cells.real, cells.imag]))
     counts = np.zeros(len(cells), dtype=int)  # of the cut places in each
     lines = np.zeros(len(cells), dtype=int)  # of the first cut there
     order: list[Rows] = []  # the cells, as cuts first come there

@@ -7,8 +7,6 @@ written as this machine reads it, line for line. Then the dry run must cut the s
 itself on machines that have a home, wherever that home is.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager

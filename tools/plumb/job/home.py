@@ -5,8 +5,6 @@ Whatever these settings do not know was in the hole too, so the same chains are 
 is back in it, also after the settings have become better.
 """
 
-from __future__ import annotations
-
 import tomllib
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -16,12 +14,12 @@ from pathlib import Path
 from typing import Annotated
 
 import numpy as np
-from pydantic import BeforeValidator, computed_field
+from pydantic import BeforeValidator
 
 from plumb.grid.options import APPROACH, PLUNGE_FEED, Grid
 from plumb.model.predict import FOUND, Array, believed_lengths, places
 from plumb.settings.machine import MachineSettings
-from plumb.text.answers import key
+from plumb.text.answers import in_json, key
 from plumb.text.errors import InputError, Source
 from plumb.text.files import parsed, read_text, write_whole
 from plumb.text.tables import Table, part, read_table, toml_text
@@ -35,24 +33,19 @@ USUAL = Grid()  # heights and feeds, as a grid has them
 SURE = 3.03  # sigmas of a coordinate: beyond this length 1 % of the errors in a plane lie
 
 
-@dataclass(frozen=True)
-class HomeMark:
-    """A hole. mm, from the middle of the sheet, y up."""
+class HomeTable(Table):
+    """A table [mark.NAME] of the file."""
 
-    name: str
-    place: Point  # where the machine was when it made the hole
-    chains: Point  # left and right paid out there
+    place: Annotated[Point, BeforeValidator(pair)]  # where the machine was when it made the hole
+    chains: Annotated[Point, BeforeValidator(pair)]  # left and right paid out there
     date: str = ""
     settings: str = ""  # name of the settings' file then
 
 
-class HomeTable(Table):
-    """A table [mark.NAME] of the file."""
+class HomeMark(HomeTable):
+    """A hole. mm, from the middle of the sheet, y up."""
 
-    place: Annotated[Point, BeforeValidator(pair)]
-    chains: Annotated[Point, BeforeValidator(pair)]
-    date: str = ""
-    settings: str = ""
+    name: str
 
 
 class HomeFile(Table):
@@ -71,8 +64,7 @@ class HomeFit:
     # [mm] within which two touches by hand agree, 99 of 100 times
     limit: Annotated[float, key("limit_mm")]
 
-    @computed_field
-    @property
+    @in_json
     def fits(self) -> bool:
         """Whether touching two holes by hand explains the error."""
         return float(np.hypot(*self.error)) <= self.limit
@@ -91,7 +83,10 @@ def new_home_mark(
         left, right = believed_lengths(settings, np.array([place], dtype=float))[0].tolist()
     except ValueError as error:
         raise InputError(f"home mark {name}: {error}") from None
-    return HomeMark(name, place, (left, right), date, settings.file.name if settings.file else "")
+    file = settings.file.name if settings.file else ""
+    return HomeMark.model_construct(
+        name=name, place=place, chains=(left, right), date=date, settings=file
+    )
 
 
 def hole_program(mark: HomeMark) -> list[str]:
@@ -134,7 +129,7 @@ def read_home_marks(path: Source) -> dict[str, HomeMark]:
         return {}
     head = parsed(path, read_text(path), tomllib.loads, "TOML")
     marks = read_table(HomeFile, head, path).mark
-    return {name: HomeMark(name, **dict(each)) for name, each in marks.items()}
+    return {name: HomeMark.model_construct(name=name, **dict(each)) for name, each in marks.items()}
 
 
 def write_home_marks(path: Source, marks: Mapping[str, HomeMark]) -> None:

@@ -6,8 +6,6 @@ it happens: a sheet that could lie anywhere explains any two marks a little, a s
 its pattern, but that well.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
@@ -152,7 +150,8 @@ def _weighed(
     for links, share in _slip_shares():
         weigh(SLIP, links, OFTEN[SLIP] * share * (1 - AND_SHEET), noise)
     for shift, turn, often in poses:
-        moved = noise + pose_covariance(holes, shift, turn)
+        slopes = pose_slopes(holes) * (shift, shift, turn)
+        moved = noise + slopes @ slopes.T
         weigh(SHEET, NO_LINKS, OFTEN[SHEET] * often, moved)
         for links, share in _slip_shares():
             weigh(SLIP, links, OFTEN[SLIP] * share * AND_SHEET * often, moved)
@@ -182,13 +181,6 @@ def pose_slopes(holes: Array) -> Array:
     slopes[:, 0, 0] = slopes[:, 1, 1] = 1
     slopes[:, 0, 2], slopes[:, 1, 2] = -holes[:, 1], holes[:, 0]
     return slopes.reshape(-1, 3)
-
-
-def pose_covariance(holes: Array, shift: float, turn: float) -> Array:
-    """Return the covariance of coordinates (2n, 2n) [mm^2] on a sheet that lies off by chance."""
-    slopes = pose_slopes(holes) * (shift, shift, turn)
-    covariance: Array = slopes @ slopes.T
-    return covariance
 
 
 def _log_density(error: Array, covariance: Array) -> float:

@@ -1,7 +1,5 @@
 """The time left of a program that is being sent, by its dry run and its progress so far."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 

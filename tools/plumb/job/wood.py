@@ -1,7 +1,5 @@
 """Wood that a job takes away: a map of heights, and the moves that spoil it or the bit."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass

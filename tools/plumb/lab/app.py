@@ -1,7 +1,5 @@
 """The lab's web application: its routes, what a refusal looks like, and the guard before them."""
 
-from __future__ import annotations
-
 import json
 import sys
 from collections.abc import AsyncIterator
@@ -19,7 +17,7 @@ from starlette.middleware.gzip import GZipMiddleware
 from starlette.types import ASGIApp, Receive, Scope, Send
 
 from plumb.lab import routes
-from plumb.lab.background import LiveBoards
+from plumb.lab.background import Background, LiveBoards
 from plumb.lab.guard import Address, Guard
 from plumb.lab.guide_desk import GuideDesk
 from plumb.lab.machine_line import MachineLine
@@ -51,7 +49,7 @@ def lab_app(folder: Path, *, address: Address, token: str, paired: Phones | None
     )
     app.state.line, app.state.phones = line, paired
     app.state.project = Project(folder)
-    app.state.live_boards = LiveBoards()
+    app.state.live_boards, app.state.background = LiveBoards(), Background()
     app.state.guide_desk = GuideDesk()
     for router in ROUTERS:
         app.include_router(router, prefix="/api")

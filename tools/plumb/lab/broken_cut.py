@@ -1,11 +1,11 @@
 """The progress of a cut, kept in the folder, so that it can go on after a Stop or a restart."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
+from typing import Annotated
 
+from fastapi import Body
 from pydantic import BaseModel, ConfigDict, NonNegativeInt, TypeAdapter, ValidationError
 
 from plumb.lab.machine_line import MachineLine
@@ -38,10 +38,8 @@ class HowFar(BaseModel):
     goes_on: bool = False  # the next mark can be cut on that sheet
 
 
-class GoOnRequest(BaseModel):
-    """The number of marks on the sheet, as counted by the owner."""
-
-    cut: int
+# The number of marks on the sheet, as counted by the owner.
+OnSheet = Annotated[int, Body(embed=True)]
 
 
 def how_far(project: Project, line: MachineLine, program: str, text: str) -> HowFar:
@@ -68,14 +66,7 @@ def begin(
 ) -> None:
     """Send a program from its first mark; `paused` hears of its pauses. The machine moves."""
     cut = BrokenCut(digest=digest_of_sent(text), is_virtual=line.virtual is not None)
-    noting = Noting(project, program, cut, plunges_in(text))
-    line.worker.send(
-        program,
-        text.splitlines(),
-        then=lambda sender: noting.all_cut(),
-        paused=paused,
-        came=noting,
-    )
+    _send(project, line, program, text, cut, paused)
 
 
 def go_on(
@@ -96,9 +87,21 @@ def go_on(
     if not cut.marks <= on_sheet <= cut.begun:
         raise InputError(f"say how many marks are on the sheet: {cut.marks} to {cut.begun}")
     seen = cut.model_copy(update={"marks": on_sheet, "begun": on_sheet})
+    _send(project, line, program, text, seen, paused)
+
+
+def _send(
+    project: Project,
+    line: MachineLine,
+    program: str,
+    text: str,
+    cut: BrokenCut,
+    paused: Callable[[int], None],
+) -> None:
+    """Send the marks that are not cut, and note how far it comes."""
     plunges = plunges_in(text)
-    lines, before = rest_of(text.splitlines(), plunges, on_sheet)
-    noting = Noting(project, program, seen, plunges)
+    lines, before = rest_of(text.splitlines(), plunges, cut.marks)
+    noting = Noting(project, program, cut, plunges)
     line.worker.send(
         program,
         lines,

@@ -6,8 +6,6 @@ is a part of the URL that `plumb lab` prints. A phone has no token: it names the
 it found this computer, and its cookie holds the key that it got for the PIN.
 """
 
-from __future__ import annotations
-
 import asyncio
 import hmac
 from collections.abc import Awaitable, Callable

@@ -4,8 +4,6 @@ A question stays until it is answered or left, whichever tab
 answers. While it waits the machine stands, and Stop ends the step.
 """
 
-from __future__ import annotations
-
 import time
 from collections.abc import Callable
 from concurrent.futures import Future

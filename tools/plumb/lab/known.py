@@ -1,23 +1,20 @@
 """Knowledge of the owner, as the fit takes it: errors stated, numbers measured."""
 
-from __future__ import annotations
-
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
-from pydantic import BaseModel, ConfigDict
+from pydantic import ConfigDict
 
 from plumb.diagnosis import Checked
 from plumb.fit.by_hand import WEIGHED, WEIGHT, readings
 from plumb.fit.expected import WIDE, is_absurd, plausible_range, refuse_absurd
 from plumb.fit.problem import priors_with
 from plumb.lab.project import Choices
-from plumb.model.effect_words import CURVES, Curve, RuleReading, Unit
-from plumb.plan.separation import FRAME_CHECKS, effect_checks
+from plumb.model.effect_words import RuleReading
+from plumb.plan.separation import FRAME_CHECKS, NumberCheck, effect_checks
 from plumb.settings.machine import GRAVITY, MachineSettings
-from plumb.text.answers import like
 from plumb.text.errors import InputError
-from plumb.text.values import shown_in, worded
+from plumb.text.values import worded
 
 
 @dataclass(frozen=True)
@@ -67,33 +64,23 @@ FIRST = ("chain_pitch",)  # effects that everybody measures
 ON_DRAWING = ("chain_pitch", "chain_zero")  # effects that mark the chain there
 
 
-class KnownNumber(BaseModel):
-    """A number that can be measured by hand: it is curve(what is read - zero) * scale."""
+@dataclass(frozen=True, kw_only=True)
+class KnownNumber(RuleReading):
+    """A number that can be measured by hand."""
 
-    model_config = ConfigDict(json_schema_serialization_defaults_required=True)
+    __pydantic_config__ = ConfigDict(json_schema_serialization_defaults_required=True)
 
     name: str
-    title: str
     steps: str
-    unit: Unit
     minutes: float
-    zero: float = 0.0
-    scale: float = 1.0
-    curve: Curve = "straight"
     believed: float | None  # what the settings say, as it would be read; None: they leave it out
-    usual: float  # how far a careful reading may be off
-    digits: int = 1
     marked: str  # the distance on the drawing; empty: none is
-    by: str = ""  # the number by whose square this is divided; empty: none is
-    is_first: bool = True  # it belongs to what everybody measures
+    by: str  # the number by whose square this is divided; empty: none is
+    is_first: bool  # it belongs to what everybody measures
     refused: str = ""  # why what is stated cannot have been measured; empty if it can
 
-    def read(self, value: float) -> float:
-        """Return what is read for a value of the number."""
-        return self.zero + CURVES[self.curve][1](value / self.scale)
-
     def said(self, value: float) -> str:
-        """Return the same with its unit, a length in the unit in which lengths are shown."""
+        """Return what is read for a value, a length in the unit in which lengths are shown."""
         read = self.read(value)
         if self.unit == "mm":
             return worded(read, self.digits)
@@ -102,10 +89,23 @@ class KnownNumber(BaseModel):
 
 def known_numbers(settings: MachineSettings, choices: Choices) -> list[KnownNumber]:
     """Return everything that can be measured by hand: first what everybody measures."""
-    numbers = [*_frame(settings), *_effects(settings, choices)]
+    stated = choices.known.get(WEIGHT)
+    by_hand = readings(settings, stated.value if stated else settings.sled_weight)
+    checks = number_checks()
+    numbers = [_number(name, checks[name], by_hand[name], settings) for name in checks]
     lines = _refused(numbers, settings, choices)
-    numbers = [each.model_copy(update={"refused": lines.get(each.name, "")}) for each in numbers]
+    numbers = [replace(each, refused=lines.get(each.name, "")) for each in numbers]
     return sorted(numbers, key=lambda number: not number.is_first)
+
+
+def number_checks() -> dict[str, NumberCheck]:
+    """Return how each number is measured, by its full name."""
+    of_effects = {
+        f"{effect}.{part}": check
+        for effect, check in effect_checks().items()
+        for part in check.sigmas
+    }
+    return {**FRAME_CHECKS, WEIGHT: WEIGHING, **of_effects}
 
 
 def refuse_absurd_known(settings: MachineSettings, choices: Choices) -> None:
@@ -122,12 +122,11 @@ def _refused(
 ) -> dict[str, str]:
     """Why stated numbers cannot be, by name. What rests on such a number is not judged."""
     absurd = {check.name: check for check in stated(choices).checked if is_absurd(check, settings)}
-    with shown_in(choices.units):
-        return {
-            number.name: _why(number, absurd[number.name].value)
-            for number in numbers
-            if number.name in absurd and number.by not in absurd
-        }
+    return {
+        number.name: _why(number, absurd[number.name].value)
+        for number in numbers
+        if number.name in absurd and number.by not in absurd
+    }
 
 
 def _why(number: KnownNumber, value: float) -> str:
@@ -135,7 +134,7 @@ def _why(number: KnownNumber, value: float) -> str:
     said = number.said(value)
     if "." not in number.name:
         assert number.believed is not None
-        believed = number.said((number.believed - number.zero) * number.scale)
+        believed = number.said(number.value(number.believed))
         return f"{said} is far from the {believed} of the settings. Check the number and its unit."
     met = plausible_range(number.name)
     low, high = sorted((met.low, met.high), key=number.read)
@@ -145,68 +144,29 @@ def _why(number: KnownNumber, value: float) -> str:
     )
 
 
-def _frame(settings: MachineSettings) -> list[KnownNumber]:
-    """Return numbers of the frame."""
-    edge = settings.sheet_height / 2
-    return [
-        _of_frame("motor_gap", settings.motor_gap, zero=0.0),
-        _of_frame("motor_height", settings.motor_height, zero=-edge),
-        _of_frame("rotation_radius", settings.rotation_radius, zero=0.0),
-        KnownNumber(
-            name=WEIGHT,
-            title="the weight of the sled",
-            steps="Weigh the sled with router and bricks, as it cuts, to 0.2 kg.",
-            unit="kg",
-            minutes=8.0,
-            scale=GRAVITY,
-            believed=settings.sled_weight / GRAVITY,
-            usual=WEIGHED,
-            marked=WEIGHT,
-        ),
-    ]
+WEIGHING = NumberCheck(
+    "the weight of the sled",
+    "Weigh the sled with router and bricks, as it cuts, to 0.2 kg.",
+    "kg",
+    8.0,
+    {WEIGHT: WEIGHED * GRAVITY},
+)
 
 
-def _of_frame(name: str, value: float, *, zero: float) -> KnownNumber:
-    check = FRAME_CHECKS[name]
-    return like(
-        KnownNumber,
-        check,
-        name=name,
-        unit="mm",
-        zero=zero,
-        believed=value + zero,
-        usual=check.sigmas[name],
-        marked=name,
-    )
-
-
-def _effects(settings: MachineSettings, choices: Choices) -> list[KnownNumber]:
-    """Return numbers of effects, as far as they can be measured directly and the page has words for
-    it.
-    """
-    stated = choices.known.get(WEIGHT)
-    by_hand = readings(settings, stated.value if stated else settings.sled_weight)
-    return [
-        _of_effect(f"{effect}.{part}", by_hand[f"{effect}.{part}"], settings)
-        for effect, check in effect_checks().items()
-        for part in check.sigmas
-        if f"{effect}.{part}" in by_hand
-    ]
-
-
-def _of_effect(name: str, reading: RuleReading, settings: MachineSettings) -> KnownNumber:
-    effect, _, part = name.partition(".")
-    check = effect_checks()[effect]
-    value, is_first = settings.effect(effect, part), effect in FIRST
-    return like(
-        KnownNumber,
-        reading,
+def _number(
+    name: str, check: NumberCheck, reading: RuleReading, settings: MachineSettings
+) -> KnownNumber:
+    effect, _, part = name.rpartition(".")
+    value = settings.effect(effect, part) if effect else settings.frame[part]
+    is_first = not effect or effect in FIRST
+    title = reading.title if effect else check.title
+    return KnownNumber(
+        **{**vars(reading), "title": title},
         name=name,
         steps=check.steps,
         minutes=check.minutes / len(check.sigmas),
-        scale=reading.factor,
         believed=reading.read(value) if value or is_first else None,
-        marked="chain" if effect in ON_DRAWING else "",
+        marked=("chain" if effect in ON_DRAWING else "") if effect else name,
         by=WEIGHT if reading.unit == "g" else "",
         is_first=is_first,
     )

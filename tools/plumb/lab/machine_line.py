@@ -1,7 +1,5 @@
 """The machine that the lab is connected to: a board, or a virtual machine in this program."""
 
-from __future__ import annotations
-
 import os
 import re
 from collections.abc import Callable, Iterator, Mapping
@@ -110,7 +108,7 @@ class MachineLine:
 
             self._worker = LineWorker(opened, knows_place=knows_place)
 
-    def connect_virtual(self, owner: VirtualOwner, *, speed: float, name: str = "") -> None:
+    def connect_virtual(self, owner: VirtualOwner, *, speed: float) -> None:
         """Switch on a virtual machine and connect it. Its time runs `speed` times as fast at work.
 
         `owner.sender` is the line's from now on: use it inside of `do`.
@@ -127,7 +125,7 @@ class MachineLine:
         with self._lock:
             self._let_go()
             port = PacedPort(owner.machine, speed=speed)
-            self.name, self.virtual, self._port = name or "virtual machine", owner, port
+            self.name, self.virtual, self._port = "virtual machine", owner, port
             self._worker = LineWorker(opened, working=lambda works: setattr(port, "works", works))
 
     def set_speed(self, speed: float) -> None:

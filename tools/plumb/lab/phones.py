@@ -5,8 +5,6 @@ until the lab ends or somebody sends it away: it looks, it types readings, it ho
 does all the rest only if the computer lets it.
 """
 
-from __future__ import annotations
-
 import io
 import re
 import secrets
@@ -19,6 +17,7 @@ from typing import Literal
 
 import segno
 
+from plumb.text.answers import in_json
 from plumb.text.errors import InputError
 
 Sharing = Literal["no", "hands", "move"]
@@ -53,7 +52,7 @@ class Invitation:
         """The address with the PIN, which no server sees: it stands behind the #."""
         return f"{self.address}#/pair/{self.pin}"
 
-    @property
+    @in_json
     def picture(self) -> str:
         """The link as a QR code, as the source of an image; empty without a network."""
         return segno.make(self.link, error="m").svg_data_uri(light="white") if self.address else ""

@@ -1,7 +1,5 @@
 """The report: the lab's page as a single file, with the answers in it that it would ask for."""
 
-from __future__ import annotations
-
 import base64
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
@@ -22,7 +20,7 @@ from plumb.lab.project import Choices
 from plumb.lab.routes.bench import covariates_of, draw
 from plumb.lab.routes.correction import correction_of
 from plumb.lab.routes.diary import diary_answer
-from plumb.lab.routes.next import NextAnswer, measurement_of
+from plumb.lab.routes.next import NextAnswer, offers_of
 from plumb.lab.routes.project import ProjectAnswer, machine_of
 from plumb.lab.routes.verdict import Verdict, VerdictAnswer, verdict_of
 from plumb.plan import Next, propose
@@ -83,8 +81,10 @@ def _project(inputs: Inputs) -> ProjectAnswer:
 
 
 def _next(advice: Next, command: str) -> NextAnswer:
-    measurement = measurement_of(advice, lambda place: None) if advice.proposals else None
-    return NextAnswer(share=1, next=measurement, nothing=measurement is None, command=command)
+    offers = offers_of(advice, lambda place: None)
+    return NextAnswer(
+        share=1, offers=offers, ordinary=advice.blind, nothing=not offers, command=command
+    )
 
 
 def _of_bench(findings: Findings, verdict: Verdict) -> Iterator[tuple[str, object]]:

@@ -1,7 +1,5 @@
 """Residuals as the page draws them: on the sheet, in chain, and against noise."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Collection, Sequence
 from typing import TypeVar

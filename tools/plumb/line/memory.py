@@ -1,7 +1,5 @@
 """The machine's numbers over the line: read all, write some, read back what was written."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass

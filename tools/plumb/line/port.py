@@ -1,7 +1,5 @@
 """Interface of a line to a machine, whether a board or a simulation hangs on it."""
 
-from __future__ import annotations
-
 import fcntl
 import os
 import re

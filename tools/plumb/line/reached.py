@@ -3,8 +3,6 @@
 It answers ahead of its motion, and it has lines that it has not answered yet.
 """
 
-from __future__ import annotations
-
 from collections import deque
 from collections.abc import Callable, Iterator, Sequence
 

@@ -3,8 +3,6 @@
 Hold, go on and stop do not wait for the work that is being done.
 """
 
-from __future__ import annotations
-
 from collections import deque
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Future
@@ -16,14 +14,12 @@ from threading import Event, Lock, Thread
 from time import monotonic
 from typing import Any, Literal, TypeVar
 
-from pydantic import computed_field
-
 from plumb.line.memory import read_numbers
 from plumb.line.port import LinePort, LostError
 from plumb.line.progress import SAID_PAUSED, Progress, waits_in
 from plumb.line.reached import Came, LineCourse
 from plumb.line.sender import HALTED, REPORTS, STANDS, Sender, Status, StoppedError, Watch, cleaned
-from plumb.text.answers import Internal
+from plumb.text.answers import Internal, in_json
 from plumb.text.errors import InputError
 
 Result = TypeVar("Result")
@@ -66,8 +62,7 @@ class LineState:
     # All that it last listed.
     numbers: Internal[Mapping[int, float]] = field(default_factory=dict)
 
-    @computed_field
-    @property
+    @in_json
     def waits_for(self) -> str:
         """Work for a hand before the program goes on; empty if it does not wait."""
         wait = self.program.wait if self.program and self.holds else None

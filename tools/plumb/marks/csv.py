@@ -1,7 +1,5 @@
 """`marks.csv`: a mark per line in the machine frame, columns named in the first line."""
 
-from __future__ import annotations
-
 import csv
 import io
 import re

@@ -3,8 +3,6 @@
 Places are in the machine frame [mm]; the file keeps its corner, its unit and its comments.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass

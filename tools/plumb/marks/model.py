@@ -3,8 +3,6 @@
 Machine frame: origin in the middle of the sheet, x right, y up, mm.
 """
 
-from __future__ import annotations
-
 import json
 import math
 from collections.abc import Sequence

@@ -1,7 +1,5 @@
 """Checks on marks that need the sheet: units, frame, and measured far from target."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """Reading measured marks, whatever the file's form; the front door to this room."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import replace

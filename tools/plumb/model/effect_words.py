@@ -1,7 +1,5 @@
 """The words of an effect, as the firmware's library has them (lib/Kinematics/src/effect.h)."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass

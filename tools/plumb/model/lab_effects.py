@@ -3,8 +3,6 @@
 To add an effect, write it here and give it a line in LAB_EFFECTS.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -224,11 +222,6 @@ def _scale(size: float, seen: Seen) -> PlaceShift:
     return PlaceShift(size * seen.places, seen.places, by_place)
 
 
-def _over_a_metre(_width: float, _height: float) -> RuleReading:
-    """Return what is read off a rule that is held against the tape, on any sheet."""
-    return RuleReading("how much too much the tape reads over a metre", 0.1, 1 / 1000, digits=2)
-
-
 TAPE_SCALE = LabEffect(
     words=_words(
         "tape_scale",
@@ -253,7 +246,9 @@ TAPE_SCALE = LabEffect(
     acts_on=TAPE,
     hidden_as="strain",
     change=_scale,
-    reading=_over_a_metre,
+    reading=lambda width, height: RuleReading(
+        "how much too much the tape reads over a metre", 0.1, 1 / 1000, digits=2
+    ),
 )
 
 

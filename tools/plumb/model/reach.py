@@ -1,7 +1,5 @@
 """Where on the sheet a machine is usable: its tightest, slackest and softest places."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from contextlib import suppress
 from dataclasses import dataclass, replace

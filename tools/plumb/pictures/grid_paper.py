@@ -1,7 +1,5 @@
 """The paper for a grid: its marks, with boxes to fill in."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import plumb.grid as marks_grid

@@ -1,7 +1,5 @@
 """Knowledge before the next measurement: the accounts that are likely, and the next machine."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 

@@ -1,7 +1,5 @@
 """Options to measure next: marks, repeats, heavier sleds, sides, swapped chains, checks."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass
 

@@ -222,7 +222,9 @@ class SoFar:
         frame, effects = new[:, known.frame], turned(known, columns, new[:, columns])
         read, truths, drawn_sizes = [], [], []
         noise = np.where(is_read[:, np.newaxis], self.sigma, 1.0)
-        counts = _counts(np.concatenate([each.chances for each in self.truths]) * draws)
+        wanted = np.concatenate([each.chances for each in self.truths]) * draws
+        # Whole numbers whose sums stay within one of what is wanted.
+        counts = np.diff(np.floor(np.cumsum(wanted) + 0.5), prepend=0.0).astype(int)
         starts = np.cumsum([0, *(len(each.chances) for each in self.truths)])
         for each, start, end in zip(self.truths, starts[:-1], starts[1:], strict=True):
             loose = each.loose(frame, effects, self.board.sizes)
@@ -279,9 +281,3 @@ class SoFar:
         split = loose.shape[1]
         least = (board.sizes.least - board.sizes.mean)[index]
         return drawn[:split], np.maximum(drawn[split:], least[:, np.newaxis])
-
-
-def _counts(wanted: Array) -> Array:
-    """Return whole numbers whose sums stay within one of what is wanted."""
-    ends = np.floor(np.cumsum(wanted) + 0.5)
-    return np.diff(ends, prepend=0.0).astype(int)

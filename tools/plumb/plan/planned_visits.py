@@ -86,9 +86,6 @@ class Visits:
             measured=np.zeros((count, 2)),
             targets=self.targets,
             names=self.names,
-            distance_rows=np.zeros((0, 2), dtype=int),
-            distances=np.zeros(0),
-            distance_rounds=np.zeros(0, dtype=int),
             approaches=self.approaches,
             # As the first round: a few more marks need no new zeros or sheet.
             rounds=np.zeros(count, dtype=int),
@@ -117,7 +114,6 @@ def sent(
     *,
     controller: str,
     sled_weight: float,
-    names: Sequence[str] | None = None,
     approaches: Array | None = None,
     swapped: bool = False,
 ) -> Visits:
@@ -126,18 +122,13 @@ def sent(
     where = np.array(targets, dtype=float).reshape(-1, 2)
     count = len(where)
     return Visits(
-        names=tuple(names) if names is not None else tuple(place_name(target) for target in where),
+        names=tuple(f"{x + 0.0:.0f}/{y + 0.0:.0f}" for x, y in where),
         targets=where,
         chains=believed_lengths(settings, where, controller=controller),
         sled_weights=np.full(count, float(sled_weight)),
         approaches=np.zeros((count, 2)) if approaches is None else np.array(approaches, float),
         swapped=np.full(count, swapped),
     )
-
-
-def place_name(target: Array) -> str:
-    """Return a name for a new mark: where it is sent [mm]."""
-    return f"{target[0] + 0.0:.0f}/{target[1] + 0.0:.0f}"
 
 
 # The G-code for planned visits: a touch of the bit at each, come to from the prescribed side.
@@ -315,14 +306,14 @@ COUNT = 2
 BELOW = 40.0  # [mm] that a sled comes from below, so this far down it must hang too
 
 
-def check_places(settings: MachineSettings, known: Array, count: int = COUNT) -> Array:
-    """Return the places (count, 2) [mm], given the targets (n, 2) of the marks there are."""
+def check_places(settings: MachineSettings, known: Array) -> Array:
+    """Return the places (COUNT, 2) [mm], given the targets (n, 2) of the marks there are."""
     places = grid(settings.sheet, *FINE)
     for shift in (0.0, BELOW):
         places = places[usable(settings, places - [0.0, shift], settings.sled_weight)]
     taken = np.asarray(known, dtype=float).reshape(-1, 2)
     chosen: list[Array] = []
-    while len(chosen) < count and len(places):
+    while len(chosen) < COUNT and len(places):
         gaps = np.linalg.norm(places[:, np.newaxis] - np.vstack([taken, *chosen]), axis=2)
         best = places[greatest(gaps.min(axis=1, initial=np.inf))]
         chosen.append(best)

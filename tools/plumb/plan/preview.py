@@ -5,8 +5,6 @@ neither the refitted frame nor the column's effect can imitate, over the reading
 parameters it is the root of their squares, so no sign or mixture of them is preferred.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -14,7 +12,6 @@ from typing import Annotated
 
 import numpy as np
 import scipy
-from pydantic import computed_field
 
 from plumb.diagnosis.answer import NOTHING
 from plumb.diagnosis.explanation import FEWEST_NUMBERS, Board, Explanation
@@ -26,10 +23,10 @@ from plumb.grid.options import APPROACH
 from plumb.grid.pattern import Touch
 from plumb.marks.read import Distance, Mark, Measurements
 from plumb.model.catalogue import effect_names, parameter_words
-from plumb.model.plain import ranked
+from plumb.model.plain import noun_of, ranked
 from plumb.plan.separation import apart
 from plumb.settings.machine import MachineSettings
-from plumb.text.answers import Matrix, key
+from plumb.text.answers import Matrix, in_json, key
 from plumb.text.errors import InputError
 
 Array = np.ndarray
@@ -61,11 +58,15 @@ class Outline:
     alike: tuple[str, ...]  # effects it would be taken for
     is_distinct: bool  # in most cases it is taken for no other effect
 
-    @computed_field
-    @property
+    @in_json
+    def noun(self) -> str:
+        """The effect in a maker's words."""
+        return noun_of(self.effect)
+
+    @in_json
     def is_seen(self) -> bool:
         """Whether it shows in its typical size, with POWER."""
-        return _is_seen(self.smallest)
+        return self.smallest is not None and self.smallest <= 1
 
 
 @dataclass(frozen=True)
@@ -80,14 +81,12 @@ class Preview:
     matrix: Annotated[Matrix, key("snr")]
     outlines: tuple[Outline, ...]  # in the order of the effects
 
-    @computed_field
-    @property
+    @in_json
     def seen(self) -> int:
         """Effects that would show in their usual size."""
         return sum(each.is_seen for each in self.outlines)
 
-    @computed_field
-    @property
+    @in_json
     def named(self) -> int:
         """Effects that could be named in their usual size: they show and have no look-alike."""
         return sum(each.is_seen and each.is_distinct for each in self.outlines)
@@ -192,21 +191,13 @@ def _outline(frame: Explanation, i: int, matrix: Array) -> Outline:
             for parameter in typical
         ),
         alike=tuple(other for _, other in ranked(alike, lambda each: each[0])),
-        is_distinct=_is_distinct(matrix, i),
+        is_distinct=bool((matrix[i] >= APART).all()),
     )
 
 
 def _smallest(board: Board, effect: str, seen: float) -> float | None:
     """Return the smallest size, times typical, that is named with POWER."""
     return _needed(board, effect, seen) / seen if seen > UNSEEN else None
-
-
-def _is_seen(smallest: float | None) -> bool:
-    return smallest is not None and bool(smallest <= 1)
-
-
-def _is_distinct(matrix: Array, i: int) -> bool:
-    return bool((matrix[i] >= APART).all())
 
 
 def _needed(board: Board, effect: str, seen: float) -> float:

@@ -1,7 +1,5 @@
 """Proposals to measure next, by their chance to settle the question for their minutes."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from math import erf, sqrt
@@ -32,7 +30,7 @@ from plumb.plan.planned_visits import (
 )
 from plumb.plan.separation import ENOUGH, apart, drawn_by
 from plumb.settings.cut_with import cut_with_lines, with_form
-from plumb.text.answers import Internal, among, key, meant, part
+from plumb.text.answers import Internal, among, in_json, key, meant, part
 from plumb.text.values import bare, in_inches, worded
 
 Array = np.ndarray
@@ -73,6 +71,28 @@ class Proposal:
     minutes = part("option.minutes", float)
     marks = part("option.visits.each", tuple[Visit, ...])
     checks = part("option.checks", tuple[PlannedCheck, ...])
+
+    @in_json
+    def headline(self) -> str:
+        """What to measure, how long it takes and what to hope of it; without the full stop."""
+        return f"{self.option.title}; about {self.option.minutes:.0f} minutes{_hope(self)}"
+
+    @in_json
+    def steps(self) -> list[str]:
+        """What to do, and what it tells, in sentences."""
+        return [*map(in_inches, self.option.do), *_shown_by(self.parts)]
+
+    @in_json
+    def promise(self) -> str:
+        """What to hope of it, for a table."""
+        if self.question != FIND or not self.rooms:
+            return percent(self.chance)
+        promise = ", ".join(
+            f"{noun_of(room.effect)} {bare(room.now, 1)} -> {worded(room.then, 1)}"
+            for room in self.rooms[:2]
+            if room.then < 0.9 * room.now
+        )
+        return promise or "no change"
 
     @property
     def rate(self) -> float:
@@ -236,16 +256,6 @@ def program_of(advice: Next, place: int, path: str, *, form: str | None) -> byte
 VERBS = {SETTLE: "settle it", CONFIRM: "confirm it", REREAD: "show it"}
 
 
-def headline_of(best: Proposal) -> str:
-    """Return what to measure, how long it takes and what to hope of it; without the full stop."""
-    return f"{best.option.title}; about {best.option.minutes:.0f} minutes{_hope(best)}"
-
-
-def steps_of(best: Proposal) -> list[str]:
-    """Return what to do, and what it tells, in sentences."""
-    return [*map(in_inches, best.option.do), *_shown_by(best.parts)]
-
-
 def _shown_by(parts: Sequence[tuple[str, str]]) -> list[str]:
     """Return in a sentence which effects are tried by a measurement that separates these pairs of
     explanations.
@@ -260,18 +270,6 @@ def _shown_by(parts: Sequence[tuple[str, str]]) -> list[str]:
     if len(tried) == 1:
         return [f"It shows whether {plainly(tried)} acts."]
     return [f"It shows which of these act: {', '.join(map(noun_of, tried))}."] if tried else []
-
-
-def promise_of(proposal: Proposal) -> str:
-    """Return what to hope of a proposal, for a table."""
-    if proposal.question == FIND and proposal.rooms:
-        promise = ", ".join(
-            f"{noun_of(room.effect)} {bare(room.now, 1)} -> {worded(room.then, 1)}"
-            for room in proposal.rooms[:2]
-            if room.then < 0.9 * room.now
-        )
-        return promise or "no change"
-    return percent(proposal.chance)
 
 
 def percent(chance: float | None) -> str:

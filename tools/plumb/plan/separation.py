@@ -5,8 +5,6 @@ other effect can imitate. A pair is distinguished nearly always at 12, so more o
 no single pair may eat the whole effort (T-optimal design, capped).
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 

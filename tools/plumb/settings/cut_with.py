@@ -5,8 +5,6 @@ GroundControl rewrites its file whenever a window is moved, so only the numbers 
 the sled hangs.
 """
 
-from __future__ import annotations
-
 import hashlib
 import json
 import os

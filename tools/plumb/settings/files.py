@@ -4,8 +4,6 @@ A machine's settings come as the `groundcontrol.ini` or `webcontrol.json` of the
 or as a `machine.toml`.
 """
 
-from __future__ import annotations
-
 import json
 import re
 from collections.abc import Iterator, Mapping
@@ -40,7 +38,7 @@ def read_settings(path: Source, *, known: Known = None) -> MachineSettings:
 def _read(path: Source, known: Known) -> MachineSettings:
     text = read_bytes(path).decode("utf-8-sig", "replace").lstrip()
     if text.startswith("{"):
-        return published_settings(read_webcontrol(path))
+        return published_settings(parse_webcontrol(text, source=str(path)))
     if re.search(r"(?im)^\s*\[(maslow|advanced) settings\]|^\s*numpositions\s*[=:]", text):
         return read_settings_ini(path)
     ours = re.search(r"(?m)^\s*\[(sheet|frame|effects\..*|published|\[mark\])\]", text)
@@ -73,11 +71,6 @@ def parse_client_file(content: bytes, *, source: str) -> IniText:
 
 
 # `webcontrol.json`: the settings of WebControl, by the sections and keys of a groundcontrol.ini.
-
-
-def read_webcontrol(path: Source) -> IniText:
-    """Return the settings of a webcontrol.json as entries of an ini file."""
-    return parse_webcontrol(read_text(path), source=str(path))
 
 
 def parse_webcontrol(text: str, *, source: str) -> IniText:

@@ -1,10 +1,8 @@
 """`machine.toml`: every setting by name, with the effects and how they were fitted."""
 
-from __future__ import annotations
-
 import math
 import tomllib
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import asdict, dataclass, replace
 from functools import partial
 from typing import Annotated, Any
@@ -125,17 +123,13 @@ class FitRecord(Fit):
         """[rad] counter-clockwise, of the sheet that was fitted last."""
         return self.sheet_rotation + (self.boards[-1].sheet[2] if self.boards else 0.0)
 
-    def is_of(self, digests: Collection[str]) -> bool:
+    def is_of(self, digests: Iterable[str]) -> bool:
         """Return whether just the boards with these readings were fitted."""
         return {board.digest for board in self.boards} == set(digests)
 
     def board(self, digest: str) -> FittedBoard | None:
         """Return the board with these readings."""
         return next((board for board in self.boards if board.digest == digest), None)
-
-    def knows_other_settings(self, settings: MachineSettings) -> bool:
-        """Return whether some board was cut with other settings than these."""
-        return any(board.cut_with != settings for board in self.boards)
 
 
 def read_machine_toml(path: Source, *, known: Known = None) -> MachineSettings:

@@ -4,13 +4,11 @@
 of it, and so does a property without `computed_field`.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping, Sequence
 from datetime import datetime
 from operator import attrgetter
-from typing import Annotated, Any, Literal, TypeVar
+from typing import TYPE_CHECKING, Annotated, Any, Literal, TypeVar
 
 import numpy as np
 from pydantic import (
@@ -34,6 +32,12 @@ Matrix = Annotated[
     np.ndarray,
     GetPydanticSchema(lambda _type, _handler: core_schema.any_schema()),
     PlainSerializer(lambda array: array.tolist(), return_type=list[list[float]]),
+]
+# Numbers in a row.
+Series = Annotated[
+    np.ndarray,
+    GetPydanticSchema(lambda _type, _handler: core_schema.any_schema()),
+    PlainSerializer(lambda array: array.tolist(), return_type=list[float]),
 ]
 # A number that is null in the JSON where it is not finite.
 Number = Annotated[float, PlainSerializer(lambda number: plain(number), return_type=float | None)]
@@ -65,6 +69,12 @@ def part(path: str, kind: Any, said: str | None = None, *, name: str | None = No
     made = computed_field(alias=name, return_type=kind, description=said)
     return made(property(lambda each: value(each)))
 
+
+# A property that the JSON has too; a type checker sees a property.
+if TYPE_CHECKING:
+    in_json = property
+else:
+    in_json = computed_field
 
 Answer = TypeVar("Answer", bound=BaseModel)
 

@@ -7,8 +7,6 @@ the lab asks here first. An installed wheel has no C++ with it, and nothing to c
     python -m plumb.text.compiled     prints the digests, for the build
 """
 
-from __future__ import annotations
-
 import hashlib
 import json
 import sys

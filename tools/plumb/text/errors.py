@@ -1,7 +1,5 @@
 """The error that is the fault of a file and not of the program."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar

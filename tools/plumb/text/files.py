@@ -4,8 +4,6 @@ A link that somebody names at a command line is followed. In a folder that may c
 none is: `links_refused` says so for all that is opened here, and `opened` is the door.
 """
 
-from __future__ import annotations
-
 import codecs
 import errno
 import fcntl
@@ -63,7 +61,10 @@ def read_bytes(path: Source, *, most: int = LARGEST_FILE) -> bytes:
         if place.is_dir():
             raise InputError(path, "is a folder", remedy="name the file inside it")
         # A device says no size, so one byte more than allowed is asked for.
-        content = _PIPED.get(str(path)) or _content(path, most + 1)
+        content = _PIPED.get(str(path))
+        if not content:
+            with os.fdopen(opened(path, os.O_RDONLY), "rb") as file:
+                content = file.read(most + 1)
         if len(content) > most:
             why = f"is larger than {most // MB} MB"
             raise InputError(path, why, remedy="check that it is the right file")
@@ -77,11 +78,6 @@ def read_bytes(path: Source, *, most: int = LARGEST_FILE) -> bytes:
     if not content.strip():
         raise InputError(path, "the file is empty", remedy="check that it was saved")
     return content
-
-
-def _content(path: Source, most: int) -> bytes:
-    with os.fdopen(opened(path, os.O_RDONLY), "rb") as file:
-        return file.read(most)
 
 
 # How files begin that are no text, and what each is.

@@ -4,8 +4,6 @@ The published programs write these files with Python's ConfigParser (keys in low
 that may hold a percent sign or run on over indented lines), so its rules are followed.
 """
 
-from __future__ import annotations
-
 import re
 from dataclasses import dataclass, replace
 

@@ -4,8 +4,6 @@ A refusal is a line that says where, what, and what to write:
 `machine.toml, [frame]: motor_gap is missing; write motor_gap = ... (mm between sprocket centres)`.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from typing import Annotated, Any, Literal, TypeVar, get_args, get_origin
 

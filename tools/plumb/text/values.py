@@ -1,7 +1,5 @@
 """Single checks on values that people type; each raises ValueError with a sentence for them."""
 
-from __future__ import annotations
-
 import math
 import re
 from collections.abc import Iterable, Iterator
@@ -127,11 +125,11 @@ def bare(length: float | None, digits: int = 2) -> str:
     return f"{in_unit(length):z.{digits + _FINER[unit()]}f}"
 
 
-def signed(length: float | None, digits: int = 2) -> str:
+def signed(length: float | None) -> str:
     """Return the same with its sign."""
     if length is None:
         return "-"
-    return f"{in_unit(length):+z.{digits + _FINER[unit()]}f}"
+    return f"{in_unit(length):+z.{2 + _FINER[unit()]}f}"
 
 
 def worded(length: float | None, digits: int = 2) -> str:

@@ -1,7 +1,5 @@
 """A machine in its garage: what is true of it, and what its owner believes."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from math import cos, sin
@@ -14,13 +12,11 @@ from plumb.bench import judge
 from plumb.bench.boards import plan, size_for
 from plumb.bench.causes import MAKER, SLED, Cause, Hidden, causes_of
 from plumb.bench.hiding import REAL
-from plumb.bench.judged_board import sheet
+from plumb.bench.judged_board import shape_error
 from plumb.firmware.client_files import gcode
 from plumb.firmware.settings import CLIENT_NUMBERS, firmware_numbers
-from plumb.fit.compare import best_pose
-from plumb.fit.observations import rms
 from plumb.line.sender import Sender
-from plumb.model.predict import FOUND, judged, lengths
+from plumb.model.predict import judged
 from plumb.settings.machine import MachineSettings
 from plumb.text.errors import InputError, to_do
 from plumb.text.values import refuse_unknown
@@ -185,15 +181,14 @@ def sled_error(garage: Garage, settings: MachineSettings) -> float:
     """Return the error of a garage's machine with these settings. Nothing rubs: no setting knows of
     it.
     """
-    wanted = sheet()
-    chains, outcome = lengths(settings, wanted)
-    if not (outcome == FOUND).all():
-        return float("inf")
-    weights = np.full(len(wanted), garage.numbers.get("sled_weight", SLED))
-    still = np.zeros_like(wanted)
-    places = judge.places(garage.numbers, chains, pushes=still, weights=weights)
-    pose = best_pose(wanted, garage.read(places))
-    return rms(pose.errors) if pose else 0.0
+    weight = garage.numbers.get("sled_weight", SLED)
+
+    def landed(chains: Array) -> Array:
+        weights = np.full(len(chains), weight)
+        still = np.zeros_like(chains)
+        return garage.read(judge.places(garage.numbers, chains, pushes=still, weights=weights))
+
+    return shape_error(settings, landed)
 
 
 # The virtual machine on a screen of characters: the sheet, its marks and the sled.

@@ -6,7 +6,7 @@ The owner follows the lab's advice and nothing else.
 from __future__ import annotations
 
 import tempfile
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -19,7 +19,6 @@ from plumb.grid.options import Grid
 from plumb.line.sender import RefusedError, cleaned
 from plumb.marks.read import Mark, Measurements, join_measurements, read_marks
 from plumb.plan import Proposal, propose
-from plumb.plan.options import HANGING, MARK, READING, ROUND
 from plumb.settings.machine import MachineSettings
 from plumb.vm.owner import VirtualOwner
 
@@ -40,7 +39,6 @@ class Loop:
     first: Diagnosis
     inputs: Inputs  # all that was measured
     done: tuple[Proposal, ...]  # what else was measured
-    spent: Spent  # until the machine was changed
     auto: Decision
     after: Comparison | None  # the second sheet; None where nothing could be added
 
@@ -65,28 +63,24 @@ def closed_loop(
     owner: VirtualOwner,
     *,
     grid: Grid,
-    budget: Budget | None = None,
-    said: Callable[[str], None] = lambda sentence: None,
     progress: Callable[[float], None] = lambda share: None,
 ) -> Loop:
-    """Go once round; `said` hears what happens, `progress` the share of the cutting so far."""
+    """Go once round; `progress` hears the share of the cutting so far."""
     cut = _Cutting(owner, grid, progress)
-    said("The machine cuts a first grid.")
     owner.switch_on()
     forms = [cut.next()]
     board = read(owner, forms[0])
     inputs = Inputs(owner.settings, board)
     before, first = compare(Inputs(owner.settings, board)), diagnose(inputs)
-    more = _measured_more(owner, inputs, first, budget or Budget(), said)
-    auto = decide(more.inputs)
+    inputs, done = _measured_more(owner, inputs, first)
+    auto = decide(inputs)
     after = None
     if auto.addition:
-        said("The new numbers go to the machine, and it cuts the grid again on another sheet.")
         lay_next_sheet(owner, auto.addition.settings, raised=auto.addition.sheet_rise)
         forms.append(cut.next())
         after = compare(Inputs(owner.settings, read(owner, forms[-1])))
     progress(1.0)
-    return Loop(owner, tuple(forms), before, first, more.inputs, more.done, more.spent, auto, after)
+    return Loop(owner, tuple(forms), before, first, inputs, done, auto, after)
 
 
 def lay_next_sheet(owner: VirtualOwner, settings: MachineSettings, *, raised: float) -> None:
@@ -114,45 +108,19 @@ class _Cutting:
         return self._owner.cut_grid(self._grid, answered=answered)
 
 
-@dataclass(frozen=True)
-class _Measured:
-    """Knowledge, the work done for it, and its cost."""
-
-    inputs: Inputs
-    done: tuple[Proposal, ...]
-    spent: Spent
-
-
 def _measured_more(
-    owner: VirtualOwner,
-    inputs: Inputs,
-    first: Diagnosis,
-    budget: Budget,
-    said: Callable[[str], None],
-) -> _Measured:
+    owner: VirtualOwner, inputs: Inputs, first: Diagnosis
+) -> tuple[Inputs, tuple[Proposal, ...]]:
     """Return the inputs with what was proposed, as long as the marks leave a question open."""
     diagnosis, usual = first, owner.settings.sled_weight
     done: tuple[Proposal, ...] = ()
-    spent = cutting([usual] * len(inputs.measurements.marks), usual)
     while diagnosis.verdict in OPEN and len(done) < ROUNDS:
         best = _best(propose(diagnosis, inputs).proposals, done, usual)
-        if best is None or not budget.allows(spent + cost_of(best, usual)):
+        if best is None:
             break
-        said(f"The marks cannot tell. The owner measures: {best.option.title}.")
-        done, spent = (*done, best), spent + cost_of(best, usual)
-        inputs = _with(owner, inputs, best)
+        done, inputs = (*done, best), _with(owner, inputs, best)
         diagnosis = diagnose(inputs)
-    return _Measured(inputs, done, spent)
-
-
-def cost_of(proposal: Proposal, usual_weight: float) -> Spent:
-    """Return what following a proposal costs."""
-    option = proposal.option
-    if option.kind == "reread":
-        return reading(len(option.visits))
-    if option.checks:
-        return Spent(0, option.minutes)
-    return cutting(option.visits.sled_weights.tolist(), usual_weight)
+    return inputs, done
 
 
 def _best(
@@ -215,42 +183,3 @@ def read(owner: VirtualOwner, form: str) -> Measurements:
         path = Path(folder, "marks.toml")
         path.write_text(form)
         return read_marks(path, sheet=owner.settings.sheet)
-
-
-# What measuring costs the owner of a machine: holes in a sheet, and minutes.
-
-
-@dataclass(frozen=True)
-class Spent:
-    """Effort so far."""
-
-    marks: int = 0  # cut
-    minutes: float = 0.0
-
-    def __add__(self, other: Spent) -> Spent:
-        """Return both together."""
-        return Spent(self.marks + other.marks, self.minutes + other.minutes)
-
-
-@dataclass(frozen=True)
-class Budget:
-    """The limits of an owner's patience."""
-
-    marks: int = 45
-    minutes: float = 150.0
-
-    def allows(self, spent: Spent) -> bool:
-        """Return whether so much may be spent."""
-        return spent.marks <= self.marks and spent.minutes <= self.minutes
-
-
-def cutting(sled_weights: Sequence[float], usual: float) -> Spent:
-    """Return a round of marks cut and read, each under a sled of some weight [N]."""
-    hangs = any(abs(weight - usual) > 1e-6 for weight in sled_weights)
-    count = len(sled_weights)
-    return Spent(count, ROUND + MARK * count + HANGING * hangs)
-
-
-def reading(count: int) -> Spent:
-    """Read marks that are there once more with a newly laid tape."""
-    return Spent(0, READING * count)

@@ -3,20 +3,18 @@
 The file of the secret holds the number from which a machine is drawn, not what it hides.
 """
 
-from __future__ import annotations
-
 import json
 import math
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
-from pydantic import computed_field
 from pydantic.dataclasses import dataclass as pydantic_dataclass
 
 from plumb.model.catalogue import empirical_effects
 from plumb.model.plain import plainly
 from plumb.settings.machine import MachineSettings
+from plumb.text.answers import in_json
 from plumb.text.errors import InputError, to_do
 from plumb.text.files import read_text
 from plumb.vm.garage import RANDOM, Garage, described, hide, random_garage, sled_error
@@ -69,8 +67,7 @@ class Score:
     before_mm: float  # RMS of the sled all over the sheet, by the settings as they were
     after_mm: float | None  # by the answer; None where a place is out of its reach
 
-    @computed_field
-    @property
+    @in_json
     def sentence(self) -> str:
         """Effects named, missed, and claimed though they are not there."""
         parts = []

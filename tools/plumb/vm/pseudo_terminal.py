@@ -1,7 +1,5 @@
 """A virtual machine behind a pseudo terminal, which other programs open as a serial port."""
 
-from __future__ import annotations
-
 import contextlib
 import ctypes
 import os

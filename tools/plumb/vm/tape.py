@@ -1,7 +1,5 @@
 """The tape: where the marks on a sheet are, with the noise of its reader."""
 
-from __future__ import annotations
-
 import tomllib
 from collections.abc import Sequence
 

@@ -36,7 +36,7 @@ def test_the_promised_error_includes_what_no_effect_draws():
     hidden = Hidden(((causes_of("chain_plane")[0], 2.5),), outside="bump", outside_mm=1.0)
     board = cut(hidden, plan(5, 5), seed=3, noise=0.2, tape_sigma=0.2)
     result = decide(Inputs(MAKER, board.measurements))
-    left = shape_error(board.machine, result.addition.settings)
+    left = shape_error(result.addition.settings, board.machine.sleds)
     assert 0.5 < left == pytest.approx(result.expected_mm, rel=0.3)
 
 

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from plumb.diagnosis.expected_error import expected_error, rival_error
+from plumb.diagnosis.expected_error import rival_error, sigmas
 from plumb.diagnosis.explanation import Board, explain
 from plumb.diagnosis.suspect_curves import model_by
 from plumb.fit.expected import places_over
@@ -22,8 +22,7 @@ def board_of(seed, *, columns=5, rows=3, noise=SIGMA, sigma=SIGMA):
 
 
 def test_the_error_of_a_fit_is_the_scatter_of_fits_to_noise():
-    expected = expected_error(explain(board_of(1)))
-    spots = np.stack(np.meshgrid(expected.x[::10], expected.y[::10]), axis=-1).reshape(-1, 2)
+    spots = places_over(BELIEVED.sheet)
     missed = []
     for seed in range(60):
         fitted = model_by(explain(board_of(seed)))
@@ -31,7 +30,7 @@ def test_the_error_of_a_fit_is_the_scatter_of_fits_to_noise():
         where, _ = places(BELIEVED, lengths(fitted, spots)[0])
         missed.append(np.sum((where - spots) ** 2, axis=1))
     scattered = np.sqrt(np.mean(missed, axis=0))
-    said = expected.sigma[::10, ::10].ravel()
+    said = sigmas(explain(board_of(1)), (), spots)
     # The priors of the frame count as knowledge, though here the frame is exactly as stated.
     assert np.all(scattered < 1.25 * said)
     assert np.sqrt(np.mean(scattered**2)) > 0.6 * np.sqrt(np.mean(said**2))
@@ -43,16 +42,14 @@ def test_rivals_count_by_their_share_as_far_as_they_lead_elsewhere():
     frame = explain(board)
     used = explain(board, ("chain_pitch",), start=frame)
     rival = explain(board, ("chain_stretch",), start=frame)
+    middle = np.zeros((1, 2))
     alone, half, same = (
-        expected_error(used, given) for given in ((), [(rival, 0.5)], [(used, 0.5)])
+        sigmas(used, given, middle) for given in ((), [(rival, 0.5)], [(used, 0.5)])
     )
-    assert same.sigma == pytest.approx(alone.sigma)
-    middle = (len(alone.y) // 2, len(alone.x) // 2)
-    chains, _ = lengths(model_by(used), [[0.0, 0.0]])
+    assert same == pytest.approx(alone)
+    chains, _ = lengths(model_by(used), middle)
     apart = places(model_by(rival), chains)[0][0]
-    assert half.sigma[middle] ** 2 - alone.sigma[middle] ** 2 == pytest.approx(
-        0.5 * np.sum(apart**2), rel=1e-3
-    )
+    assert half**2 - alone**2 == pytest.approx(0.5 * np.sum(apart**2), rel=1e-3)
 
 
 # By how much, and where, the settings of rivals differ.

@@ -42,7 +42,9 @@ def test_better_readings_and_more_of_them_leave_less():
 def test_before_any_mark_the_expected_error_is_the_normal_one():
     bare = replace(MAKER, effects={})
     normal = expected_error(bare, PRIORS)
-    assert open_of(plan(3, 3), settings=bare).before == pytest.approx(normal.all_shape, rel=0.1)
+    assert open_of(plan(3, 3), settings=bare).before == pytest.approx(
+        normal.among_marks_mm, rel=0.1
+    )
 
 
 def test_no_command_fits_too_few_marks():

@@ -79,14 +79,13 @@ def test_the_history_shows_errors_and_numbers_over_time(first, tmp_path):
     append(tmp_path, FIT, entry_of(*first), at=FIRST)
     append(tmp_path, "program", program_entry("grid.nc", ["G0 X0"], whole=True))
     append(tmp_path, FIT, entry_of(*fitted(gap_mm=6.0, seed=2)), at=SECOND)
-    history = history_of(read_diary(tmp_path))
-    assert [fit.at for fit in history.fits] == [FIRST, SECOND]
-    assert [fit.count for fit in history.fits] == [15, 15]
-    assert history.fits[0].rms == first[0].after.fit_rms
-    assert history.fits[0].before == first[0].raw.rms
-    assert history.fits[1].effects == ("chain_pitch",)
-    courses = {course.name: course for course in history.courses}
-    gap = courses["motor_gap"]
+    fits, courses = history_of(read_diary(tmp_path))
+    assert [fit.at for fit in fits] == [FIRST, SECOND]
+    assert [fit.count for fit in fits] == [15, 15]
+    assert fits[0].rms == first[0].after.fit_rms
+    assert fits[0].before == first[0].raw.rms
+    assert fits[1].effects == ("chain_pitch",)
+    gap = {course.name: course for course in courses}["motor_gap"]
     assert gap.unit == "mm" and len(gap.points) == 2
     assert gap.points[0].low < gap.points[0].value < gap.points[0].high
 
@@ -114,7 +113,7 @@ def points(*ends):
 def test_a_number_has_moved_if_its_intervals_have_nothing_in_common(ends, moved, tmp_path):
     for number in points(*ends):
         append(tmp_path, FIT, entry_with(numbers=[number]))
-    (course,) = history_of(read_diary(tmp_path)).courses
+    _, (course,) = history_of(read_diary(tmp_path))
     assert course.has_moved is moved
 
 

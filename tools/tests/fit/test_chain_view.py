@@ -92,4 +92,3 @@ def test_order_and_approach_are_those_of_the_visits():
     assert approach[[0, 2], 0] == pytest.approx([-np.pi / 2, np.pi])
     assert np.isnan(approach[1]).all()
     assert seen_there["y"].values[:, 1] == pytest.approx([0, 100, 200], abs=1e-3)
-    assert [each.of_chain for each in seen_there.values()] == [True] * 5 + [False] * 4

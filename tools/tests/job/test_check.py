@@ -87,7 +87,6 @@ def test_a_cut_in_a_corner_is_where_the_chains_cannot_hold_the_sled():
     assert min(bad.first for bad in checked.hanging.bad) == 3
     above = [line for line in square(-1219, -609, 60) if "Z-" not in line]
     assert check_job(MAKER, above).is_good
-    assert not check_job(MAKER, square(0, 0, 60), limits={"most_tension": 50.0}).is_good
 
 
 @pytest.mark.parametrize(
@@ -171,7 +170,7 @@ def test_a_part_comes_out_as_expected(file, corner):
     places = np.array([(x, y) for x in steps for y in steps]) * size + corner
     high = (corner[0] + size[0], corner[1] + size[1])
     part = Part(1, 2, corner, high, -3.0, places)
-    part = with_errors(Believed.of(example_inputs(settings)), settings, [part])[0]
+    part = with_errors(Believed.of(example_inputs(settings)), settings, part)
     true = true_errors(settings, places)
     design = np.column_stack([np.ones(len(places)), places - places.mean(axis=0)])
     stretch = np.linalg.lstsq(design, true, rcond=None)[0][1:]

@@ -23,7 +23,7 @@ def test_the_page_asks_for_each_number_that_can_be_measured_directly(client):
         f"{effect}.{part}" for effect, check in effect_checks().items() for part in check.sigmas
     }
     assert {*shown(client)} == {*FRAME_CHECKS, "sled_weight", *parts}
-    assert {*EACH} == parts
+    assert {*EACH} == {*shown(client)}
 
 
 # What is read, the number by the words of its check, and the check's steps.
@@ -57,7 +57,7 @@ def test_the_angle_of_a_sheet_follows_from_how_much_its_diagonals_differ():
     assert EACH["sheet_skew.angle"].value(long - short) == pytest.approx(by_words, rel=1e-4)
 
 
-@pytest.mark.parametrize("name", [*EACH])
+@pytest.mark.parametrize("name", [name for name in EACH if "." in name])
 def test_a_careful_reading_is_as_sure_as_its_check(name):
     """At the size that is met in workshops."""
     effect, _, part = name.partition(".")
@@ -76,9 +76,9 @@ def test_a_chain_is_weighed_against_the_sled_that_the_owner_weighed(client):
     choose(client, known={"sled_weight": {"value": 2 * WEIGHT, "sigma": 2.0}})
     after = shown(client)[name]
     assert after["by"] == "sled_weight"
-    per_gram = math.sqrt(24 * after["scale"])
+    per_gram = math.sqrt(24 * after["factor"])
     assert per_gram == pytest.approx(1 / 3e6 / 20.0)
-    assert before["scale"] != after["scale"]
+    assert before["factor"] != after["factor"]
 
 
 def test_a_virtual_machine_is_measured_by_hand_as_well_as_a_careful_owner_can(client):
@@ -93,7 +93,7 @@ def test_a_virtual_machine_is_measured_by_hand_as_well_as_a_careful_owner_can(cl
         true = true_value(owner.garage, name)
         assert abs(measured["value"] - true) < 5 * measured["sigma"]
         if number["curve"] == "straight":
-            usual = number["usual"] * abs(number["scale"])
+            usual = number["usual"] * abs(number["factor"])
             assert measured["sigma"] == pytest.approx(usual, rel=0.1)
     unknown = client.post("/api/known/measured", json={"name": "sled_colour"})
     assert unknown.status_code == 422

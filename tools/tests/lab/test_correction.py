@@ -64,7 +64,7 @@ def test_a_correction_is_written_opened_and_undone(client, tmp_path):
     assert entry.content["machine"] == "machine.toml"
     assert shown(client)["correction"]["is_written"]
     undone = client.post("/api/correction/undo", json=known(client)).json()
-    assert undone["file"] == "groundcontrol.ini"
+    assert undone["choices"]["settings"] == "groundcontrol.ini"
     assert compared(tmp_path).rms == pytest.approx(before["as_set"]["fit_rms"])
     assert (tmp_path / "machine.toml").exists()
 

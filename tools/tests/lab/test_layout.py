@@ -250,8 +250,7 @@ def proposed(folder):
     """A folder with the proposal of the verdict."""
     measured_machine(folder)
     with asked(folder) as client:
-        proposal = finished(client, "next")["next"]
-        each = (other["taking"] for other in proposal["others"])
+        each = (offer["taking"] for offer in finished(client, "next")["offers"])
         taking = next(taking for taking in each if taking and taking["program"])
         got(client.post("/api/next", json={key: taking[key] for key in ("choose", "digest")}))
 

@@ -56,11 +56,9 @@ def choose(folder, **choices):
 
 
 def takings(client):
-    """The proposals that can be taken, by their titles."""
-    proposed = finished(client, "next")["next"]
-    each = {other["title"]: other["taking"] for other in proposed["others"]}
-    each |= {proposed["headline"]: proposed["taking"]}
-    return {title: taking for title, taking in each.items() if taking}
+    """What can be taken, by its title."""
+    offers = finished(client, "next")["offers"]
+    return {each["proposal"]["title"]: each["taking"] for each in offers if each["taking"]}
 
 
 def wanted(taking):

@@ -146,7 +146,7 @@ def test_what_noise_alone_leaves_is_the_same(said):
     together, card = chosen(said)
     assert_same(
         together["noise_rms_mm"],
-        card["noise_after"],
+        card["account"]["noise_rms_mm"],
         said.added["after"]["noise_rms_mm"],
         row(f"fitted: + {noun_of(said.added['effects_added'][-1])}", said.add)[1],
         said.verdict["states"][-1]["noise_rms"],
@@ -167,7 +167,7 @@ def test_error_of_what_is_added_is_the_same(said):
     together, card = chosen(said)
     assert_same(
         together["rms_after_mm"],
-        card["rms_after"],
+        card["account"]["rms_after_mm"],
         said.added["after"]["fit_rms_mm"],
         said.verdict["states"][-1]["fit_rms"],
         said.correction["whole"]["fit_rms"],
@@ -193,7 +193,7 @@ def test_odds_of_explanations_are_the_same(said):
     if len(explanations) == 1:
         return  # there is no rival
     for each, card in zip(explanations, cards, strict=True):
-        assert_same(card["rms_after"], each["rms_after_mm"])
+        assert_same(card["account"]["rms_after_mm"], each["rms_after_mm"])
     first = f", at odds of {odds_words(explanations[0]['share'])}"
     for sentence in (said.diagnose, said.verdict["sentence"]):
         assert first in sentence

@@ -26,8 +26,8 @@ def test_the_verdict_is_that_of_the_command_line(client, tmp_path):
     assert verdict["apart"].startswith("On the sheet the likely causes differ by 2.1 mm in")
     assert len(verdict["cards"]) + verdict["more_cards"] == len(diagnosis.explanations)
     first, card = diagnosis.explanations[0], verdict["cards"][0]
-    assert card["rms_after"] == pytest.approx(first.rms_after)
-    assert card["noise_after"] == pytest.approx(first.noise_rms)
+    assert card["account"]["rms_after_mm"] == pytest.approx(first.rms_after)
+    assert card["account"]["noise_rms_mm"] == pytest.approx(first.noise_rms)
     left = 1 - card["share"]
     assert left == pytest.approx((first.rms_after / diagnosis.rms_before) ** 2)
     name = first.effects[0]

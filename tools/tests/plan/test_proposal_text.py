@@ -12,10 +12,7 @@ from plumb.plan.proposal import (
     SETTLE,
     Proposal,
     RoomThen,
-    headline_of,
     percent,
-    promise_of,
-    steps_of,
 )
 
 CUT = Option("marks", "4 more marks", ("Cut four.",), 9.4, nowhere())
@@ -54,25 +51,25 @@ def test_a_chance_is_shown_in_steps_of_five(chance, said):
     ],
 )
 def test_the_headline_states_minutes_and_chance(question, hope):
-    assert headline_of(proposal(question)) == f"4 more marks; about 9 minutes{hope}"
-    assert headline_of(proposal(question, None)) == "4 more marks; about 9 minutes"
+    assert proposal(question).headline == f"4 more marks; about 9 minutes{hope}"
+    assert proposal(question, None).headline == "4 more marks; about 9 minutes"
 
 
 def test_without_a_proved_effect_the_headline_states_how_much_less_could_hide():
     noun = noun_of("chain_sag")
-    said = headline_of(proposal(FIND, rooms=ROOMS))
+    said = proposal(FIND, rooms=ROOMS).headline
     hope = f"{noun[0].upper()}{noun[1:]} may act unseen by 5.0 mm now, by 1.2 mm then"
     assert said == f"4 more marks; about 9 minutes. {hope}"
     # Only what becomes clearly less is worth a word.
-    assert promise_of(proposal(FIND, rooms=ROOMS)) == f"{noun} 5.0 -> 1.2 mm"
-    assert promise_of(proposal(FIND, rooms=ROOMS[1:])) == "no change"
+    assert proposal(FIND, rooms=ROOMS).promise == f"{noun} 5.0 -> 1.2 mm"
+    assert proposal(FIND, rooms=ROOMS[1:]).promise == "no change"
     third = RoomThen("motor_level", 9.0, 1.0)
-    both = promise_of(proposal(FIND, rooms=(third, *ROOMS)))
+    both = proposal(FIND, rooms=(third, *ROOMS)).promise
     assert both == f"{noun_of('motor_level')} 9.0 -> 1.0 mm, {noun} 5.0 -> 1.2 mm"
 
 
 def test_a_step_names_each_cause_that_it_tries_once_in_one_sentence():
-    assert steps_of(proposal()) == ["Cut four."]
+    assert proposal().steps == ["Cut four."]
     pairs = (
         ("chain_sag + motor_level", "frame_lean + motor_level"),
         ("chain_pitch + tape_scale", "chain_sag"),
@@ -80,10 +77,10 @@ def test_a_step_names_each_cause_that_it_tries_once_in_one_sentence():
         ("", "chain_sag"),
     )
     sag, lean, pitch, tape = map(noun_of, ("chain_sag", "frame_lean", "chain_pitch", "tape_scale"))
-    assert steps_of(proposal(parts=pairs)) == [
+    assert proposal(parts=pairs).steps == [
         "Cut four.",
         f"It shows which of these act: {sag}, {lean}, {pitch}, {tape}.",
     ]
-    assert steps_of(proposal(parts=pairs[2:3]))[1:] == [f"It shows whether {lean} acts."]
-    assert steps_of(proposal(parts=pairs[3:]))[1:] == [f"It shows whether {sag} acts."]
-    assert steps_of(proposal(parts=(("chain_sag", "chain_sag"),)))[1:] == []
+    assert proposal(parts=pairs[2:3]).steps[1:] == [f"It shows whether {lean} acts."]
+    assert proposal(parts=pairs[3:]).steps[1:] == [f"It shows whether {sag} acts."]
+    assert proposal(parts=(("chain_sag", "chain_sag"),)).steps[1:] == []

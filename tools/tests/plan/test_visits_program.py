@@ -64,9 +64,9 @@ def test_joined_visits_keep_everything():
     sides = np.array([(1.0, 0.0), (0.0, 0.0), (0.0, -1.0)])
     targets = [(-300.0, 100.0), (0.0, 100.0), (300.0, 100.0)]
     how = {"controller": "plumb", "sled_weight": 120.0, "approaches": sides}
-    visits = sent(BELIEVED, targets, names=("a", "b", "c"), **how)
+    visits = sent(BELIEVED, targets, **how)
     back = joined(visits.taken([2]), nowhere(), visits.taken([0, 1]))
-    assert back.names == ("c", "a", "b") and len(back) == 3
+    assert back.names == ("300/100", "-300/100", "0/100") and len(back) == 3
     assert back.targets.tolist() == [list(targets[i]) for i in (2, 0, 1)]
     assert back.chains[1:] == pytest.approx(visits.chains[:2])
     read = back.marks(np.add(back.targets, (1.0, 2.0)))

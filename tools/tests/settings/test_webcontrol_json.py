@@ -12,7 +12,6 @@ from plumb.settings.files import (
     changed_client_file,
     parse_webcontrol,
     read_settings,
-    read_webcontrol,
 )
 from plumb.settings.ini import SOURCES
 from plumb.text.errors import InputError
@@ -56,7 +55,9 @@ def test_it_is_the_same_machine_as_the_ini(webcontrol):
     ours, theirs = read_settings(webcontrol), read_settings(INI)
     assert ours.frame == theirs.frame and ours.effects == theirs.effects
     assert ours.published == theirs.published and ours.controller == "stock"
-    assert client_numbers(read_webcontrol(webcontrol)) == client_numbers(read_ini(INI))
+    assert client_numbers(
+        parse_webcontrol(webcontrol.read_text(), source="webcontrol.json")
+    ) == client_numbers(read_ini(INI))
 
 
 def test_the_same_machine_has_the_same_digest(webcontrol):
@@ -107,7 +108,7 @@ def test_another_file_is_refused(text, hint, tmp_path):
     path = tmp_path / "webcontrol.json"
     path.write_text(text)
     with pytest.raises(InputError, match=re.escape(hint)) as refused:
-        read_settings(path) if text != "[1]" else read_webcontrol(path)
+        read_settings(path) if text != "[1]" else parse_webcontrol(text, source="webcontrol.json")
     assert "\n" not in str(refused.value)
 
 

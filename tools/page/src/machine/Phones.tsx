@@ -8,22 +8,23 @@ type Answer = Schemas["PhonesAnswer"];
 export function Phones() {
   const { state: answer, press, busy, refused } = useWatched<Answer>("phones");
   if (!answer) return null;
+  const { invitation } = answer;
   return (
     <details open={answer.phones.length > 0}>
       <summary>Your phone at the machine</summary>
-      {!answer.is_shared && (
+      {!invitation && (
         <p>
           Start the lab with <code>plumb lab --share</code>, and a phone in your network types
           readings, holds and stops.
         </p>
       )}
-      {answer.is_shared && !answer.address && <p>This computer is in no network.</p>}
-      {answer.code && (
+      {invitation?.address === "" && <p>This computer is in no network.</p>}
+      {invitation?.picture && (
         <p class="row">
-          <img src={answer.code} width="176" alt="The address and the PIN as a QR code" />
+          <img src={invitation.picture} width="176" alt="The address and the PIN as a QR code" />
           <span>
-            Scan it, or open {answer.address} and type <b>{answer.pin}</b>. Whoever is in your
-            network can read what is sent.
+            Scan it, or open {invitation.address} and type <b>{invitation.pin}</b>. Whoever is in
+            your network can read what is sent.
           </span>
         </p>
       )}

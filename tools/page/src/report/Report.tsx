@@ -37,10 +37,10 @@ export function Report({ answers }: { answers: Readonly<Record<string, unknown>>
         </p>
         <Verdict />
         <Numbers made={answers.correction as Schemas["CorrectionParts"]} />
-        {diary.rounds.length > 0 && (
+        {diary.fits.length > 0 && (
           <section>
             <h2>Round by round</h2>
-            <Errors rounds={diary.rounds} units={units} />
+            <Errors fits={diary.fits} units={units} />
             <div class="tiles">
               {diary.courses.map((course) => (
                 <Course key={course.noun} course={course} />

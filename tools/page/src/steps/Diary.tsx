@@ -19,9 +19,9 @@ export function Diary() {
   const state = `${project.files["diary.jsonl"]} ${project.choices_digest}`;
   const diary = useNewest<DiaryAnswer>("diary", state);
   if (!diary) return <Screen title="The diary" say="One moment …" busy />;
-  const { rounds } = diary;
+  const { fits } = diary;
   const save = <TakeAlong name="folder.zip">Save the whole folder</TakeAlong>;
-  if (rounds.length === 0 && diary.others.length === 0) {
+  if (fits.length === 0 && diary.others.length === 0) {
     return (
       <Screen
         title="The diary"
@@ -36,7 +36,7 @@ export function Diary() {
       say="Each correction with its error, and the history of the numbers. A number that moved by more than its interval says that the machine has changed."
       act={save}
     >
-      {rounds.length > 0 && <Errors rounds={rounds} units={units} />}
+      {fits.length > 0 && <Errors fits={fits} units={units} />}
       {diary.courses.length > 0 && (
         <section>
           <h2>Numbers</h2>
@@ -60,9 +60,9 @@ export function Diary() {
         </section>
       )}
       {diary.spoilt > 0 && <p>{diary.spoilt} lines of diary.jsonl cannot be read.</p>}
-      {rounds.length > 0 && (
+      {fits.length > 0 && (
         <p class="legend">
-          The error of the newest fit is {namedLength(rounds.at(-1)?.fit.rms_mm ?? 0, units, 2)}.
+          The error of the newest fit is {namedLength(fits.at(-1)?.rms_mm ?? 0, units, 2)}.
         </p>
       )}
     </Screen>

@@ -92,11 +92,11 @@ function Advised({ advice, chosen, take }: AdvisedParts) {
   );
 }
 
-function Sum({ plan, looking }: { plan: Layout.Plan; looking: boolean }) {
+function Sum({ plan: { minutes, preview }, looking }: { plan: Layout.Plan; looking: boolean }) {
   return (
     <p class="sum" role="status" aria-busy={looking}>
-      <strong>About {Math.round(plan.minutes)} minutes.</strong> Of {plan.effects.length} causes in
-      their usual size, {plan.seen} would show and {plan.named} could be named.
+      <strong>About {Math.round(minutes)} minutes.</strong> Of {preview.outlines.length} causes in
+      their usual size, {preview.seen} would show and {preview.named} could be named.
       {looking && " Working …"}
     </p>
   );

@@ -1,7 +1,5 @@
 """The bench for effects: add and take away, fit or hold, and see what is left of the errors."""
 
-from __future__ import annotations
-
 from collections.abc import Collection
 from contextlib import suppress
 from dataclasses import replace
@@ -43,13 +41,12 @@ from plumb.lab.rounds import (
     unit_words,
     usual_words,
 )
-from plumb.lab.routes.project import ProjectAnswer, TheProject, show
+from plumb.lab.routes.project import ProjectAnswer, TheProject, of_lab, show
 from plumb.model.catalogue import every_effect, parameter_words
 from plumb.model.plain import noun_of, plain_size, plainly
 from plumb.model.predict import Array
 from plumb.text.answers import like
 from plumb.text.errors import InputError
-from plumb.text.values import shown_in
 
 router = APIRouter(tags=["bench"])
 NEW_MACHINE = "new.toml"
@@ -83,7 +80,6 @@ class BenchCovariate(BaseModel):
 
     name: str
     unit: str
-    of_chain: bool
     values: list[Ends]
 
 
@@ -101,7 +97,6 @@ class BenchAnswer(BaseModel):
     effects: list[BenchEffect]
     covariates: list[BenchCovariate]
     new_machine: str  # name of the file that the bench writes
-    new_digest: str
 
 
 class BenchChoice(BaseModel):
@@ -149,17 +144,7 @@ class BenchStairs(BaseModel):
     """The fall of the error, effect by effect, and the verdict on it."""
 
     stairs: list[BenchStair]
-    pays: bool
     warnings: list[str]
-
-
-class BenchCurve(BaseModel):
-    """Curve that an effect draws on a chain against a covariate [mm]."""
-
-    at: list[float]
-    middle: list[float]
-    low: list[float]
-    high: list[float]
 
 
 class BenchDrawn(BaseModel):
@@ -168,7 +153,7 @@ class BenchDrawn(BaseModel):
     noun: str
     moved: list[Pair | None]
     chains: list[Ends]
-    curves: dict[str, tuple[BenchCurve, BenchCurve]]
+    curves: dict[str, tuple[Curve, Curve]]
 
 
 class BenchSave(BenchChoice):
@@ -178,9 +163,7 @@ class BenchSave(BenchChoice):
 
 
 def _warm(request: Request, project: TheProject) -> WarmBoard:
-    boards = request.app.state.live_boards
-    assert isinstance(boards, LiveBoards)
-    return boards.of(project, inputs_of, board_words)
+    return of_lab("live_boards", LiveBoards)(request).of(project, inputs_of, board_words)
 
 
 Warm = Annotated[WarmBoard, Depends(_warm)]
@@ -202,7 +185,6 @@ def open_bench(project: TheProject, warm: Warm) -> BenchAnswer:
         effects=_effects(warm),
         covariates=covariates_of(warm),
         new_machine=NEW_MACHINE,
-        new_digest=project.digest(NEW_MACHINE),
     )
 
 
@@ -212,9 +194,8 @@ def refit(choice: BenchChoice, project: TheProject, warm: Warm) -> BenchFit:
     chosen = choice.chosen
     warm.live.refuse(chosen)
     fitted = warm.live.fit(chosen)
-    with shown_in(project.choices.units):
-        sizes = _sizes(fitted, chosen)
-        intervals = intervals_sentence(fitted.sigma, warm.live.noise.source)
+    sizes = _sizes(fitted, chosen)
+    intervals = intervals_sentence(fitted.sigma, warm.live.noise.source)
     title = f"+ {plainly(chosen.effects)}" if chosen.effects else "frame fitted"
     return BenchFit(
         **dict(fitted_state(title, fitted, warm.view, warm.doubts)),
@@ -250,8 +231,7 @@ def climb(choice: BenchChoice, project: TheProject, warm: Warm) -> BenchStairs:
     """Return how the error falls with each effect more. Nothing is written."""
     chosen = choice.chosen
     warm.live.refuse(chosen)
-    with shown_in(project.choices.units):
-        result = add_to(warm.live, warm.raw, chosen)
+    result = add_to(warm.live, warm.raw, chosen)
     qualities = [("frame fitted", result.before, False)]
     qualities += [(f"+ {noun_of(step.effect)}", step, step.only_fit) for step in result.by_effect]
     shown = as_set(warm.raw, warm.live.noise.sigma, doubts=warm.doubts)
@@ -264,7 +244,6 @@ def climb(choice: BenchChoice, project: TheProject, warm: Warm) -> BenchStairs:
     ]
     return BenchStairs(
         stairs=[first, *stairs],
-        pays=result.pays or not chosen.effects,
         warnings=[*(slip.sentence for slip in warm.slips), *result.warnings],
     )
 
@@ -280,10 +259,13 @@ def draw(
     return BenchDrawn(
         noun=plainly(effects),
         moved=among_all(moved, doubted, None),
-        chains=among_all(ends(drawn.curves.chains), doubted, NO_ENDS),
+        chains=among_all(ends(drawn.chains), doubted, NO_ENDS),
         curves={
-            name: (_curve(name, left), _curve(name, right))
-            for name, (left, right) in drawn.curves.curves.items()
+            name: (
+                replace(left, at=_in_degrees(name, left.at)),
+                replace(right, at=_in_degrees(name, right.at)),
+            )
+            for name, (left, right) in drawn.curves.items()
         },
     )
 
@@ -343,15 +325,6 @@ def _covariate(covariate: Covariate, doubted: Collection[int]) -> BenchCovariate
         covariate,
         unit="°" if covariate.unit == "rad" else covariate.unit,
         values=among_all(ends(_in_degrees(covariate.name, covariate.values)), doubted, NO_ENDS),
-    )
-
-
-def _curve(name: str, curve: Curve) -> BenchCurve:
-    return BenchCurve(
-        at=_in_degrees(name, curve.at).tolist(),
-        middle=curve.middle.tolist(),
-        low=curve.low.tolist(),
-        high=curve.high.tolist(),
     )
 
 

@@ -1,7 +1,5 @@
 """Two check marks: where to cut them, and whether they are where the settings promise."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from typing import Any
 
@@ -14,13 +12,14 @@ from plumb.diary.file import CHECK as NOTED
 from plumb.diary.file import append, read_diary
 from plumb.fit.inputs import Inputs, settings_in
 from plumb.grid import program
-from plumb.lab.broken_cut import GoOnRequest, HowFar, begin, go_on, how_far
-from plumb.lab.machine_line import MachineLine, TheLine, refuse_other_machine, refuse_unknown_place
+from plumb.lab.broken_cut import HowFar, OnSheet, begin, go_on, how_far
+from plumb.lab.machine_line import TheLine, refuse_other_machine, refuse_unknown_place
 from plumb.lab.project import Choices, Project, save_choices
 from plumb.lab.rounds import (
     Planned,
     command,
     cut_commands,
+    has_readings,
     inputs_of,
     kept_settings,
     planned,
@@ -36,7 +35,6 @@ from plumb.marks.read import read_marks
 from plumb.model.predict import known_effects
 from plumb.plan.planned_visits import check_places
 from plumb.text.errors import InputError
-from plumb.text.values import shown_in
 
 router = APIRouter(tags=["check"])
 
@@ -75,15 +73,15 @@ def show_check(project: TheProject, line: TheLine) -> CheckAnswer:
     inputs = _of_promise(project)
     trouble = "" if inputs.settings.fitted else "write a correction first: it makes the promise"
     number = _newest(project)
-    form = f"{CHECK}{number}{ENDING}"
+    form, file = f"{CHECK}{number}{ENDING}", f"{CHECK}{number}.nc"
     is_saved = project.read(form) is not None
     plan = None if trouble or is_saved else _plan(inputs, [])
-    places = _places(project, choices, form) if is_saved else _of_plan(plan)
+    of_plan = [(touch.x, touch.y) for touch in plan.touches] if plan else []
+    places = _places(project, choices, form) if is_saved else of_plan
     corner, sheet = choices.edges, inputs.settings.sheet
     checked = None if trouble or not is_saved else _checked(project, inputs, form)
-    with shown_in(choices.units):
-        sentence = check_sentence(checked) if checked else ""
-    far = HowFar() if checked else _how_far(project, line, number)
+    sentence = check_sentence(checked) if checked else ""
+    far = HowFar() if checked else how_far(project, line, file, _text(project, file))
     return CheckAnswer(
         **vars(far),
         trouble=trouble,
@@ -91,7 +89,7 @@ def show_check(project: TheProject, line: TheLine) -> CheckAnswer:
         earlier=[mark.target for mark in inputs.measurements.marks if mark.measured],
         meant=[from_edges(place, sheet=sheet, corner=corner) for place in places],
         form=form,
-        program=f"{CHECK}{number}.nc",
+        program=file,
         is_saved=is_saved,
         marks=checked.marks if checked else (),
         sentence=sentence,
@@ -123,18 +121,13 @@ def cut_check(project: TheProject, line: TheLine) -> MachineAnswer:
 
 
 @router.post("/check/go-on")
-def go_on_with_check(request: GoOnRequest, project: TheProject, line: TheLine) -> MachineAnswer:
+def go_on_with_check(cut: OnSheet, project: TheProject, line: TheLine) -> MachineAnswer:
     """Send the mark that is not on the sheet. The machine moves."""
     refuse_unknown_place(line)
     name = f"{CHECK}{_newest(project)}.nc"
     refuse_other_machine(project, line)
-    go_on(project, line, name, _text(project, name), request.cut)
+    go_on(project, line, name, _text(project, name), cut)
     return machine(line)
-
-
-def _how_far(project: Project, line: MachineLine, number: str) -> HowFar:
-    name = f"{CHECK}{number}.nc"
-    return how_far(project, line, name, _text(project, name))
 
 
 def _text(project: Project, name: str) -> str:
@@ -213,8 +206,7 @@ def _promising(project: Project) -> list[str]:
 
 def _entry(choices: Choices, form: str, checked: CheckRound) -> dict[str, Any]:
     """Return the result of a round of check marks as the diary has it. mm."""
-    with shown_in(choices.units):
-        sentence = check_sentence(checked)
+    sentence = check_sentence(checked)
     return {
         "form": form,
         "machine": choices.settings,
@@ -269,17 +261,13 @@ def _plan(inputs: Inputs, cut: Sequence[tuple[float, float]]) -> Planned:
     return plan
 
 
-def _of_plan(plan: Planned | None) -> list[tuple[float, float]]:
-    return [(touch.x, touch.y) for touch in plan.touches] if plan else []
-
-
 def _save(project: Project) -> tuple[str, str]:
     """Write program and form of a round; the program's name and text."""
     choices = project.choices
     inputs = _of_promise(project)
     number = _newest(project)
     form = f"{CHECK}{number}{ENDING}"
-    if project.read(form) is not None and _is_read(project, choices, form):
+    if has_readings(project, form):
         number = f"-{int(number[1:] or 1) + 1}"
         form = f"{CHECK}{number}{ENDING}"
     name, plan = f"{CHECK}{number}.nc", _plan(inputs, _cut_before(project, choices, form))
@@ -296,10 +284,6 @@ def _cut_before(project: Project, choices: Choices, form: str) -> list[tuple[flo
     while names[-1] != form:
         names.append(f"{CHECK}-{len(names) + 1}{ENDING}")
     return [place for name in names[:-1] for place in _places(project, choices, name)]
-
-
-def _is_read(project: Project, choices: Choices, form: str) -> bool:
-    return bool(form_of(project, choices, form).measurements.measured_marks)
 
 
 def _places(project: Project, choices: Choices, form: str) -> list[tuple[float, float]]:

@@ -1,8 +1,7 @@
 """The correction: each number before and after, accepted one by one, written, and taken back."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
+from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 
@@ -22,6 +21,7 @@ from plumb.cure.machine_file import (
 from plumb.diary.file import FIT, fit_entry, keep
 from plumb.firmware.client_files import CLIENT_FILES, ClientFiles, client_files
 from plumb.fit.compare import ComparedMark
+from plumb.fit.expected import range_said
 from plumb.fit.inputs import Inputs
 from plumb.fit.problem import Checked
 from plumb.lab.background import Progress, key_of
@@ -29,11 +29,10 @@ from plumb.lab.machine_line import TheLine, refuse_unanswered
 from plumb.lab.project import FILE, Choices, Project, choices_text
 from plumb.lab.residuals import Span, State, as_set, fitted_state, spans_of
 from plumb.lab.rounds import board_words, command, inputs_of, known_words, unit_words, usual_words
-from plumb.lab.routes.project import TheProject
+from plumb.lab.routes.project import ProjectAnswer, TheProject, show
 from plumb.lab.routes.verdict import TheBackground
-from plumb.model.plain import plain_change, plain_range
+from plumb.model.plain import PlainChange, plain_change
 from plumb.text.errors import InputError
-from plumb.text.values import shown_in
 
 router = APIRouter(tags=["correction"])
 CLIENT_OF = {Path(file).suffix: client for client, file in CLIENT_FILES.items()}
@@ -41,15 +40,11 @@ NO_CLIENT = "none"
 WRITTEN = (".toml", ".nc", *(f"-{file}" for file in CLIENT_FILES.values()))  # by a correction
 
 
-class ChangedNumber(BaseModel):
+@dataclass(frozen=True, kw_only=True)
+class ChangedNumber(PlainChange):
     """A number of the machine before and after, in words."""
 
     name: str
-    noun: str
-    before: str
-    after: str
-    margin: str  # of 95 %
-    unit: str
     possible: bool  # whether its interval reaches what a real machine may have
     range_said: str  # empty: no limit is known
     is_accepted: bool
@@ -78,7 +73,6 @@ class CorrectionParts(BaseModel):
     as_set: State | None = None  # the marks as that file stands
     accepted: State | None = None  # with what is accepted; None: nothing is
     whole: State | None = None  # with all of it
-    left_out: float | None = None  # [mm] of marks that took no part, with what is accepted
 
 
 class CorrectionAnswer(BaseModel):
@@ -106,12 +100,6 @@ class Written(BaseModel):
     failure: str  # why the diary says nothing of it; empty if it does
 
 
-class Undone(BaseModel):
-    """The settings that are open again."""
-
-    file: str
-
-
 @router.get("/correction")
 def show_correction(project: TheProject, background: TheBackground) -> CorrectionAnswer:
     """Return what the marks would change."""
@@ -124,8 +112,7 @@ def show_correction(project: TheProject, background: TheBackground) -> Correctio
         progress(0.1)
         decision = decide(inputs)
         progress(0.6)
-        with shown_in(choices.units):
-            return correction_of(inputs, decision, choices)
+        return correction_of(inputs, decision, choices)
 
     answer = background.ask("correction", key, work)
     file = project.free_name("machine", *WRITTEN)
@@ -143,7 +130,8 @@ def show_correction(project: TheProject, background: TheBackground) -> Correctio
 def correction_of(inputs: Inputs, decision: Decision, choices: Choices) -> CorrectionParts:
     """Return what the marks would change, and what is accepted of it."""
     # What was written stays in view: it goes to the machine, or is taken back.
-    is_written = _is_fit_of(inputs)
+    record = inputs.settings.fitted
+    is_written = bool(record and record.is_of(each.digest for each in inputs.measurements.rounds))
     if decision.addition is None and not (decision.state == "good" and is_written):
         return CorrectionParts(
             said=decision.headline,
@@ -152,10 +140,12 @@ def correction_of(inputs: Inputs, decision: Decision, choices: Choices) -> Corre
             instead=decision.step,
             add=_auto_words(choices),
         )
-    made = correct(
-        decision.inputs, decision.chosen, choices.accepted, noise=decision.diagnosis.noise
-    )
-    return _parts(made, decision, choices, is_written=is_written)
+    return _parts(_corrected(decision, choices), decision, choices, is_written=is_written)
+
+
+def _corrected(decision: Decision, choices: Choices) -> Correction:
+    noise = decision.diagnosis.noise
+    return correct(decision.inputs, decision.chosen, choices.accepted, noise=noise)
 
 
 _NOTHING = {
@@ -175,9 +165,7 @@ def write(known: Write, project: TheProject, line: TheLine) -> Written:
     decision = decide(inputs)
     if decision.addition is None:
         raise InputError(decision.reason)
-    made = correct(
-        decision.inputs, decision.chosen, choices.accepted, noise=decision.diagnosis.noise
-    ).accepted
+    made = _corrected(decision, choices).accepted
     if made is None:
         raise InputError("no number is accepted, so there is nothing to write")
     name = project.free_name("machine", *WRITTEN)
@@ -200,17 +188,17 @@ def write(known: Write, project: TheProject, line: TheLine) -> Written:
             name: "",
         },
     )
-    failure = _in_diary(project, made, inputs, name, text.decode())
+    entry = fit_entry(made, inputs, machine=name, settings=text.decode())
     return Written(
         file=name,
         files=[name, *more],
         steps=[*client.steps, *(f"{key}: {value}" for (_, key), value in client.typed.items())],
-        failure=failure,
+        failure=keep(str(project.path(name)), FIT, entry),
     )
 
 
 @router.post("/correction/undo")
-def undo(known: Write, project: TheProject) -> Undone:
+def undo(known: Write, project: TheProject) -> ProjectAnswer:
     """Open the settings again that were open before the latest correction; no file is lost."""
     choices = project.choices
     if not choices.settings_before:
@@ -218,14 +206,7 @@ def undo(known: Write, project: TheProject) -> Undone:
     *earlier, name = choices.settings_before
     chosen = choices.model_copy(update={"settings": name, "settings_before": earlier})
     project.save({FILE: choices_text(chosen)}, read={FILE: known.choices})
-    return Undone(file=name)
-
-
-def _is_fit_of(inputs: Inputs) -> bool:
-    """Return whether the open settings were fitted to just these marks."""
-    record = inputs.settings.fitted
-    digests = [file_round.digest for file_round in inputs.measurements.rounds]
-    return record is not None and record.is_of(digests)
+    return show(project)
 
 
 def _parts(
@@ -253,7 +234,6 @@ def _parts(
         as_set=as_set(whole.raw, noise.sigma, title=f"as {choices.settings} says"),
         accepted=left("with what you accepted", some.after_fit) if some else None,
         whole=left("with all of it", whole.after_fit),
-        left_out=some.after.left_out_rms if some else None,
         add=_add_words(made, decision.diagnosis.usual, choices),
     )
 
@@ -281,14 +261,11 @@ def _auto_words(choices: Choices) -> list[str]:
 
 def _number(number: Parameter, choices: Choices) -> ChangedNumber:
     change = plain_change(number.name, number.before, number.value, number.low, number.high)
-    low, high = number.plausible_range.limits
     return ChangedNumber(
         name=number.name,
-        **change._asdict(),
+        **vars(change),
         possible=number.possible,
-        range_said=plain_range(number.name, low, high)
-        if low is not None and high is not None
-        else "",
+        range_said=range_said(number.name),
         is_accepted=number.name in choices.accepted,
     )
 
@@ -320,9 +297,3 @@ def _client_words(choices: Choices) -> list[str]:
         return [NO_CLIENT]
     more = [] if original == choices.settings else ["--original", original]
     return [CLIENT_OF[Path(original).suffix], *more]
-
-
-def _in_diary(project: Project, made: Addition, inputs: Inputs, name: str, settings: str) -> str:
-    """Write the fit into the folder's diary; a sentence if that failed."""
-    entry = fit_entry(made, inputs, machine=name, settings=settings)
-    return keep(str(project.path(name)), FIT, entry)

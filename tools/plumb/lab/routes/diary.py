@@ -1,44 +1,16 @@
 """The diary: each fit with its error, and the history of the numbers."""
 
-from __future__ import annotations
-
-from dataclasses import dataclass
 from datetime import datetime
 
 from fastapi import APIRouter
 from pydantic import BaseModel
 
 from plumb.diary.file import FIT, Diary, noted, read_diary
-from plumb.diary.history import Course, DiaryFit, Point, history_of
+from plumb.diary.history import Course, DiaryFit, history_of
 from plumb.lab.routes.project import TheProject
-from plumb.model.plain import plain_change, plainly
-from plumb.text.values import shown_in
 
 router = APIRouter(tags=["diary"])
 MOST = 50  # other entries that are shown
-
-
-class Round(BaseModel):
-    """A fit, and its effects in words."""
-
-    fit: DiaryFit
-    said: str
-
-
-@dataclass(frozen=True)
-class CoursePoint(Point):
-    """A number after a fit, as text too."""
-
-    said: str
-
-
-class NumberCourse(BaseModel):
-    """The history of a number."""
-
-    noun: str
-    unit: str
-    points: list[CoursePoint]
-    has_moved: bool  # the last two intervals have no value in common
 
 
 class Noted(BaseModel):
@@ -51,8 +23,8 @@ class Noted(BaseModel):
 class DiaryAnswer(BaseModel):
     """Rounds and notes of the folder's diary."""
 
-    rounds: list[Round]
-    courses: list[NumberCourse]
+    fits: tuple[DiaryFit, ...]
+    courses: tuple[Course, ...]
     others: list[Noted]
     spoilt: int  # lines that cannot be read
 
@@ -60,37 +32,17 @@ class DiaryAnswer(BaseModel):
 @router.get("/diary")
 def show_diary(project: TheProject) -> DiaryAnswer:
     """Return the diary of the folder."""
-    with shown_in(project.choices.units):
-        return diary_answer(read_diary(project.folder))
+    return diary_answer(read_diary(project.folder))
 
 
 def diary_answer(diary: Diary) -> DiaryAnswer:
     """Return a diary as the page shows it."""
-    history = history_of(diary)
+    fits, courses = history_of(diary)
     return DiaryAnswer(
-        rounds=[Round(fit=fit, said=plainly(fit.effects)) for fit in history.fits],
-        courses=[_course(course) for course in history.courses],
+        fits=fits,
+        courses=courses,
         others=_others(diary),
         spoilt=len(diary.spoilt),
-    )
-
-
-def _course(course: Course) -> NumberCourse:
-    last = course.points[-1]
-    words = plain_change(course.name, last.value, last.value, last.low, last.high)
-    return NumberCourse(
-        noun=words.noun,
-        unit=words.unit,
-        points=[
-            CoursePoint(
-                **vars(point),
-                said=plain_change(
-                    course.name, point.value, point.value, point.low, point.high
-                ).after,
-            )
-            for point in course.points
-        ],
-        has_moved=course.has_moved,
     )
 
 

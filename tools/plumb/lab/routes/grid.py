@@ -1,17 +1,16 @@
 """Cutting the chosen marks: the program and its form into the folder, or to the machine."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from pathlib import Path
+from typing import Annotated
 
-from fastapi import APIRouter
+from fastapi import APIRouter, Body
 from pydantic import BaseModel
 
 from plumb.grid import program, touches_of
 from plumb.lab.broken_cut import (
-    GoOnRequest,
     HowFar,
+    OnSheet,
     begin,
     go_on,
     how_far,
@@ -80,12 +79,6 @@ class GridAnswer(HowFar):
     sheet_rise: float = 0.0  # [mm] by which the next sheet's right end is raised, as the fit says
     is_proposed: bool = False  # somebody took them from the verdict; they go onto the sheet before
     pauses: tuple[Wait, ...] = ()  # where the program waits for somebody
-
-
-class FormRequest(BaseModel):
-    """A form of the folder."""
-
-    form: str
 
 
 @router.get("/grid")
@@ -191,7 +184,7 @@ def cut_grid(project: TheProject, line: TheLine) -> MachineAnswer:
 
 
 @router.post("/grid/go-on")
-def go_on_with_grid(request: GoOnRequest, project: TheProject, line: TheLine) -> MachineAnswer:
+def go_on_with_grid(cut: OnSheet, project: TheProject, line: TheLine) -> MachineAnswer:
     """Send the marks that are not on the sheet. The machine moves."""
     refuse_unknown_place(line)
     answer = show_grid(project, line)
@@ -204,8 +197,8 @@ def go_on_with_grid(request: GoOnRequest, project: TheProject, line: TheLine) ->
         line,
         answer.program,
         answer.text,
-        request.cut,
-        paused=_weighing(taken, line.virtual, on_sheet=request.cut),
+        cut,
+        paused=_weighing(taken, line.virtual, on_sheet=cut),
     )
     return machine(line)
 
@@ -243,27 +236,29 @@ def _weighing(
 
 
 @router.post("/machine/readings")
-def read_with_tape(request: FormRequest, project: TheProject, line: TheLine) -> ProjectAnswer:
+def read_with_tape(
+    form: Annotated[str, Body(embed=True)], project: TheProject, line: TheLine
+) -> ProjectAnswer:
     """Let the virtual machine's tape fill a form in."""
     owner = line.virtual
     if owner is None:
         raise InputError("a tape reads only the marks of a virtual machine: type what yours says")
-    known = {request.form: project.digest(request.form)}
-    blank = project.read(request.form)
+    known = {form: project.digest(form)}
+    blank = project.read(form)
     if blank is None or BLANK not in blank.decode():
-        raise InputError(f"{request.form}: no mark of it waits for a reading")
-    if is_read_again(project, request.form):
+        raise InputError(f"{form}: no mark of it waits for a reading")
+    if is_read_again(project, form):
         filled: str | None = owner.tape.fill_again(blank.decode())
     else:
         filled = line.do(lambda sender: owner.tape.fill_when_cut(blank.decode(), owner.machine))
     if filled is None:
         raise InputError("the marks are not all cut yet: cut them first")
     settings = opened(project)
-    files = {request.form: _as_asked(filled, project.path(request.form), settings, owner)}
-    if request.form.startswith(CHECK):
+    files = {form: _as_asked(filled, project.path(form), settings, owner)}
+    if form.startswith(CHECK):
         project.save(files, read=known)
     else:
-        save_choices(project, lambda now: with_marks(now, request.form), files=files, read=known)
+        save_choices(project, lambda now: with_marks(now, form), files=files, read=known)
     return show(project)
 
 

@@ -1,10 +1,8 @@
 """A machine's first day on the page, step by step; the folder keeps how far."""
 
-from __future__ import annotations
-
 from typing import Annotated, Literal
 
-from fastapi import APIRouter, Depends, Request
+from fastapi import APIRouter, Depends
 from pydantic import BaseModel, Field
 
 from plumb.firmware.settings import machine_of_numbers
@@ -14,7 +12,7 @@ from plumb.guide.talk import Question, progress_in
 from plumb.lab.guide_desk import GuideDesk
 from plumb.lab.machine_line import MachineLine, TheLine
 from plumb.lab.project import Choices, Number, Project, save_choices
-from plumb.lab.routes.project import TheProject
+from plumb.lab.routes.project import TheProject, of_lab
 from plumb.text.errors import InputError
 
 router = APIRouter(tags=["guide"])
@@ -52,13 +50,7 @@ class Reply(BaseModel):
     reply: str = Field(max_length=40)
 
 
-def _desk(request: Request) -> GuideDesk:
-    desk = request.app.state.guide_desk
-    assert isinstance(desk, GuideDesk)
-    return desk
-
-
-Desk = Annotated[GuideDesk, Depends(_desk)]
+Desk = Annotated[GuideDesk, Depends(of_lab("guide_desk", GuideDesk))]
 
 
 @router.get("/guide")

@@ -1,20 +1,17 @@
 """Numbers that an owner can measure by hand, without a mark."""
 
-from __future__ import annotations
+from typing import Annotated
 
-from fastapi import APIRouter
+from fastapi import APIRouter, Body
 from pydantic import BaseModel
 
 from plumb.firmware.settings import Difference
-from plumb.fit.by_hand import WEIGHED, WEIGHT
-from plumb.lab.known import KnownNumber, known_numbers
+from plumb.lab.known import KnownNumber, known_numbers, number_checks
 from plumb.lab.machine_line import TheLine, held_otherwise, is_fit_of_machine
 from plumb.lab.project import Number
 from plumb.lab.rounds import command, known_words, opened, unit_words
 from plumb.lab.routes.project import TheProject
 from plumb.plan.case import PlannedCheck
-from plumb.plan.separation import FRAME_CHECKS, effect_checks
-from plumb.settings.machine import GRAVITY
 from plumb.text.errors import InputError
 from plumb.text.values import refuse_unknown
 
@@ -26,12 +23,6 @@ class KnownAnswer(BaseModel):
 
     numbers: list[KnownNumber]
     command: str
-
-
-class Measuring(BaseModel):
-    """The number to measure."""
-
-    name: str
 
 
 @router.get("/known")
@@ -48,21 +39,15 @@ def show_known(project: TheProject) -> KnownAnswer:
 
 
 @router.post("/known/measured")
-def measure(measuring: Measuring, project: TheProject, line: TheLine) -> Number:
+def measure(name: Annotated[str, Body(embed=True)], project: TheProject, line: TheLine) -> Number:
     """Let the owner of the virtual machine measure a number of it, as well as a careful reading."""
     owner = line.virtual
     if owner is None:
         raise InputError("a virtual machine alone is measured by the lab: type what you measured")
-    sigmas = {
-        f"{effect}.{part}": sigma
-        for effect, check in effect_checks().items()
-        for part, sigma in check.sigmas.items()
-    }
-    for check in FRAME_CHECKS.values():
-        sigmas |= check.sigmas
-    sigmas[WEIGHT] = WEIGHED * GRAVITY
-    refuse_unknown([measuring.name], sigmas)
-    (checked,) = owner.check([PlannedCheck(measuring.name, sigmas[measuring.name])])
+    checks = number_checks()
+    refuse_unknown([name], checks)
+    sigma = checks[name].sigmas[name.rpartition(".")[2]]
+    (checked,) = owner.check([PlannedCheck(name, sigma)])
     return Number(value=checked.value, sigma=checked.sigma)
 
 

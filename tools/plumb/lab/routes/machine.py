@@ -1,7 +1,5 @@
 """The line to the machine: connect it, send to it, hold it, stop it, read and write its numbers."""
 
-from __future__ import annotations
-
 import asyncio
 import json
 import re
@@ -11,11 +9,11 @@ from pathlib import Path
 from time import monotonic
 from typing import Annotated, Literal
 
-from fastapi import APIRouter, WebSocket, WebSocketDisconnect
+from fastapi import APIRouter, Body, WebSocket, WebSocketDisconnect
 from pydantic import BaseModel, Field, TypeAdapter
 
 from plumb.diary.file import write_and_keep
-from plumb.firmware.settings import digest_of_numbers, every_setting, machine_of_numbers
+from plumb.firmware.settings import called, digest_of_numbers, machine_of_numbers
 from plumb.job.dry_run import refuse_what_is_no_program
 from plumb.lab.broken_cut import end_virtual
 from plumb.lab.guard import PROTOCOL
@@ -48,12 +46,6 @@ class MachineAnswer(LineState):
     numbers_digest: str  # of those that it last listed; empty if it listed none
 
 
-class BoardRequest(BaseModel):
-    """The port of a board."""
-
-    port: str = Field(max_length=200)
-
-
 class VirtualRequest(BaseModel):
     """A virtual machine to try: what it hides, drawn by the seed; how fast it works."""
 
@@ -64,23 +56,11 @@ class VirtualRequest(BaseModel):
     speed: Speed = 100.0
 
 
-class SpeedRequest(BaseModel):
-    """The speed of the virtual machine, in multiples of real time."""
-
-    speed: Speed
-
-
 class ProgramRequest(BaseModel):
     """G-code to send."""
 
     title: str = Field(max_length=80)
     text: str
-
-
-class LineRequest(BaseModel):
-    """A single line for the machine."""
-
-    text: str = Field(max_length=120)
 
 
 class NumbersRequest(BaseModel):
@@ -133,9 +113,11 @@ def list_ports() -> list[Port]:
 
 
 @router.post("/machine/board")
-def connect_board(request: BoardRequest, line: TheLine) -> MachineAnswer:
+def connect_board(
+    port: Annotated[str, Body(embed=True, max_length=200)], line: TheLine
+) -> MachineAnswer:
     """Connect a board."""
-    line.connect_board(request.port)
+    line.connect_board(port)
     return machine(line)
 
 
@@ -152,9 +134,9 @@ def connect_virtual(request: VirtualRequest, project: TheProject, line: TheLine)
 
 
 @router.post("/machine/speed")
-def set_speed(request: SpeedRequest, line: TheLine) -> MachineAnswer:
+def set_speed(speed: Annotated[Speed, Body(embed=True)], line: TheLine) -> MachineAnswer:
     """Let the virtual machine hurry."""
-    line.set_speed(request.speed)
+    line.set_speed(speed)
     return machine(line)
 
 
@@ -174,9 +156,9 @@ def send_program(request: ProgramRequest, line: TheLine) -> MachineAnswer:
 
 
 @router.post("/machine/line")
-def send_line(request: LineRequest, line: TheLine) -> list[str]:
+def send_line(text: Annotated[str, Body(embed=True, max_length=120)], line: TheLine) -> list[str]:
     """Send a single line, and what the machine says to it."""
-    return line.do(lambda sender: sender.ask(request.text))
+    return line.do(lambda sender: sender.ask(text))
 
 
 @router.post("/machine/hold")
@@ -248,24 +230,13 @@ def _written(
     written, kept, failure = line.do(write)
     if line.virtual:
         line.virtual.settings = machine_of_numbers(line.state.numbers)
-    return NumbersAnswer(
-        changed=_changes(written), back=back, kept=Path(kept).name, failure=failure
-    )
-
-
-def _changes(written: WrittenNumbers) -> list[NumberChange]:
-    """Return what was changed, by the names of the machine's table."""
-    rows = {row.number: row for row in every_setting()}
-    return [
-        NumberChange(
-            number=number,
-            name=rows[number].name if number in rows else "",
-            unit=rows[number].unit if number in rows else "",
-            before=before,
-            after=after,
+    changed = []
+    for number, (before, after) in written.changed.items():
+        name, unit = called(number)
+        changed.append(
+            NumberChange(number=number, name=name, unit=unit, before=before, after=after)
         )
-        for number, (before, after) in written.changed.items()
-    ]
+    return NumbersAnswer(changed=changed, back=back, kept=Path(kept).name, failure=failure)
 
 
 # The live line: how the machine is, all the time; and Stop and Hold, which wait for no request.
@@ -288,8 +259,8 @@ async def live(websocket: WebSocket) -> None:
     said_at = 0.0
     while not gone.done() and not _is_sent_away(websocket):
         now = machine(line)
-        for answer in _taken(answers):
-            await websocket.send_text(answer)
+        while answers:
+            await websocket.send_text(answers.pop(0))
         if now != said or monotonic() - said_at >= SAID_EVERY:
             await websocket.send_text(TypeAdapter(MachineAnswer).dump_json(now).decode())
             said, said_at = now, monotonic()
@@ -302,12 +273,6 @@ def _is_sent_away(websocket: WebSocket) -> bool:
     """Return whether the phone at the other end is not paired any more."""
     is_phone = websocket.scope.get("phone") is not None
     return is_phone and websocket.app.state.phones.of(websocket.scope["key"]) is None
-
-
-def _taken(answers: list[str]) -> list[str]:
-    taken = answers[:]
-    answers.clear()
-    return taken
 
 
 async def _heard(websocket: WebSocket, line: MachineLine, answers: list[str]) -> None:

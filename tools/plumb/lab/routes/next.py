@@ -1,7 +1,5 @@
 """Proposals for the next measurement, and taking one into the folder: a form and a program."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import partial
@@ -25,20 +23,10 @@ from plumb.lab.rounds import (
 )
 from plumb.lab.routes.project import ProjectAnswer, TheProject, show
 from plumb.lab.routes.verdict import TheBackground, board_and_known
-from plumb.plan.proposal import (
-    Next,
-    Proposal,
-    form_of,
-    headline_of,
-    program_of,
-    promise_of,
-    propose,
-    steps_of,
-)
+from plumb.plan.proposal import Next, Proposal, form_of, program_of, propose
 from plumb.text.answers import like
 from plumb.text.errors import InputError
 from plumb.text.files import numbered
-from plumb.text.values import shown_in
 
 router = APIRouter(tags=["next"])
 MOST_OTHERS = 7
@@ -56,39 +44,19 @@ class Taking(BaseModel):
     command: str
 
 
-class Other(BaseModel):
-    """Another thing to measure."""
+class Offer(BaseModel):
+    """A thing to measure."""
 
-    title: str
-    minutes: float
-    promise: str
+    proposal: Proposal
     taking: Taking | None  # None: it has no marks
 
 
-class ProposedMark(BaseModel):
-    """A mark to be measured next."""
-
-    name: str
-    target: tuple[float, float]  # [mm] machine frame
-
-
-class NextMeasurement(BaseModel):
-    """The next measurement."""
-
-    headline: str
-    steps: list[str]
-    marks: list[ProposedMark]
-    taking: Taking | None  # None: it is measured without marks
-    by_hand: str  # the first of the numbers that are measured directly; empty: none is
-    others: list[Other]
-    ordinary: Other | None  # what as many ordinary marks as patience allows would bring
-
-
 class NextAnswer(BaseModel):
-    """The proposal, or how far it is."""
+    """What to measure next, or how far that is worked out."""
 
     share: float
-    next: NextMeasurement | None
+    offers: list[Offer]  # the best first
+    ordinary: Proposal | None  # what as many ordinary marks as patience allows would bring
     nothing: bool  # nothing that can be proposed would tell more
     command: str
 
@@ -105,20 +73,15 @@ def show_next(project: TheProject, background: TheBackground) -> NextAnswer:
     """Return what to measure next."""
     inputs = inputs_of(project)
     answer = _proposed(project, background, inputs)
+    advice = answer.result
+    offers = offers_of(advice, partial(_taking, project, inputs, advice)) if advice else []
     said = command("next", *board_and_known(project, inputs))
-    measurement = None
-    if answer.result and answer.result.proposals:
-        with shown_in(project.choices.units):
-            measurement = measurement_of(
-                answer.result, partial(_taking, project, inputs, answer.result)
-            )
-        if measurement.taking:
-            said = measurement.taking.command
     return NextAnswer(
         share=answer.share,
-        next=measurement,
-        nothing=answer.result is not None and measurement is None,
-        command=said,
+        offers=offers,
+        ordinary=advice.blind if advice else None,
+        nothing=advice is not None and not offers,
+        command=offers[0].taking.command if offers and offers[0].taking else said,
     )
 
 
@@ -166,34 +129,15 @@ def _proposed(project: Project, background: Background, inputs: api.Inputs) -> A
     choices = project.choices
 
     def work(progress: Progress) -> Next:
-        with shown_in(choices.units):  # the steps say where
-            return propose(api.diagnose(inputs), inputs, progress=progress)
+        return propose(api.diagnose(inputs), inputs, progress=progress)
 
     return background.ask("next", f"{key_of(project)}\n{choices.units}", work)
 
 
-def measurement_of(advice: Next, taking: Callable[[int], Taking | None]) -> NextMeasurement:
-    """Return the proposals as the page shows them; `taking` says what it writes to take one."""
-    best, *others = advice.proposals
-    visits = best.option.visits
-    return NextMeasurement(
-        headline=headline_of(best),
-        steps=steps_of(best),
-        marks=[
-            ProposedMark(name=name, target=tuple(place))
-            for name, place in zip(visits.names, visits.targets.tolist(), strict=True)
-        ],
-        taking=taking(1),
-        by_hand=best.option.checks[0].name if best.option.checks else "",
-        others=[
-            _other(each, taking(place)) for place, each in enumerate(others[:MOST_OTHERS], start=2)
-        ],
-        ordinary=_other(advice.blind, None) if advice.blind else None,
-    )
-
-
-def _other(proposal: Proposal, taking: Taking | None) -> Other:
-    return like(Other, proposal.option, promise=promise_of(proposal), taking=taking)
+def offers_of(advice: Next, taking: Callable[[int], Taking | None]) -> list[Offer]:
+    """Return the proposals; `taking` says what it writes to take one."""
+    proposals = enumerate(advice.proposals[: MOST_OTHERS + 1], 1)
+    return [Offer(proposal=each, taking=taking(place)) for place, each in proposals]
 
 
 @dataclass(frozen=True)
@@ -233,14 +177,13 @@ def _written(project: Project, advice: Next, place: int) -> _Written | None:
     if not len(option.visits):
         return None
     settings = str(project.path(project.choices.settings))
-    with shown_in(project.choices.units):  # the form is in the unit of the tape
-        form = form_of(
-            advice,
-            place,
-            str(project.path(f"{STEM}.toml")),  # the text is the same under any name
-            settings=settings,
-            sheet=settings_in(settings).sheet,
-        )
+    form = form_of(
+        advice,
+        place,
+        str(project.path(f"{STEM}.toml")),  # the text is the same under any name
+        settings=settings,
+        sheet=settings_in(settings).sheet,
+    )
     for stem in numbered(STEM):
         name, cut_by = f"{stem}.toml", f"{stem}.nc"
         program = program_of(advice, place, cut_by, form=name) if option.is_cut else None

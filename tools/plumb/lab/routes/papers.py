@@ -1,7 +1,5 @@
 """Files to take along: a report, a sheet to print, the readings as a table, the folder."""
 
-from __future__ import annotations
-
 import io
 import zipfile
 from collections.abc import Callable, Mapping
@@ -28,7 +26,6 @@ from plumb.lab.routes.project import TheProject
 from plumb.marks.csv import marks_csv
 from plumb.pictures.grid_paper import grid_paper
 from plumb.text.errors import InputError
-from plumb.text.values import shown_in
 
 router = APIRouter(tags=["papers"])
 Paper = Literal["report.html", "marks.pdf", "readings.csv", "folder.zip"]
@@ -40,8 +37,7 @@ LONG_AGO = (1980, 1, 1, 0, 0, 0)  # so that equal folders make equal archives
 def take_along(name: Paper, project: TheProject) -> Response:
     """Return a file to keep or to print; nothing is written."""
     kind, made = _PAPERS[name]
-    with shown_in(project.choices.units):
-        content = made(project)
+    content = made(project)
     headers = {"content-disposition": f'attachment; filename="{name}"'}
     return Response(content, media_type=kind, headers=headers)
 

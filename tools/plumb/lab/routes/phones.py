@@ -1,13 +1,12 @@
 """Phones as a second pair of hands: how the next is paired, which there are, what they may do."""
 
-from __future__ import annotations
-
 from typing import Annotated, Literal
 
-from fastapi import APIRouter, Depends, Request, Response
+from fastapi import APIRouter, Body, Depends, Request, Response
 from pydantic import BaseModel, Field
 
-from plumb.lab.phones import COOKIE, Phone, Phones
+from plumb.lab.phones import COOKIE, Invitation, Phone, Phones
+from plumb.lab.routes.project import of_lab
 
 router = APIRouter(tags=["phones"])
 
@@ -15,10 +14,7 @@ router = APIRouter(tags=["phones"])
 class PhonesAnswer(BaseModel):
     """The phones of this lab."""
 
-    is_shared: bool
-    address: str  # for a phone's browser; empty: this computer is in no network
-    pin: str
-    code: str  # the address and the PIN as a QR code, the source of an image
+    invitation: Invitation | None  # None: the lab is not shared
     phones: list[Phone]
 
 
@@ -36,30 +32,14 @@ class Pairing(BaseModel):
     kind: Literal["iPhone", "iPad", "Android", "phone"] = "phone"
 
 
-class Permission(BaseModel):
-    """Whether a phone may move the machine, and change what else there is."""
-
-    may_move: bool
-
-
-def _phones(request: Request) -> Phones:
-    phones = request.app.state.phones
-    assert isinstance(phones, Phones)
-    return phones
-
-
-ThePhones = Annotated[Phones, Depends(_phones)]
+ThePhones = Annotated[Phones, Depends(of_lab("phones", Phones))]
 
 
 @router.get("/phones")
 def show_phones(phones: ThePhones) -> PhonesAnswer:
     """Return the phones, and how to pair another."""
-    if phones.sharing == "no":
-        return PhonesAnswer(is_shared=False, address="", pin="", code="", phones=[])
-    now = phones.invitation
-    return PhonesAnswer(
-        is_shared=True, address=now.address, pin=now.pin, code=now.picture, phones=phones.paired
-    )
+    shared = phones.sharing != "no"
+    return PhonesAnswer(invitation=phones.invitation if shared else None, phones=phones.paired)
 
 
 @router.post("/phones/pair")
@@ -78,9 +58,11 @@ def who_asks(request: Request) -> PhoneAnswer:
 
 
 @router.post("/phones/{number}/let")
-def let(number: int, permission: Permission, phones: ThePhones) -> PhonesAnswer:
+def let(
+    number: int, may_move: Annotated[bool, Body(embed=True)], phones: ThePhones
+) -> PhonesAnswer:
     """Let a phone move the machine, or no longer."""
-    phones.let(number, may_move=permission.may_move)
+    phones.let(number, may_move=may_move)
     return show_phones(phones)
 
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from functools import lru_cache
 from threading import Lock
 
 import numpy as np
@@ -15,7 +14,6 @@ from plumb.lab.known import measured_to, planned_priors, possible
 from plumb.lab.project import Choices, Layout
 from plumb.lab.rounds import (
     TITLES,
-    Place,
     command,
     grid_command,
     next_names,
@@ -27,18 +25,18 @@ from plumb.lab.rounds import (
 )
 from plumb.lab.routes.project import TheProject
 from plumb.marks.model import tape_sigma
-from plumb.model.plain import noun_of
 from plumb.model.predict import REACH_WORDS
 from plumb.model.reach import Give, Pull, Survey, conclusion_of, percent, survey_sheet
 from plumb.plan.preview import Preview, as_read, preview
 from plumb.settings.machine import MachineSettings
 from plumb.text.answers import like
 from plumb.text.errors import InputError
-from plumb.text.values import shown_in, worded
+from plumb.text.values import worded
 
 router = APIRouter(tags=["plan"])
 MOST_MARKS = 400
 COLUMNS, ROWS = 61, 31  # of the map of reach
+MOST_SEEN = 64  # plans that are kept
 
 
 class LayoutAnswer(BaseModel):
@@ -67,26 +65,11 @@ class PlanRequest(BaseModel):
     places: list[tuple[float, float]] = Field(default=[], max_length=MOST_MARKS)
 
 
-class PlannedEffect(BaseModel):
-    """An effect under a plan."""
-
-    name: str
-    noun: str
-    is_seen: bool  # proved in most cases, if it has its usual size
-    is_distinct: bool  # in most cases it is taken for no other effect
-    alike: list[str]  # nouns of effects it would be taken for
-
-
 class PlanAnswer(BaseModel):
     """Power of a plan to show and to name effects."""
 
-    marks: int
-    distances: int
+    preview: Preview
     minutes: float
-    sigma: float  # [mm] of a reading
-    effects: list[PlannedEffect]
-    seen: int  # effects that would show in their usual size
-    named: int  # effects that could be named in their usual size
     trouble: str  # why the sled cannot take this way; empty if it can
     command: str
 
@@ -144,12 +127,12 @@ def layout_advice(project: TheProject) -> AdviceAnswer:
     quickest.
     """
     settings, choices = opened(project), project.choices
-    previews = {layout: _looked(settings, choices, PlanRequest(layout=layout)) for layout in TITLES}
+    asked = {layout: PlanRequest(layout=layout) for layout in TITLES}
+    previews = {layout: DESK.seen(settings, choices, asked[layout]) for layout in TITLES}
     minutes = {layout: planned(settings, layout, ()).minutes for layout in TITLES}
     worth = {layout: (each.named, each.seen, -minutes[layout]) for layout, each in previews.items()}
     best = max(TITLES, key=lambda layout: worth[layout])
-    with shown_in(choices.units):
-        return AdviceAnswer(layout=best, sentence=_advice(previews, best, minutes[best]))
+    return AdviceAnswer(layout=best, sentence=_advice(previews, best, minutes[best]))
 
 
 def _advice(previews: Mapping[Layout, Preview], best: Layout, minutes: float) -> str:
@@ -173,6 +156,7 @@ class Desk:
 
     def __init__(self) -> None:
         self._lock, self._newest = Lock(), 0
+        self._seen: dict[str, Preview] = {}  # the latest, by what they follow from
 
     def look(self, settings: MachineSettings, choices: Choices, request: PlanRequest) -> Preview:
         """Return what a plan could tell. Raises InputError for a plan that a newer plan has
@@ -183,39 +167,19 @@ class Desk:
         with self._lock:
             if mine != self._newest:
                 raise InputError("another plan came meanwhile")
-            return _looked(settings, choices, request)
+            return self.seen(settings, choices, request)
 
-
-def _looked(settings: MachineSettings, choices: Choices, request: PlanRequest) -> Preview:
-    priors = tuple(sorted(planned_priors(possible(choices, settings)).items()))
-    places, sigma = tuple(request.places), tape_sigma(choices.fineness)
-    return _look(_Same(settings), request.layout, places, sigma, priors)
-
-
-class _Same:
-    """Settings as the key of a cache: what they say counts."""
-
-    def __init__(self, settings: MachineSettings) -> None:
-        self.settings, self._text = settings, repr(settings)
-
-    def __hash__(self) -> int:
-        return hash(self._text)
-
-    def __eq__(self, other: object) -> bool:
-        return isinstance(other, _Same) and self._text == other._text
-
-
-@lru_cache(maxsize=64)
-def _look(
-    same: _Same,
-    layout: Layout,
-    places: tuple[Place, ...],
-    sigma: float,
-    priors: tuple[tuple[str, float], ...],
-) -> Preview:
-    plan = planned(same.settings, layout, places)
-    marks = as_read(plan.touches, plan.spans)
-    return preview(same.settings, marks, sigma=sigma, priors=dict(priors))
+    def seen(self, settings: MachineSettings, choices: Choices, request: PlanRequest) -> Preview:
+        """Return what a plan could tell."""
+        priors, sigma = planned_priors(possible(choices, settings)), tape_sigma(choices.fineness)
+        said = repr((settings, request, sigma, sorted(priors.items())))
+        if said not in self._seen:
+            plan = planned(settings, request.layout, request.places)
+            marks = as_read(plan.touches, plan.spans)
+            latest = [*self._seen.items()][1 - MOST_SEEN :]
+            looked = preview(settings, marks, sigma=sigma, priors=priors)
+            self._seen = {**dict(latest), said: looked}
+        return self._seen[said]
 
 
 DESK = Desk()
@@ -227,18 +191,12 @@ def preview_plan(request: PlanRequest, project: TheProject) -> PlanAnswer:
     settings = opened(project)
     choices = project.choices
     plan = planned(settings, request.layout, request.places)
-    outlook = DESK.look(settings, choices, request)
     form, file = next_names(project)
-    made = grid_command(project, possible(choices, settings), plan, form=form, program=file)
-    return like(
-        PlanAnswer,
-        outlook,
-        marks=len(plan.touches),
-        distances=len(plan.spans),
+    return PlanAnswer(
+        preview=DESK.look(settings, choices, request),
         minutes=plan.minutes,
-        effects=_effects(outlook),
         trouble=_trouble(settings, request),
-        command=made,
+        command=grid_command(project, possible(choices, settings), plan, form=form, program=file),
     )
 
 
@@ -251,8 +209,7 @@ def reach(project: TheProject) -> ReachAnswer:
     choices = possible(choices, settings)
     known = expected_priors(measured_to(choices))
     expected = expected_anywhere(settings, known)
-    with shown_in(choices.units):
-        said = expected_sentence(expected)
+    said = expected_sentence(expected)
     rows, columns = len(survey.y), len(survey.x)
     verdicts = survey.reached.verdict.reshape(rows, columns)
     down = np.linspace(0, rows - 1, ROWS).round().astype(int)
@@ -283,19 +240,6 @@ def _trouble(settings: MachineSettings, request: PlanRequest) -> str:
     except (ValueError, InputError) as error:
         return str(error)
     return ""
-
-
-def _effects(outlook: Preview) -> list[PlannedEffect]:
-    return [
-        like(
-            PlannedEffect,
-            outline,
-            name=outline.effect,
-            noun=noun_of(outline.effect),
-            alike=[noun_of(name) for name in outline.alike],
-        )
-        for outline in outlook.outlines
-    ]
 
 
 def _extremes(survey: Survey) -> Iterable[ExtremeAnswer]:

@@ -1,14 +1,12 @@
 """The project: its files and choices, opening a file, saving a choice."""
 
-from __future__ import annotations
-
 import os
-from collections.abc import Iterator
-from contextlib import contextmanager
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
 from dataclasses import replace
 from pathlib import Path
 from tempfile import NamedTemporaryFile
-from typing import Annotated
+from typing import Annotated, TypeVar
 
 from fastapi import APIRouter, Depends, Request, UploadFile
 from pydantic import BaseModel
@@ -33,7 +31,7 @@ from plumb.model.predict import known_effects
 from plumb.settings.machine import MachineSettings
 from plumb.text.answers import like
 from plumb.text.errors import InputError
-from plumb.text.values import shown_in
+from plumb.text.values import show_in
 from plumb.vm.practice import Score, score, secret_in
 
 router = APIRouter(tags=["project"])
@@ -45,7 +43,6 @@ class Machine(BaseModel):
     """The machine of the opened settings. mm, N."""
 
     file: str
-    controller: str
     sheet: tuple[float, float]  # width, height
     frame: dict[str, float]  # by name of the setting
     effects: dict[str, dict[str, float]]
@@ -71,11 +68,27 @@ class ChoicesChange(BaseModel):
     read: str
 
 
-def project_of(request: Request) -> Project:
-    """Return the project that this server serves."""
+async def project_of(request: Request) -> Project:
+    """Return the project that this server serves; from now on lengths are shown in its unit."""
     project = request.app.state.project
     assert isinstance(project, Project)
+    with suppress(InputError, OSError):  # who reads the choices says what is wrong with them
+        show_in(project.choices.units)
     return project
+
+
+Kept = TypeVar("Kept")
+
+
+def of_lab(name: str, kind: type[Kept]) -> Callable[[Request], Kept]:
+    """Return what finds a thing that the server keeps under this name."""
+
+    def found(request: Request) -> Kept:
+        thing = getattr(request.app.state, name)
+        assert isinstance(thing, kind)
+        return thing
+
+    return found
 
 
 TheProject = Annotated[Project, Depends(project_of)]
@@ -183,8 +196,7 @@ def show_doubts(project: TheProject, file: str) -> DoubtsAnswer:
         priors=known.priors,
         checked=known.checked,
     )
-    with shown_in(choices.units):
-        doubts = doubted_readings(inputs)
+    doubts = doubted_readings(inputs)
     return DoubtsAnswer(
         file=file,
         digest=digest,

@@ -1,7 +1,5 @@
 """Readings of the tape: each is saved into a marks.toml as it is typed."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
@@ -82,31 +80,32 @@ class TypedReading(BaseModel):
     read: tuple[float, float] | None
 
 
-class TypedReadings(BaseModel):
-    """Readings for a form, and the digest of the form that the page knows.
+class FormChange(BaseModel):
+    """A change of a form, and the digest of the form that the page knows."""
+
+    file: str
+    digest: str
+
+
+class TypedReadings(FormChange):
+    """Readings for a form.
 
     `edges`: from which they count, whatever is chosen by now.
     """
 
-    file: str
-    digest: str
     edges: Edges
     readings: list[TypedReading]
 
 
-class TypedDistances(BaseModel):
+class TypedDistances(FormChange):
     """All distances of a form."""
 
-    file: str
-    digest: str
     distances: list[AskedDistance]
 
 
-class Fineness(BaseModel):
+class Fineness(FormChange):
     """The finest division of the tape [mm]; None: nothing is stated."""
 
-    file: str
-    digest: str
     finest: float | None
 
 

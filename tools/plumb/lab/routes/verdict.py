@@ -1,10 +1,8 @@
 """The verdict: a sentence, a card for each suspect, and what may act unseen."""
 
-from __future__ import annotations
-
 from typing import Annotated
 
-from fastapi import APIRouter, Depends, Request
+from fastapi import APIRouter, Depends
 from pydantic import BaseModel
 
 from plumb import api
@@ -17,32 +15,18 @@ from plumb.diagnosis.priors import LIKELIER
 from plumb.diagnosis.sizes import Size
 from plumb.diagnosis.unseen import Unseen, share_words, unseen_by
 from plumb.fit.compare import ComparedMark, Comparison
-from plumb.fit.expected import plausible_range
 from plumb.lab.background import Background, Progress, key_of
 from plumb.lab.project import Project
 from plumb.lab.residuals import Span, State, as_set, fitted_state, spans_of
 from plumb.lab.rounds import board_words, command, inputs_of, known_words, unit_words
-from plumb.lab.routes.project import TheProject
+from plumb.lab.routes.project import TheProject, of_lab
 from plumb.model.catalogue import every_effect
-from plumb.model.plain import plain_range, plain_size, plainly, ranked
+from plumb.model.plain import plainly, ranked
 from plumb.text.answers import like
-from plumb.text.values import shown_in, worded
+from plumb.text.values import worded
 
 router = APIRouter(tags=["verdict"])
 MOST_CARDS = 6
-
-
-class SizeAnswer(BaseModel):
-    """A fitted size in words, and its interval on the range that real machines have."""
-
-    said: str
-    range_said: str  # empty: no limit is known
-    value: float
-    low: float | None  # None: these marks say nothing of it
-    high: float | None
-    plausible_low: float | None
-    plausible_high: float | None
-    possible: bool  # whether its interval reaches what a real machine may have
 
 
 class EffectAnswer(BaseModel):
@@ -51,7 +35,7 @@ class EffectAnswer(BaseModel):
     name: str
     noun: str
     summary: str
-    sizes: list[SizeAnswer]
+    sizes: tuple[Size, ...]
     taken_up: str  # how much of it the refitted frame takes up
     remedy: str
     check: str  # how it is measured directly; empty if it cannot be
@@ -61,13 +45,10 @@ class Card(BaseModel):
     """A suspect: an effect, or several that act at once."""
 
     title: str
+    account: Together
     effects: list[EffectAnswer]
     odds: str  # in words; empty where there are none
-    chance: float  # of being it all
-    rms_after: float  # [mm]
-    noise_after: float  # [mm] that noise alone would leave
     share: float  # of what the frame leaves unexplained
-    possible: bool
     looks_like: list[str]
 
 
@@ -101,16 +82,7 @@ class VerdictAnswer(BaseModel):
     command: str
 
 
-def background_of(request: Request) -> Background:
-    """Return the thread of this server for long work."""
-    known = getattr(request.app.state, "background", None)
-    if known is None:
-        known = request.app.state.background = Background()
-    assert isinstance(known, Background)
-    return known
-
-
-TheBackground = Annotated[Background, Depends(background_of)]
+TheBackground = Annotated[Background, Depends(of_lab("background", Background))]
 
 
 @router.get("/verdict")
@@ -126,8 +98,7 @@ def show_verdict(project: TheProject, background: TheBackground) -> VerdictAnswe
         progress(0.6)
         decision = decide(inputs, diagnosis=diagnosis)
         progress(0.8)
-        with shown_in(choices.units):
-            return verdict_of(inputs, diagnosis, decision)
+        return verdict_of(inputs, diagnosis, decision)
 
     answer = background.ask("verdict", f"{key}\n{choices.units}", work)
     return VerdictAnswer(
@@ -209,12 +180,9 @@ def _card(diagnosis: Diagnosis, index: int, together: Together) -> Card:
     return Card(
         title=diagnosis.called(together),
         effects=[_effect(diagnosis, name, together) for name in together.effects],
+        account=together,
         odds="" if diagnosis.is_finding else odds_words(together.share),
-        chance=together.share,
-        rms_after=together.rms_after,
-        noise_after=together.noise_rms,
         share=together.explained_share(diagnosis.rms_before),
-        possible=together.possible,
         looks_like=_looks_like(diagnosis, index),
     )
 
@@ -239,23 +207,9 @@ def _effect(diagnosis: Diagnosis, name: str, together: Together) -> EffectAnswer
     return like(
         EffectAnswer,
         words,
-        sizes=[_size(name, size) for size in together.sizes[name]],
+        sizes=together.sizes[name],
         taken_up=share_words(ranked.hidden_share),
         check=f"{check['title']}, about {check['minutes']:.0f} minutes"
         if check and check["title"]
         else "",
-    )
-
-
-def _size(effect: str, size: Size) -> SizeAnswer:
-    name = f"{effect}.{size.name}"
-    known = plausible_range(name)
-    low, high = known.limits
-    return like(
-        SizeAnswer,
-        size,
-        said=plain_size(name, size.value, size.low, size.high),
-        range_said=plain_range(name, low, high) if low is not None and high is not None else "",
-        plausible_low=low,
-        plausible_high=high,
     )

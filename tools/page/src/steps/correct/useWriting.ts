@@ -44,7 +44,7 @@ export function useWriting(): Writing {
     undo: (known) =>
       change(
         reloading(async () => {
-          await send<Schemas["Undone"]>("POST", "correction/undo", known);
+          await send<Schemas["ProjectAnswer"]>("POST", "correction/undo", known);
           setWritten(undefined);
         }),
       ),

@@ -1,7 +1,7 @@
 // How a number went, fit by fit, with its 95 % interval.
 import type { Schemas } from "../../api/client";
 
-export function Course({ course }: { course: Schemas["NumberCourse"] }) {
+export function Course({ course }: { course: Schemas["Course"] }) {
   const { points } = course;
   const ends = points.flatMap(({ low, high }) => [low, high]);
   const [least, most] = [Math.min(...ends), Math.max(...ends)];
@@ -40,6 +40,6 @@ export function Course({ course }: { course: Schemas["NumberCourse"] }) {
   );
 }
 
-function said(course: Schemas["NumberCourse"]): string {
+function said(course: Schemas["Course"]): string {
   return `${course.noun}: ${course.points.map((point) => point.said).join(", then ")} ${course.unit}`;
 }

@@ -4,23 +4,23 @@ import { Bar } from "../../controls/Bar";
 import { Head } from "../../controls/Head";
 import { namedLength, type Unit } from "../../controls/lengths";
 
-type Round = Schemas["Round"];
+type Fit = Schemas["DiaryFit"];
 
-export function Errors({ rounds, units }: { rounds: Round[]; units: Unit }) {
-  const most = Math.max(...rounds.map(({ fit }) => fit.before_mm ?? 0), 0.1);
+export function Errors({ fits, units }: { fits: Fit[]; units: Unit }) {
+  const most = Math.max(...fits.map((fit) => fit.before_mm ?? 0), 0.1);
   const shown = (mm: number | null) => (mm === null ? "–" : namedLength(mm, units, 2));
   return (
     <table class="rounds">
       <Head names={["fit", "error before and after", "marks left out"]} />
       <tbody>
-        {rounds.map(({ fit, said }) => (
+        {fits.map((fit) => (
           <tr key={fit.at + fit.machine}>
             <th scope="row">
               {new Date(fit.at).toLocaleDateString(undefined, { dateStyle: "medium" })}
               <br />
               {fit.machine}, {fit.readings} readings
               <br />
-              {said}
+              {fit.said}
             </th>
             <td class="bars">
               <Bar share={(fit.before_mm ?? 0) / most} colour="var(--before)" />

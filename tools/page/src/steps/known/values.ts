@@ -1,11 +1,11 @@
-// What is read by hand and the number that it says: scale * curve(reading - zero), with how far each may be off.
+// What is read by hand and the number that it says: factor * curve(reading - zero), with how far each may be off.
 
 export type Curve = "straight" | "square" | "tangent squared";
 
 /** How a number is read. */
 export interface Way {
   zero: number;
-  scale: number;
+  factor: number;
   curve: Curve;
 }
 
@@ -27,17 +27,17 @@ const CURVES: Record<Curve, [(read: number) => number, (value: number) => number
 };
 
 /** The number that a reading says. */
-export function numberOf({ zero, scale, curve }: Way, read: Value): Value {
+export function numberOf({ zero, factor, curve }: Way, read: Value): Value {
   const [bend] = CURVES[curve];
   const from = read.value - zero;
-  return { value: scale * bend(from), sigma: Math.abs(scale) * rise(bend, from, read.sigma) };
+  return { value: factor * bend(from), sigma: Math.abs(factor) * rise(bend, from, read.sigma) };
 }
 
 /** The reading that says a number. */
-export function readingOf({ zero, scale, curve }: Way, known: Value): Value {
+export function readingOf({ zero, factor, curve }: Way, known: Value): Value {
   const [bend, straighten] = CURVES[curve];
-  const from = straighten(known.value / scale);
-  const sigma = known.sigma / Math.abs(scale);
+  const from = straighten(known.value / factor);
+  const sigma = known.sigma / Math.abs(factor);
   return { value: zero + from, sigma: rise(straighten, bend(from), sigma) };
 }
 

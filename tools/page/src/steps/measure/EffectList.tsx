@@ -1,19 +1,19 @@
 // Each effect under the plan: it could be named, it would show but look like another, or it stays hidden.
 import type { Layout } from "./plan";
 
-type Effect = Layout.Plan["effects"][number];
+type Effect = Layout.Plan["preview"]["outlines"][number];
 
 export function EffectList({ plan }: { plan: Layout.Plan }) {
   return (
     <details>
       <summary>Each cause by itself</summary>
       <ul class="tiles plain" aria-label="What these marks could tell">
-        {plan.effects.map((effect) => (
-          <li key={effect.name} class={`box ${tone(effect)}`}>
+        {plan.preview.outlines.map((effect, _, all) => (
+          <li key={effect.effect} class={`box ${tone(effect)}`}>
             <b>
               <span aria-hidden="true">{SIGN[tone(effect)]}</span> {effect.noun}
             </b>
-            <small>{words(effect)}</small>
+            <small>{words(effect, all)}</small>
           </li>
         ))}
       </ul>
@@ -29,10 +29,10 @@ function tone(effect: Effect): Tone {
   return effect.is_distinct ? "named" : "alike";
 }
 
-function words(effect: Effect): string {
+function words(effect: Effect, all: readonly Effect[]): string {
   if (!effect.is_seen) return "would stay hidden in its usual size";
   if (effect.is_distinct) return "would be found and named";
-  const [first, second] = effect.alike;
+  const [first, second] = effect.alike.map((name) => all.find((e) => e.effect === name)?.noun);
   const more = effect.alike.length - 2;
   const others = [first, second].filter(Boolean).join(", ");
   return others

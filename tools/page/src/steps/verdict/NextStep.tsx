@@ -21,8 +21,9 @@ interface NextParts {
 export function NextStep({ marks, next: { answer, refused } }: NextParts) {
   if (refused) return <p class="trouble">{refused}</p>;
   if (answer?.nothing) return <p>Nothing that can be proposed would tell more.</p>;
-  const next = answer?.next;
+  const next = answer?.offers[0]?.proposal;
   if (!next) return <Progress share={answer?.share ?? 0} label="The next measurement" />;
+  const { taking } = answer.offers[0] ?? {};
   return (
     <section class="next" aria-label="The next measurement">
       <h2>Next: {next.headline}</h2>
@@ -44,14 +45,14 @@ export function NextStep({ marks, next: { answer, refused } }: NextParts) {
           />
         )}
       </div>
-      {next.taking && (
+      {taking && (
         <p>
-          {next.taking.program
-            ? `${next.taking.program} cuts them, ${next.taking.form} waits for their readings.`
-            : `${next.taking.form} waits for them; nothing is cut.`}
+          {taking.program
+            ? `${taking.program} cuts them, ${taking.form} waits for their readings.`
+            : `${taking.form} waits for them; nothing is cut.`}
         </p>
       )}
-      <Others next={next} />
+      <Others {...answer} />
       <details class="command">
         <summary>In a terminal</summary>
         <code>{answer.command}</code>
@@ -63,33 +64,31 @@ export function NextStep({ marks, next: { answer, refused } }: NextParts) {
 /** The button of the screen once something is proposed. */
 export function NextAct({ next: { answer, refused } }: { next: Asked }) {
   const isVirtual = useMachine().kind === "virtual";
-  const next = answer?.next;
+  const next = answer?.offers[0];
   if (refused || !next) return null;
   if (next.taking) return <TakeMarks taking={next.taking} />;
   return (
-    <a class="button primary" href={`#/known/${next.by_hand}`}>
+    <a class="button primary" href={`#/known/${next.proposal.checks[0]?.name ?? ""}`}>
       {isVirtual ? "Measure it" : "Type what you measured"}
     </a>
   );
 }
 
-function Others({ next }: { next: NonNullable<NextAnswer["next"]> }) {
-  const all = [...next.others, ...(next.ordinary ? [next.ordinary] : [])];
+function Others({ offers: [, ...others], ordinary }: Pick<NextAnswer, "offers" | "ordinary">) {
+  const all = ordinary ? [...others, { proposal: ordinary, taking: null }] : others;
   if (all.length === 0) return null;
   const canTake = all.some((other) => other.taking);
   return (
     <table>
       <Head names={["other ways", "what it promises", ...(canTake ? [""] : [])]} />
       <tbody>
-        {all.map((other) => (
-          <tr key={other.title}>
+        {all.map(({ proposal: { title, minutes, promise }, taking }) => (
+          <tr key={title}>
             <th scope="row">
-              {other.title} <small>{Math.round(other.minutes)} minutes</small>
+              {title} <small>{Math.round(minutes)} minutes</small>
             </th>
-            <td>{other.promise}</td>
-            {canTake && (
-              <td>{other.taking && <TakeMarks taking={other.taking} title={other.title} />}</td>
-            )}
+            <td>{promise}</td>
+            {canTake && <td>{taking && <TakeMarks {...{ taking, title }} />}</td>}
           </tr>
         ))}
       </tbody>

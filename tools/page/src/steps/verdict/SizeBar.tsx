@@ -3,12 +3,12 @@ import type { Schemas } from "../../api/client";
 
 const ROOM = 8; // percent left and right of what is drawn
 
-export function SizeBar({ size }: { size: Schemas["SizeAnswer"] }) {
-  const known = [size.plausible_low, size.plausible_high, size.low, size.high, size.value, 0];
+export function SizeBar({ size }: { size: Schemas["Size"] }) {
+  const known = [...size.limits, size.low, size.high, size.value, 0];
   const ends = known.filter((end): end is number => end !== null);
   const [least, most] = [Math.min(...ends), Math.max(...ends)];
   const at = (value: number) => ROOM + ((100 - 2 * ROOM) * (value - least)) / (most - least || 1);
-  const [from, to] = [at(size.plausible_low ?? least), at(size.plausible_high ?? most)];
+  const [from, to] = [at(size.limits[0] ?? least), at(size.limits[1] ?? most)];
   return (
     <figure class="size">
       <figcaption>{size.said}</figcaption>

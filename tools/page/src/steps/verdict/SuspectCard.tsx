@@ -14,7 +14,7 @@ interface CardParts {
   lay?: () => void;
 }
 
-export function SuspectCard({ card, units, isLaid, lay }: CardParts) {
+export function SuspectCard({ card, card: { account }, units, isLaid, lay }: CardParts) {
   return (
     <article class="card" aria-label={card.title}>
       <div class="head">
@@ -29,13 +29,13 @@ export function SuspectCard({ card, units, isLaid, lay }: CardParts) {
             capital(card.title)
           )}
         </h3>
-        <b class={card.possible ? "" : "wrong"}>{card.possible ? card.odds : "no"}</b>
+        <b class={account.possible ? "" : "wrong"}>{account.possible ? card.odds : "no"}</b>
       </div>
-      {card.odds && card.possible && <Bar share={card.chance} colour="var(--after)" />}
+      {card.odds && account.possible && <Bar share={account.share} colour="var(--after)" />}
       {card.effects.flatMap(({ sizes }) =>
         sizes.map((size) => <SizeBar key={size.said} size={size} />),
       )}
-      {!card.possible && (
+      {!account.possible && (
         <p class="wrong">No real machine has such sizes: look for another cause.</p>
       )}
       <details>
@@ -55,8 +55,8 @@ export function SuspectCard({ card, units, isLaid, lay }: CardParts) {
           <dt>explains</dt>
           <dd>
             {Math.round(100 * card.share)} % of what the frame leaves; the error falls to{" "}
-            {namedLength(card.rms_after, units, 2)}, noise alone leaves{" "}
-            {namedLength(card.noise_after, units, 2)}
+            {namedLength(account.rms_after_mm, units, 2)}, noise alone leaves{" "}
+            {namedLength(account.noise_rms_mm, units, 2)}
           </dd>
           {card.looks_like.length > 0 && (
             <>
