@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from fields import INK, WOOD
 from fields import text as said
 from fingerprints import default_machine
+from plumb.pictures.drawing import INK, WOOD
 
 PICTURE = "docs/pictures/machine/numbers.svg"
 SCALE = 0.22  # [px/mm]

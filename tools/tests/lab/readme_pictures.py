@@ -6,6 +6,7 @@ It serves the example's machine, opens it in Chromium, and writes the pictures i
 Look at each before you commit it.
 """
 
+import base64
 import shutil
 import sys
 import tempfile
@@ -19,6 +20,7 @@ from screens import ROOT, at_rest, measured_machine
 from served_lab import ServedLab, serve
 
 PICTURES = ROOT / "docs/pictures"
+FRAME = 560  # [px] width of a screen among six
 PATIENCE_MS = 60_000  # of a busy computer
 
 
@@ -51,6 +53,22 @@ class Picture:
     size: tuple[int, int]
     scheme: str
     prepare: Callable[[Page], None]
+
+
+def frames(page: Page, lab: ServedLab) -> str:
+    """Return a page with the way of a calibration: six screens, each with its number."""
+    images = []
+    for step in ("open", "measure", "cut", "readings", "verdict", "correct"):
+        page.goto(f"{lab.url}#/{step}")
+        page.get_by_role("heading").first.wait_for()
+        at_rest(page)
+        images.append(base64.b64encode(page.screenshot()).decode())
+    figures = (
+        f'<img style="border: 1px solid" width="{FRAME}" src="data:image/png;base64,{image}">'
+        for image in images
+    )
+    style = "display: grid; grid-template-columns: repeat(2, auto); gap: 12px; width: max-content"
+    return f'<body style="margin: 0"><div style="{style}">{"".join(figures)}</div></body>'
 
 
 EACH = (
@@ -89,6 +107,9 @@ def main(folder: Path = PICTURES) -> None:
         for picture in EACH:
             take(browser, lab, picture, folder)
             print(folder / f"{picture.name}.png")
+        page = browser.new_page(viewport={"width": 1280, "height": 800}, reduced_motion="reduce")
+        page.set_content(frames(page, lab))
+        page.locator("div").screenshot(path=folder / "calibration.png")
         browser.close()
         lab.end()
 
