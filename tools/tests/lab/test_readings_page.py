@@ -103,7 +103,7 @@ def test_a_slip_is_ringed_and_its_correction_can_be_accepted(lab, page):
     with_form(lab, example_form(read=12))
     open_readings(lab, page)
     type_in(page, 8, "1211", "618")
-    ring = page.get_by_role("list", name="Readings that disagree")
+    ring = disagreeing(page)
     ring.get_by_text("Mark 8").wait_for(timeout=PATIENCE)
     assert page.locator(".cell.doubted legend").inner_text().startswith("8")
     at_rest(page)
@@ -115,7 +115,7 @@ def test_a_slip_is_ringed_and_its_correction_can_be_accepted(lab, page):
 
 
 def disagreeing(page):
-    return page.get_by_role("list", name="Readings that disagree")
+    return page.get_by_role("status").filter(has_text="Look at it")
 
 
 def test_each_distance_that_is_asked_has_its_field(lab, page):
@@ -158,7 +158,7 @@ def test_a_slip_in_a_distance_is_named_and_its_correction_can_be_accepted(lab, p
     open_readings(lab, page)
     disagreeing(page).get_by_text("Distance 4 to 12").wait_for(timeout=PATIENCE)
     doubted = page.get_by_label("Distance 4 to 12, mm", exact=True)
-    expect(page.locator(".spans li.doubted")).to_have_text("4 to 12")
+    expect(page.locator(".spans li.doubted")).to_contain_text("4 to 12")
     disagreeing(page).get_by_role("button", name="Look at it").click()
     expect(doubted).to_be_focused()
     disagreeing(page).get_by_role("button", name="Take 1515").click()
@@ -195,7 +195,7 @@ def twenty_five(lab):
 def test_on_a_phone_the_mark_that_is_typed_is_open_and_the_sheet_opens_another(lab, phone):
     twenty_five(lab)
     open_readings(lab, phone)
-    assert phone.locator(".cell").count() == 1
+    assert phone.locator(".cell:visible").count() == 1
     assert phone.evaluate("document.documentElement.scrollHeight") < 1800
     phone.get_by_label(LEFT.format(1), exact=True).click()
     for number in ("98", "106,5", "659.5", "110"):  # Enter goes on, from mark to mark
@@ -219,7 +219,7 @@ def test_on_a_phone_a_reading_that_disagrees_opens(lab, phone):
     with_form(lab, example_form(read=23).replace("[1221, 618]", "[1211, 618]"))
     open_readings(lab, phone)
     disagreeing(phone).get_by_text("Mark 8").wait_for(timeout=PATIENCE)
-    assert phone.get_by_label(LEFT.format(8), exact=True).count() == 0
+    expect(phone.get_by_label(LEFT.format(8), exact=True)).to_be_hidden()
     disagreeing(phone).get_by_role("button", name="Look at it").first.click()
     field = phone.get_by_label(LEFT.format(8), exact=True)
     assert field.evaluate("input => input === document.activeElement")

@@ -181,29 +181,54 @@ def test_correct_compares_the_file_the_accepted_numbers_and_all_numbers(lab, pag
     expect(states.nth(1)).to_be_checked()  # all of it
 
 
-def test_it_zooms_by_keys_and_buttons_and_scrolls_to_the_chosen_mark(verdict):
-    frame, drawing = verdict.locator(FRAME), verdict.locator(".sheet svg").last
-    seen, whole = frame.bounding_box(), drawing.bounding_box()
-    last = verdict.locator(".sheet circle.place").last
-    frame.focus()
-    verdict.keyboard.press("+")
-    verdict.get_by_role("button", name="Nearer").click()
-    at_rest(verdict)
-    assert drawing.bounding_box()["width"] == pytest.approx(2.56 * whole["width"], rel=0.03)
-    assert frame.bounding_box()["height"] == pytest.approx(seen["height"], rel=0.05)
-    size = verdict.locator(".sheet .axes text").first
-    assert size.evaluate("(text) => text.getScreenCTM().a") == pytest.approx(1, abs=0.02)
-    assert axe_findings(verdict) == []
-    frame.focus()
-    for key in ("Home", "End"):
-        verdict.keyboard.press(key)
-        expect(verdict.locator(".sheet circle.lit")).to_be_in_viewport()
-    expect(last).to_be_in_viewport()
-    verdict.get_by_role("button", name="Farther").click()
-    verdict.keyboard.press("0")
-    verdict.get_by_role("button", name="All").click()
-    at_rest(verdict)
-    assert drawing.bounding_box() == whole
+def middle_of(part):
+    box = part.bounding_box()
+    return box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+
+
+def test_it_is_enlarged_about_the_pointer_and_dragged(verdict):
+    page, wood = verdict, verdict.locator(".sheet .wood")
+    place = page.locator(".sheet circle.place").nth(8)
+    whole, at = wood.bounding_box(), middle_of(place)
+
+    def enlarged():
+        """How much larger it is drawn; text stays as large as it is read."""
+        at_rest(page)
+        letters = page.locator(".sheet .axes text").first
+        assert letters.evaluate("(text) => text.getScreenCTM().a") == pytest.approx(1, abs=0.02)
+        return wood.bounding_box()["width"] / whole["width"]
+
+    page.mouse.move(*at)
+    page.mouse.wheel(0, -50)
+    assert enlarged() == 1  # a wheel without Ctrl scrolls
+    page.keyboard.down("Control")
+    page.mouse.wheel(0, -50)
+    page.keyboard.up("Control")
+    assert enlarged() == pytest.approx(2**0.5, rel=0.01)
+    page.mouse.dblclick(*at)
+    assert enlarged() == pytest.approx(2**0.5 * 2.56, rel=0.01)
+    assert middle_of(place) == pytest.approx(at, abs=3)  # a click is at a whole pixel
+    at = middle_of(place)
+    page.locator(FRAME).press("Escape")
+    page.mouse.move(*at)
+    page.mouse.down()
+    page.mouse.move(at[0] + 40, at[1] - 30, steps=4)
+    page.mouse.up()
+    assert middle_of(place) == pytest.approx((at[0] + 40, at[1] - 30), abs=1)
+    page.mouse.move(5, 300)
+    expect(page.locator(".sheet circle.lit")).to_have_count(0)  # a drag chooses no mark
+    assert axe_findings(page) == []
+    page.get_by_role("button", name="Farther").click()
+    page.get_by_role("button", name="All").click()
+    assert enlarged() == 1
+    page.locator(FRAME).focus()
+    for key in ("+", "Home", "End"):
+        page.keyboard.press(key)
+    assert enlarged() == pytest.approx(1.6, rel=0.01)
+    expect(page.locator(".sheet circle.lit")).to_be_in_viewport()
+    page.keyboard.press("0")
+    at_rest(page)
+    assert wood.bounding_box() == whole
 
 
 def test_a_mark_stays_chosen_when_the_unit_changes(verdict):
@@ -229,7 +254,7 @@ def half_worked(asked):
     return lambda route: (asked.append(route), route.fulfill(json=answer))
 
 
-def test_on_a_phone_no_name_lies_over_another(lab, browser):
+def test_on_a_phone_no_name_lies_over_another_and_two_fingers_enlarge_it(lab, browser):
     measured_machine(lab.folder)
     context = browser.new_context(viewport={"width": 390, "height": 844}, has_touch=True)
     page = context.new_page()
@@ -241,6 +266,17 @@ def test_on_a_phone_no_name_lies_over_another(lab, browser):
     assert page.evaluate(OVERLAPPING) == []
     page.locator(".sheet circle.place").first.tap(force=True)
     expect(page.locator(CARD)).to_contain_text("Mark 1")
+    place, wood = page.locator(".sheet circle.place").nth(8), page.locator(".sheet .wood")
+    (x, y), whole = middle_of(place), wood.bounding_box()["width"]
+    fingers = context.new_cdp_session(page)
+    for apart in (30, 45, 60):
+        each = [{"x": x + side * apart, "y": y, "id": side + 1} for side in (-1, 1)]
+        kind = "touchStart" if apart == 30 else "touchMove"
+        fingers.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": each})
+    fingers.send("Input.dispatchTouchEvent", {"type": "touchEnd", "touchPoints": []})
+    at_rest(page)
+    assert wood.bounding_box()["width"] == pytest.approx(2 * whole, rel=0.02)
+    assert middle_of(place) == pytest.approx((x, y), abs=1)
     assert axe_findings(page) == []
     context.close()
 
@@ -268,5 +304,6 @@ def test_its_picture_is_saved_in_light_colours_with_its_date_and_its_settings(la
     assert re.search(r"Verdict · .* · 20\d\d-\d\d-\d\d · \w+\.\w+ [0-9a-f]{8}$", title), title
     content = saved("PNG")
     assert content.startswith(b"\x89PNG")
-    assert int.from_bytes(content[16:20], "big") > 1400  # twice its size on the page
+    wide = page.locator(".sheet svg").bounding_box()["width"]
+    assert int.from_bytes(content[16:20], "big") == pytest.approx(2 * wide, abs=2)
     context.close()

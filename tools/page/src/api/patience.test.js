@@ -30,12 +30,3 @@ test("what never answers is given up when the patience is over, not before", asy
   assert.ok(given.aborted);
   mock.timers.reset();
 });
-
-test("work that fails in time says why", async () => {
-  await assert.rejects(
-    inTime(1000, async () => {
-      throw new Error("refused");
-    }),
-    /refused/,
-  );
-});

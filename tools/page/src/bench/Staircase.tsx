@@ -1,6 +1,6 @@
 // How the error falls: what is left now in large figures, and each stair down to it with its bar.
-import { Head } from "../controls/Head";
 import { namedLength, shownLength, type Unit } from "../controls/lengths";
+import { Table } from "../controls/Table";
 import { useUnits } from "../controls/units";
 import type { Live, Stairs } from "./live";
 
@@ -34,42 +34,35 @@ function Staircase({ stairs, units }: { stairs: Stairs; units: Unit }) {
   const highest = Math.max(...stairs.stairs.map((stair) => stair.fit_rms), 1e-9);
   const number = (mm: number | null) => (mm === null ? "–" : shownLength(mm, units, 2));
   return (
-    <table class="stairs">
-      <caption>How the error falls [{units}]</caption>
-      <Head names={["with", "", "fit", "noise", "checked"]} />
-      <tbody>
-        {stairs.stairs.map((stair, i) => (
-          <tr key={`${i} ${stair.noun}`} class={stair.only_fit ? "only-fit" : ""}>
-            <th scope="row">
-              {stair.noun}{" "}
-              {stair.only_fit && <strong class="wrong">Only the fit got better.</strong>}
-            </th>
-            <td class="bars">
-              <svg viewBox="0 0 100 12" preserveAspectRatio="none" aria-hidden="true">
-                <rect
-                  class={i === 0 ? "fall as-set" : "fall"}
-                  width={(100 * stair.fit_rms) / highest}
-                  height="12"
-                />
-                {stair.noise_rms !== null && (
-                  <rect class="by-noise" width={(100 * stair.noise_rms) / highest} height="12" />
-                )}
-                {stair.left_out_rms !== null && (
-                  <line
-                    class="at-left-out"
-                    x1={Math.min(99, (100 * stair.left_out_rms) / highest)}
-                    x2={Math.min(99, (100 * stair.left_out_rms) / highest)}
-                    y2="12"
-                  />
-                )}
-              </svg>
-            </td>
-            <td title={namedLength(stair.fit_rms, units, 3)}>{number(stair.fit_rms)}</td>
-            <td>{number(stair.noise_rms)}</td>
-            <td>{number(stair.left_out_rms)}</td>
-          </tr>
-        ))}
-      </tbody>
-    </table>
+    <Table
+      class="wide stairs"
+      caption={`How the error falls [${units}]`}
+      names={["with", "", "fit", "noise", "checked"]}
+      tone={(row) => (stairs.stairs[row]?.only_fit ? "only-fit" : "")}
+      rows={stairs.stairs.map((stair, i) => [
+        <>
+          {stair.noun} {stair.only_fit && <strong class="wrong">Only the fit got better.</strong>}
+        </>,
+        <svg key={i} viewBox="0 0 100 12" preserveAspectRatio="none" aria-hidden="true">
+          <rect
+            class={i === 0 ? "fall as-set" : "fall"}
+            width={(100 * stair.fit_rms) / highest}
+            height="12"
+          />
+          {stair.noise_rms !== null && (
+            <rect class="by-noise" width={(100 * stair.noise_rms) / highest} height="12" />
+          )}
+          {stair.left_out_rms !== null && (
+            <line
+              class="at-left-out"
+              x1={Math.min(99, (100 * stair.left_out_rms) / highest)}
+              x2={Math.min(99, (100 * stair.left_out_rms) / highest)}
+              y2="12"
+            />
+          )}
+        </svg>,
+        ...[stair.fit_rms, stair.noise_rms, stair.left_out_rms].map(number),
+      ])}
+    />
   );
 }

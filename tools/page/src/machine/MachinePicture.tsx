@@ -39,38 +39,24 @@ export function MachinePicture({ machine, marked, words = "" }: PictureParts) {
     >
       <rect class="wood" x={-width / 2} y={-height / 2} width={width} height={height} />
       <line class="beam" x1={-gap / 2 - 90} x2={gap / 2 + 90} y1={-up} y2={-up} />
-      {[-1, 1].map((side) => (
-        <g key={side}>
-          <Chain from={[(side * gap) / 2, -up]} to={sled} ring={ring} marked={marked === "chain"} />
-          <circle class="motor" cx={(side * gap) / 2} cy={-up} r={55} />
-        </g>
-      ))}
+      {[-gap / 2, gap / 2].map((x) => {
+        const [dx, dy] = [sled[0] - x, sled[1] + up];
+        const share = 1 - ring / Math.hypot(dx, dy);
+        return (
+          <g key={x}>
+            <path
+              class={marked === "chain" ? "chain marked" : "chain"}
+              d={`M${x} ${-up}l${dx * share} ${dy * share}`}
+            />
+            <circle class="motor" cx={x} cy={-up} r={55} />
+          </g>
+        );
+      })}
       <circle class="sled" cx={sled[0]} cy={sled[1]} r={230} />
       <circle class="ring" cx={sled[0]} cy={sled[1]} r={ring} />
       <circle class="bit" cx={sled[0]} cy={sled[1]} r={16} />
       {marked && <Marked {...{ marked, words, width, height, gap, up, ring, sled }} />}
     </svg>
-  );
-}
-
-interface ChainParts {
-  from: [number, number];
-  to: [number, number];
-  ring: number;
-  marked: boolean;
-}
-
-function Chain({ from, to, ring, marked }: ChainParts) {
-  const length = Math.hypot(to[0] - from[0], to[1] - from[1]);
-  const share = (length - ring) / length;
-  return (
-    <line
-      class={marked ? "chain marked" : "chain"}
-      x1={from[0]}
-      y1={from[1]}
-      x2={from[0] + (to[0] - from[0]) * share}
-      y2={from[1] + (to[1] - from[1]) * share}
-    />
   );
 }
 

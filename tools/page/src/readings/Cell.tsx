@@ -1,7 +1,7 @@
 // Where a mark is, from the two edges. What is typed stays as it was typed; half a reading waits in this browser.
 import { useState } from "preact/hooks";
 import type { Schemas } from "../api/client";
-import { lengthText, noLength, typedLength, type Unit } from "../controls/lengths";
+import { lengthText, namedLength, noLength, typedLength, type Unit } from "../controls/lengths";
 import { type HalfPlace, halfOf, keepHalf, type Texts } from "./halves";
 import type { Place } from "./useReadings";
 
@@ -16,6 +16,8 @@ interface CellParts {
   /** Its place among the halves that wait. */
   place: HalfPlace;
   doubted: boolean;
+  /** A phone shows the cell that is open, where there are many. */
+  isOpen: boolean;
   /** Another mark of this name comes before it. */
   again: boolean;
   /** Goes on to the mark after it. */
@@ -26,7 +28,8 @@ interface CellParts {
 }
 
 export function Cell(parts: CellParts) {
-  const { mark, value, units, from, edges, place, doubted, again, next, change, paste } = parts;
+  const { mark, value, units, from, edges, place, doubted, isOpen, again, next, change, paste } =
+    parts;
   const [texts, setTexts] = useState<Texts | undefined>(() => halfOf(place, edges));
   const saysValue = texts && (value ? means(texts, value, units) : !complete(texts, units));
   const said = saysValue ? texts : undefined;
@@ -43,8 +46,11 @@ export function Cell(parts: CellParts) {
     keepHalf(place, isHalf ? { edges, texts: typed } : undefined);
   };
   return (
-    <fieldset class={doubted ? "cell box doubted" : "cell box"} id={`mark-${mark.index}`}>
-      <legend>{name}</legend>
+    <fieldset
+      class={`cell ${doubted ? "doubted" : ""} ${isOpen ? "open" : ""}`}
+      id={`mark-${mark.index}`}
+    >
+      <legend class="name">{name}</legend>
       {([0, 1] as const).map((axis) => {
         const text = shown[axis] ?? "";
         const reason = lacks([shown[0] ?? "", shown[1] ?? ""], axis, from, units);
@@ -79,8 +85,14 @@ export function Cell(parts: CellParts) {
           </span>
         );
       })}
+      <span class="off soft">{doubted ? "look again" : offBy(mark, units)}</span>
     </fieldset>
   );
+}
+
+/** How far a mark is from where it was sent. */
+function offBy({ place, target: [x, y] }: CellParts["mark"], units: Unit): string {
+  return place ? namedLength(Math.hypot(place[0] - x, place[1] - y), units) : "";
 }
 
 /** Why a field keeps its mark from being read; empty if it does not. */

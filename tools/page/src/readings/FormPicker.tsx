@@ -1,6 +1,6 @@
 // Which form is typed into, and a file of marks from elsewhere.
 import { sendFile } from "../api/client";
-import { useDo } from "../shell/doing";
+import { PickFile } from "../shell/PickFile";
 import { useProject } from "../shell/project";
 import type { Form } from "./useReadings";
 
@@ -36,26 +36,16 @@ export function FormPicker({ form, choose }: FormPickerParts) {
 /** A file of readings from elsewhere; folded away where a form is open. */
 export function FileOfReadings({ form, choose }: FormPickerParts) {
   const { reload } = useProject();
-  const [, run, refusal] = useDo();
-  const pick = async (input: HTMLInputElement) => {
-    const file = input.files?.[0];
-    if (!file) return;
-    await run(async () => {
-      choose((await sendFile<Form>("marks", file)).file);
-      await reload();
-    });
-    input.value = "";
-  };
   const picker = (
-    <label class="box pick">
-      Open a file of readings
-      <input
-        type="file"
-        accept=".toml,.csv,.ini"
-        onChange={(event) => void pick(event.currentTarget)}
-      />
-      {refusal}
-    </label>
+    <PickFile
+      title="Open a file of readings"
+      hint="a form, or a table of a spreadsheet"
+      accept=".toml,.csv,.ini"
+      take={async (file) => {
+        choose((await sendFile<Form>("marks", file)).file);
+        await reload();
+      }}
+    />
   );
   if (form.files.length === 0) return picker;
   return (

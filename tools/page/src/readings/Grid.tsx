@@ -1,9 +1,13 @@
 // The cells of the marks, row by row as they lie on the sheet; on a phone that of the open mark, and the sheet opens others.
+import { Fragment } from "preact";
+import { Trouble } from "../controls/Trouble";
 import { useUnits } from "../controls/units";
+import { Changed } from "../shell/Changed";
 import { useProject } from "../shell/project";
 import { Cell } from "./Cell";
+import { DoubtAt } from "./DoubtAt";
 import { pasted } from "./paste";
-import { useNarrow } from "./useNarrow";
+import type { Doubt } from "./useDoubts";
 import type { Form, TypedForm } from "./useReadings";
 
 const FEW = 4; // marks whose cells a phone shows all at once
@@ -11,10 +15,10 @@ const FEW = 4; // marks whose cells a phone shows all at once
 interface GridParts {
   form: Form;
   readings: TypedForm;
-  doubted: ReadonlySet<number>;
+  doubts: readonly Doubt[];
 }
 
-export function Grid({ form, readings, doubted }: GridParts) {
+export function Grid({ form, readings, doubts }: GridParts) {
   const { key } = useProject().project;
   const { kept, open, pick } = readings;
   const { edges, file, marks } = form;
@@ -23,30 +27,35 @@ export function Grid({ form, readings, doubted }: GridParts) {
   const order = [...marks].sort(
     ({ target: [x, y] }, { target: [x2, y2] }) => y2 - y || x - x2, // a repeat stays behind
   );
-  const isFolded = useNarrow() && marks.length > FEW;
   const next = (index: number) => {
     const after = order[order.findIndex((mark) => mark.index === index) + 1];
     if (after) pick(after.index);
   };
   return (
-    <div class="cells tiles">
-      <p class="from soft">
-        In each cell: {units} from the <b>{across}</b> edge, then from the <b>{upright}</b> edge.
-        {isFolded && " Touch a mark on the sheet to open it."}
+    <div class={marks.length > FEW ? "cells many" : "cells"}>
+      <p class="cell-names soft">
+        <span class="name">mark</span>
+        <span class="half">
+          from the <b>{across}</b>
+        </span>
+        <span class="half">
+          from the <b>{upright}</b>
+        </span>
+        <span class="off">off by</span>
       </p>
       {order.map((mark, i) => {
         const { index, name } = mark;
-        if (isFolded && index !== open) return null;
-        return (
+        const doubt = doubts.find((each) => each.is_mark && each.index === index);
+        const cell = (
           <Cell
-            key={`${file}/${index}/${edges}`}
+            isOpen={index === open}
             mark={mark}
             value={kept.value[index]}
             units={units}
             from={[across, upright]}
             edges={edges}
             place={{ key, file, index }}
-            doubted={doubted.has(index)}
+            doubted={doubt !== undefined}
             again={order.findIndex((other) => other.name === name) < i}
             next={() => next(index)}
             change={(value) =>
@@ -62,7 +71,15 @@ export function Grid({ form, readings, doubted }: GridParts) {
             }}
           />
         );
+        return (
+          <Fragment key={`${file}/${index}/${edges}`}>
+            {cell}
+            <DoubtAt {...{ doubt, form, readings }} />
+          </Fragment>
+        );
       })}
+      <Changed kept={kept} />
+      <Trouble>{kept.refused}</Trouble>
     </div>
   );
 }

@@ -2,7 +2,7 @@
 import { useMemo } from "preact/hooks";
 import { lengthText } from "../controls/lengths";
 import { useUnits } from "../controls/units";
-import { Sheet } from "../sheet/Sheet";
+import { Sheet, Taped } from "../sheet/Sheet";
 import { useScale } from "../sheet/scale";
 import type { Form } from "./useReadings";
 
@@ -23,6 +23,7 @@ export function ReadingsMap({ form, doubted, pick }: MapParts) {
     across === "left" ? -width / 2 : width / 2,
     upright === "top" ? height / 2 : -height / 2,
   ] as const;
+  const places = new Map(form.marks.map(({ name, target }) => [name, target]));
   const key = [...doubted].join();
   const [marks, states] = useMemo(() => {
     const all = form.marks.map(({ index, name, target, place, read: typed }) => ({
@@ -54,7 +55,7 @@ export function ReadingsMap({ form, doubted, pick }: MapParts) {
       press={(mark) => pick(form.marks[mark]?.index ?? mark)}
     >
       {fromEdges && <Edges size={form.sheet} zero={zero} />}
-      <Taped form={form} />
+      <Taped lines={form.spans.map((ends) => ends.map((name) => places.get(name)))} />
     </Sheet>
   );
 }
@@ -62,25 +63,9 @@ export function ReadingsMap({ form, doubted, pick }: MapParts) {
 /** The edges that the tape measures from. */
 function Edges({ size: [width, height], zero: [x, y] }: { size: Pair; zero: Pair }) {
   const { at } = useScale();
-  const [left, right] = [at([-width / 2, y]), at([width / 2, y])];
-  const [top, foot] = [at([x, height / 2]), at([x, -height / 2])];
-  return (
-    <path
-      class="edges"
-      d={`M${left.join(" ")}L${right.join(" ")}M${top.join(" ")}L${foot.join(" ")}`}
-    />
-  );
+  const [[left, up], [right, down]] = [at([-width / 2, height / 2]), at([width / 2, -height / 2])];
+  const [across, along] = at([x, y]);
+  return <path class="edges" d={`M${left} ${along}H${right}M${across} ${up}V${down}`} />;
 }
 
 type Pair = readonly [number, number];
-
-/** The distances that are asked for. */
-function Taped({ form }: { form: Form }) {
-  const { at } = useScale();
-  const places = new Map(form.marks.map((mark) => [mark.name, at(mark.target)]));
-  const lines = form.spans.map(([from, to]) => {
-    const [start, end] = [places.get(from), places.get(to)];
-    return start && end ? `M${start.join(" ")}L${end.join(" ")}` : "";
-  });
-  return <path class="taped" d={lines.join("")} />;
-}

@@ -1,22 +1,23 @@
 // Distances between marks: those that a form asks for, in the order in which they are measured, then all others.
-import { useEffect, useRef, useState } from "preact/hooks";
+import type { ComponentChildren } from "preact";
 import { lengthText, noLength, typedLength } from "../controls/lengths";
 import { useUnits } from "../controls/units";
+import { useTyped } from "../controls/useTyped";
+import { DoubtAt } from "./DoubtAt";
 import { beyond, lengthBetween, withInstead, withLength } from "./distances";
 import { useDistances } from "./useDistances";
 import type { Doubt } from "./useDoubts";
-import type { Form } from "./useReadings";
+import type { Form, TypedForm } from "./useReadings";
 
 interface SpansParts {
   form: Form;
-  take: (form: Form) => void;
-  doubts: Doubt[];
+  readings: TypedForm;
+  doubts: readonly Doubt[];
 }
 
-export function Spans({ form, take, doubts }: SpansParts) {
-  const save = useDistances(form, take);
+export function Spans({ form, readings, doubts }: SpansParts) {
+  const save = useDistances(form, readings.take);
   const { file, spans, distances } = form;
-  const doubted = new Set(doubts.filter((doubt) => !doubt.is_mark).map((doubt) => doubt.index));
   const others = beyond(distances, spans);
   if (spans.length + others.length === 0) return null;
   return (
@@ -26,13 +27,14 @@ export function Spans({ form, take, doubts }: SpansParts) {
         ...others.map((measured) => ({ span: measured.between, measured, isAsked: false })),
       ].map(({ span, measured, isAsked }, i) => {
         const index = measured ? distances.indexOf(measured) : -1;
+        const doubt = doubts.find((each) => !each.is_mark && each.index === index);
         return (
           <Span
             key={`${file}/${i}`}
             name={span.join(" to ")}
             index={index}
             length={measured?.length}
-            doubted={doubted.has(index)}
+            doubt={doubt && <DoubtAt {...{ doubt, form, readings }} />}
             keep={(length) =>
               void save((all) =>
                 isAsked || !measured
@@ -52,22 +54,16 @@ interface SpanParts {
   /** Its place among the distances of the form; -1 if it is not measured. */
   index: number;
   length: number | undefined;
-  doubted: boolean;
+  doubt: ComponentChildren;
   keep: (length: number | undefined) => void;
 }
 
-function Span({ name, index, length, doubted, keep }: SpanParts) {
+function Span({ name, index, length, doubt, keep }: SpanParts) {
   const units = useUnits();
   const saved = length === undefined ? "" : lengthText(length, units);
-  const [text, setText] = useState(saved);
-  const typed = typedLength(text, units);
-  const wrong = text.trim() !== "" && !(typed && typed > 0);
-  // Text that is not a length stays in view until it is corrected; the previous number no longer counts.
-  const stays = useRef(false);
-  stays.current = wrong;
-  useEffect(() => {
-    if (!stays.current || saved !== "") setText(saved);
-  }, [saved]);
+  const isWrong = (text: string) => text.trim() !== "" && !((typedLength(text, units) ?? 0) > 0);
+  const [text, setText] = useTyped(saved, isWrong);
+  const [typed, wrong] = [typedLength(text, units), isWrong(text)];
   const reason = noLength(text, units) || (wrong ? "a distance is above zero" : "");
   const reasonId = `span-${name.replaceAll(" ", "-")}`;
   const done = () => {
@@ -76,7 +72,7 @@ function Span({ name, index, length, doubted, keep }: SpanParts) {
     if (length !== undefined || saved !== "") keep(length);
   };
   return (
-    <li id={index < 0 ? undefined : `distance-${index}`} class={doubted ? "doubted" : ""}>
+    <li id={index < 0 ? undefined : `distance-${index}`} class={doubt ? "doubted" : ""}>
       <label class="row">
         <span>{name}</span>
         <input
@@ -104,6 +100,7 @@ function Span({ name, index, length, doubted, keep }: SpanParts) {
           {reason}
         </small>
       )}
+      {doubt}
     </li>
   );
 }

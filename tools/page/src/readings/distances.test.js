@@ -1,7 +1,7 @@
 // Runs with `node --test`.
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { beyond, lengthBetween, withInstead, withLength } from "./distances.ts";
+import { beyond, withInstead } from "./distances.ts";
 
 const [near, far, again] = [
   { between: ["1", "2"], length: 500 },
@@ -24,11 +24,6 @@ test("what is gone by now takes nothing with it", () => {
   assert.deepEqual(withInstead([near], far, again), [near, again]);
 });
 
-test("a span has its first length, whichever end is named first", () => {
-  assert.equal(lengthBetween([far, near, again], ["2", "1"]), near);
-  assert.equal(lengthBetween([far], ["1", "2"]), undefined);
-});
-
 test("what was not asked, or measured once more, is beyond", () => {
   const spans = [
     ["2", "1"],
@@ -36,12 +31,4 @@ test("what was not asked, or measured once more, is beyond", () => {
   ];
   assert.deepEqual(beyond([near, far, again], spans), [far, again]);
   assert.deepEqual(beyond([near], []), [near]);
-});
-
-test("a length that is typed for a span is added, replaced, or taken out", () => {
-  const typed = { between: ["2", "1"], length: 7 };
-  assert.deepEqual(withLength([far], ["2", "1"], 7), [far, typed]);
-  assert.deepEqual(withLength([near, far], ["2", "1"], 7), [typed, far]);
-  assert.deepEqual(withLength([near, far], ["2", "1"], undefined), [far]);
-  assert.deepEqual(withLength([far], ["2", "1"], undefined), [far]);
 });

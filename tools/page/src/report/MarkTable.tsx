@@ -1,6 +1,6 @@
 // Each mark with its error, for who holds the report as paper and cannot point at a mark.
-import { Head } from "../controls/Head";
 import { shownLength, type Unit } from "../controls/lengths";
+import { Table } from "../controls/Table";
 import type { VerdictParts } from "../steps/verdict/words";
 
 export function MarkTable({ verdict, units }: { verdict: VerdictParts; units: Unit }) {
@@ -17,23 +17,19 @@ export function MarkTable({ verdict, units }: { verdict: VerdictParts; units: Un
         From the middle of the sheet, x right, y up. Off by: read − where the settings put it. Left:
         what {left?.title} leaves, on the sheet and as left and right chain.
       </p>
-      <table class="readings-read">
-        <Head names={["mark", "target", "read", "off by", "left", "chains"]} />
-        <tbody>
-          {verdict.marks.map((mark, i) => (
-            <tr key={i} class={verdict.doubted.includes(i) ? "doubted" : ""}>
-              <th scope="row">
-                {mark.name} {verdict.doubted.includes(i) && "(read it again)"}
-              </th>
-              <td>{pair(mark.target, 1)}</td>
-              <td>{pair(mark.measured, 1)}</td>
-              <td>{pair(mark.error, 2)}</td>
-              <td>{pair(left?.errors[i], 2)}</td>
-              <td>{pair(left?.chains[i], 2)}</td>
-            </tr>
-          ))}
-        </tbody>
-      </table>
+      <Table
+        class="readings-read"
+        names={["mark", "target", "read", "off by", "left", "chains"]}
+        tone={(row) => (verdict.doubted.includes(row) ? "doubted" : "")}
+        rows={verdict.marks.map((mark, i) => [
+          `${mark.name} ${verdict.doubted.includes(i) ? "(read it again)" : ""}`,
+          pair(mark.target, 1),
+          pair(mark.measured, 1),
+          pair(mark.error, 2),
+          pair(left?.errors[i], 2),
+          pair(left?.chains[i], 2),
+        ])}
+      />
     </section>
   );
 }

@@ -1,6 +1,6 @@
 // A saved report: the verdict as the lab shows it, the numbers, and where all of it is from. It asks nobody.
 import type { Project, Schemas } from "../api/client";
-import { Head } from "../controls/Head";
+import { Table } from "../controls/Table";
 import { Shares } from "../shell/Shares";
 import { ByHand, Why } from "../steps/Correct";
 import { NumberTable } from "../steps/correct/NumberTable";
@@ -71,20 +71,14 @@ function Sources({ about }: { about: About }) {
   return (
     <section>
       <h2>Where this comes from</h2>
-      <table>
-        <Head names={["file", "name", "fingerprint (SHA-256)"]} />
-        <tbody>
-          {about.files.map(({ what, name, digest }) => (
-            <tr key={digest}>
-              <th scope="row">{what}</th>
-              <td>{name}</td>
-              <td>
-                <code>{digest}</code>
-              </td>
-            </tr>
-          ))}
-        </tbody>
-      </table>
+      <Table
+        names={["file", "name", "fingerprint (SHA-256)"]}
+        rows={about.files.map(({ what, name, digest }) => [
+          what,
+          name,
+          <code key={digest}>{digest}</code>,
+        ])}
+      />
       <p>
         Made by {about.versions}. The same again: <code>{about.command}</code>
       </p>

@@ -10,17 +10,20 @@ export type Covariate = Schemas["BenchCovariate"];
 export type Left = Schemas["State"];
 type Curve = Drawn["curves"][string][0];
 
+/** Most effects are a curve against the first two. */
 const TITLES: Record<string, string> = {
-  x: "x on the sheet",
-  y: "y on the sheet",
   tension: "tension of the chain",
   length: "length of the chain",
+  x: "x on the sheet",
+  y: "y on the sheet",
   angle: "angle of the chain",
   wrap: "chain on the sprocket",
   phase: "turn of the sprocket",
   order: "order of cutting",
   approach: "way of the last move",
 };
+const STRIP = 3; // plots in view, and beside them that against noise
+const BEYOND_NOISE = 1.96; // sigmas: noise alone makes a larger error in 5 % of the chains
 const ORDER = Object.keys(TITLES);
 const SIDES = ["left", "right"] as const;
 const INCH = 25.4;
@@ -31,6 +34,7 @@ interface PlotsParts {
   scale: State; // the dots of this state fit
   drawn: Drawn | undefined;
   doubted: readonly number[];
+  sigma: number; // [mm] of a reading
   units: Unit;
   selected: number | undefined;
   select: (mark: number | undefined) => void;
@@ -43,25 +47,29 @@ export function Plots(parts: PlotsParts) {
     (1.1 * Math.max(...[scale, state].map(({ chains }) => largest(chains, doubted)), 0.1)) / unit;
   const sorted = [...covariates].sort((a, b) => ORDER.indexOf(a.name) - ORDER.indexOf(b.name));
   const same = sorted.filter(isSame);
+  const plots = sorted
+    .filter((each) => !isSame(each))
+    .map((each) => <AgainstCovariate key={each.name} {...parts} covariate={each} most={most} />);
   return (
     <section class="plots" aria-labelledby="plots-title">
       <p class="keys row">
         <b id="plots-title">
-          Where it fails: {state.title} [{units}]
+          {state.title} [{units}]
         </b>
         <span class="key left">left chain</span> <span class="key right">right chain</span>
+        <span class="key noise">noise</span>
         {drawn && <span class="key laid">{drawn.noun}, fitted</span>}
       </p>
       {/* biome-ignore lint/a11y/noNoninteractiveTabindex: on a narrow page it is a strip that keys move */}
       <section class="grid tiles" tabIndex={0} aria-label="Plots">
-        {sorted
-          .filter((each) => !isSame(each))
-          .map((each) => (
-            <AgainstCovariate key={each.name} {...parts} covariate={each} most={most} />
-          ))}
+        {plots.slice(0, STRIP)}
         <AgainstNoise {...parts} />
       </section>
-      {same.length > 0 && <p class="soft">Not drawn: {same.map(saidSame).join("; ")}.</p>}
+      <details>
+        <summary>{plots.length - STRIP} more views</summary>
+        <div class="grid tiles">{plots.slice(STRIP)}</div>
+        {same.length > 0 && <p>Not drawn: {same.map(saidSame).join("; ")}.</p>}
+      </details>
     </section>
   );
 }
@@ -72,12 +80,13 @@ interface CovariateParts extends PlotsParts {
 }
 
 function AgainstCovariate(parts: CovariateParts) {
-  const { covariate, state, drawn, units, most, selected, select } = parts;
+  const { covariate, state, drawn, sigma, units, most, selected, select } = parts;
   const unit = units === "inch" ? INCH : 1;
   const [by, name] = covariate.unit === "mm" ? [unit, units] : [1, covariate.unit];
   const title = TITLES[covariate.name] ?? covariate.name;
   const ends = extremes(covariate);
   const curves = drawn?.curves[covariate.name];
+  const noise = (BEYOND_NOISE * sigma) / unit;
   return (
     <Plot
       title={name ? `${title}, ${name}` : title}
@@ -94,34 +103,40 @@ function AgainstCovariate(parts: CovariateParts) {
       }))}
       selected={selected}
       select={select}
-      below={(x, y) =>
-        SIDES.map((kind, side) =>
-          curves ? (
-            <CurvePath
-              key={kind}
-              kind={kind}
-              curve={curves[side as 0 | 1]}
-              x={(value) => x(value / by)}
-              y={(value) => y(value / unit)}
-              ends={ends}
-            />
-          ) : (
-            drawn && (
-              <path
+      below={(x, y) => (
+        <>
+          <path
+            class="curve noise band"
+            d={`M${x(ends[0] / by)} ${y(noise)}H${x(ends[1] / by)}V${y(-noise)}H${x(ends[0] / by)}z`}
+          />
+          {SIDES.map((kind, side) =>
+            curves ? (
+              <CurvePath
                 key={kind}
-                class={`strokes ${kind}`}
-                d={drawn.chains
-                  .map((pair, i) => {
-                    const [at, value] = [covariate.values[i]?.[side], pair[side]];
-                    if (at == null || value == null) return "";
-                    return `M${(x(at / by) - 5).toFixed(1)} ${y(value / unit).toFixed(1)}h10`;
-                  })
-                  .join("")}
+                kind={kind}
+                curve={curves[side as 0 | 1]}
+                x={(value) => x(value / by)}
+                y={(value) => y(value / unit)}
+                ends={ends}
               />
-            )
-          ),
-        )
-      }
+            ) : (
+              drawn && (
+                <path
+                  key={kind}
+                  class={`strokes ${kind}`}
+                  d={drawn.chains
+                    .map((pair, i) => {
+                      const [at, value] = [covariate.values[i]?.[side], pair[side]];
+                      if (at == null || value == null) return "";
+                      return `M${(x(at / by) - 5).toFixed(1)} ${y(value / unit).toFixed(1)}h10`;
+                    })
+                    .join("")}
+                />
+              )
+            ),
+          )}
+        </>
+      )}
     />
   );
 }

@@ -65,12 +65,13 @@ export function Residuals(parts: ResidualsParts) {
           scale={frame}
           drawn={laid}
           doubted={doubted}
+          sigma={sigma}
           units={units}
           selected={selected}
           select={select}
         />
       ),
-    [covariates, marks, plotted, frame, laid, units, selected, doubted],
+    [covariates, marks, plotted, frame, laid, units, selected, doubted, sigma],
   );
   if (!state) return null;
   const taped = { spans, state, doubted: doubtedSpans, sigma, units };

@@ -1,7 +1,7 @@
 // Measured distances: a line for each, the thicker the farther it is off, and the same as a table.
 import type { Schemas } from "../api/client";
-import { Head } from "../controls/Head";
 import { shownLength, type Unit } from "../controls/lengths";
+import { Table } from "../controls/Table";
 import type { Mark } from "../sheet/marks";
 import { useScale } from "../sheet/scale";
 import type { Pair } from "../sheet/view";
@@ -84,18 +84,15 @@ export function SpanTable({ spans, state, doubted, sigma, units }: SpanParts) {
         <span class="key within">within noise</span>
         {doubted.length > 0 && <span class="key doubted">to be read again</span>}
       </p>
-      <table>
-        <Head names={["between", "measured", "off by"]} />
-        <tbody>
-          {rows.map(({ span, error, kind }) => (
-            <tr key={`${span.between} ${span.measured}`} class={kind}>
-              <th scope="row">{span.between.join(" and ")}</th>
-              <td>{shownLength(span.measured, units)}</td>
-              <td>{error == null ? "read it again" : signed(error, units)}</td>
-            </tr>
-          ))}
-        </tbody>
-      </table>
+      <Table
+        names={["between", "measured", "off by"]}
+        tone={(row) => rows[row]?.kind}
+        rows={rows.map(({ span, error }) => [
+          span.between.join(" and "),
+          shownLength(span.measured, units),
+          error == null ? "read it again" : signed(error, units),
+        ])}
+      />
     </section>
   );
 }

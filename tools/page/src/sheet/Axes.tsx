@@ -28,35 +28,28 @@ export function Axes({ units, origin }: AxesParts) {
   const along = (axis: 0 | 1, room: number) => {
     const shown = (mm: number) => ((mm - origin.zero[axis]) * origin.way[axis]) / unit;
     const count = Math.max(3, Math.floor(room / APART));
-    return ticks(shown(ends[0][axis]), shown(ends[1][axis]), count).map((tick) => ({
-      tick,
-      mm: origin.zero[axis] + tick * unit * origin.way[axis],
-    }));
+    return ticks(shown(ends[0][axis]), shown(ends[1][axis]), count).map((tick) => {
+      const mm = origin.zero[axis] + tick * unit * origin.way[axis];
+      const [x, y] = at([mm, mm]);
+      const { left, top } = plot;
+      return (
+        <g key={`${axis} ${tick}`}>
+          <path d={axis === 0 ? `M${x} ${top}V${plot.bottom}` : `M${left} ${y}H${plot.right}`} />
+          <text
+            x={axis === 0 ? x : left - 6}
+            y={axis === 0 ? plot.bottom + 16 : y + 5}
+            text-anchor={axis === 0 ? "middle" : "end"}
+          >
+            {tickText(tick)}
+          </text>
+        </g>
+      );
+    });
   };
   return (
     <g class="axes">
-      {along(0, plot.right - plot.left).map(({ tick, mm }) => {
-        const x = at([mm, 0])[0];
-        return (
-          <g key={`x${tick}`}>
-            <line x1={x} x2={x} y1={plot.top} y2={plot.bottom} />
-            <text x={x} y={plot.bottom + 16} text-anchor="middle">
-              {tickText(tick)}
-            </text>
-          </g>
-        );
-      })}
-      {along(1, plot.bottom - plot.top).map(({ tick, mm }) => {
-        const y = at([0, mm])[1];
-        return (
-          <g key={`y${tick}`}>
-            <line x1={plot.left} x2={plot.right} y1={y} y2={y} />
-            <text x={plot.left - 6} y={y + 5} text-anchor="end">
-              {tickText(tick)}
-            </text>
-          </g>
-        );
-      })}
+      {along(0, plot.right - plot.left)}
+      {along(1, plot.bottom - plot.top)}
       <text x={4} y={plot.bottom + 16}>
         {units}
       </text>

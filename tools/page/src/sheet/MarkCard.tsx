@@ -1,4 +1,5 @@
 // What is known of the mark that somebody points at.
+import { Fragment } from "preact";
 import { namedLength, shownLength, type Unit } from "../controls/lengths";
 import type { Ends, Mark } from "./marks";
 import type { Pair } from "./view";
@@ -13,38 +14,30 @@ interface CardParts {
 export function MarkCard({ mark, error, chains, units }: CardParts) {
   const pair = ([x, y]: Pair) => `${minus(x, units)}, ${minus(y, units)}`;
   const [left = null, right = null] = chains ?? [];
+  const facts = [
+    ["target", pair(mark.target)],
+    ["read", mark.measured && pair(mark.measured)],
+    ["error", error && way(error, units)],
+    [
+      "chains",
+      (left !== null || right !== null) &&
+        `left ${chain(left, units)}, right ${chain(right, units)}`,
+    ],
+    ["tape", mark.also],
+  ];
   return (
     <>
       <b>Mark {mark.name}</b>
       {error && <b> {namedLength(Math.hypot(...error), units, 2)} off</b>}
       <dl>
-        <dt>target</dt>
-        <dd>{pair(mark.target)}</dd>
-        {mark.measured && (
-          <>
-            <dt>read</dt>
-            <dd>{pair(mark.measured)}</dd>
-          </>
-        )}
-        {error && (
-          <>
-            <dt>error</dt>
-            <dd>{way(error, units)}</dd>
-          </>
-        )}
-        {(left !== null || right !== null) && (
-          <>
-            <dt>chains</dt>
-            <dd>
-              left {chain(left, units)}, right {chain(right, units)}
-            </dd>
-          </>
-        )}
-        {mark.also && (
-          <>
-            <dt>tape</dt>
-            <dd>{mark.also}</dd>
-          </>
+        {facts.map(
+          ([name, said]) =>
+            said && (
+              <Fragment key={name}>
+                <dt>{name}</dt>
+                <dd>{said}</dd>
+              </Fragment>
+            ),
         )}
       </dl>
     </>

@@ -1,7 +1,7 @@
 // The sheet from the front: its marks and their errors, with axes, the same on every screen.
 // Places are mm in the machine frame: the origin is the middle of the sheet, y runs up.
 import type { ComponentChildren } from "preact";
-import { useContext, useLayoutEffect, useMemo, useRef, useState } from "preact/hooks";
+import { useContext, useId, useLayoutEffect, useMemo, useRef, useState } from "preact/hooks";
 import { useUnits } from "../controls/units";
 import { Axes, Legend, legendHeight, MIDDLE, type Origin } from "./Axes";
 import { MarkCard } from "./MarkCard";
@@ -10,7 +10,7 @@ import type { Mark, State } from "./marks";
 import { Save } from "./Save";
 import { Divide, halves, Slider } from "./Slider";
 import { States } from "./States";
-import { type Scale, ScaleContext, SheetSize, scaleOf, useScale } from "./scale";
+import { type Scale, ScaleContext, SheetSize, useScale } from "./scale";
 import { usePointing } from "./usePointing";
 import { useZoom } from "./useZoom";
 import { factorFor, type Pair } from "./view";
@@ -52,11 +52,11 @@ export function Sheet(parts: SheetParts) {
   const usual = useContext(SheetSize);
   const units = useUnits();
   const size = parts.size ?? usual;
-  const frame = useRef<HTMLDivElement>(null);
   const drawing = useRef<SVGSVGElement>(null);
   const wide = useWidth(drawing);
-  const zoom = useZoom(frame);
-  const scale = useMemo(() => scaleOf(size, wide), [size[0], size[1], wide]);
+  const zoom = useZoom(size, wide);
+  const { scale } = zoom;
+  const clip = useId();
   const [line, slide] = useState(0); // [mm] of the slider
   const before = parts.slides && shown > 0 ? states[0] : undefined;
   const after = states[shown];
@@ -64,12 +64,10 @@ export function Sheet(parts: SheetParts) {
   const factors = useMemo(() => states.map((_, i) => usualFactor(parts, size, i)), [states, sigma]);
   const hasArrows = state?.errors.some((error) => error) ?? false;
   const factor = hasArrows ? factors[before ? 0 : shown] : undefined;
-  const pointing = usePointing(parts, scale, zoom, factor ?? 0);
+  const pointing = usePointing(parts, zoom, factor ?? 0);
   const { selected } = pointing;
   const keys = { ...KEYS, onKeyDown: pointing.onKeyDown };
-  const whole = wide / zoom.times;
-  const high = (across: number) =>
-    scaleOf(size, across).plot.bottom + legendHeight(across, hasArrows);
+  const { left, right, top, bottom } = scale.plot;
   return (
     <>
       {states.length > 1 && show && (
@@ -80,34 +78,36 @@ export function Sheet(parts: SheetParts) {
       )}
       <figure class="sheet">
         <div class="board">
-          <div
-            ref={frame}
-            class="frame"
-            style={zoom.times > 1 ? { aspectRatio: `${whole} / ${high(whole)}` } : undefined}
-            {...keys}
-          >
+          <div class="frame" {...keys}>
             <svg
               ref={drawing}
-              viewBox={`0 0 ${wide} ${high(wide)}`}
-              style={{ width: `${100 * zoom.times}%` }}
+              class={zoom.times > 1 ? "enlarged" : ""}
+              viewBox={`0 0 ${wide} ${bottom + legendHeight(wide, hasArrows)}`}
               role="img"
               aria-label={label}
               {...pointing.pointer}
             >
               <ScaleContext.Provider value={scale}>
-                <Wood size={size} />
+                <clipPath id={clip}>
+                  <rect x={left} y={top} width={right - left} height={bottom - top} />
+                </clipPath>
+                <g clip-path={zoom.times > 1 ? `url(#${clip})` : undefined}>
+                  <Wood size={size} />
+                </g>
                 <Axes units={units} origin={parts.origin ?? MIDDLE} />
-                {parts.children}
-                {before && <Divide x={line} />}
-                <Marks
-                  marks={marks}
-                  state={state}
-                  ghosts={parts.ghosts?.errors}
-                  print={parts.print}
-                  factor={factor ?? 0}
-                  sigma={sigma}
-                  selected={selected}
-                />
+                <g clip-path={zoom.times > 1 ? `url(#${clip})` : undefined}>
+                  {parts.children}
+                  {before && <Divide x={line} />}
+                  <Marks
+                    marks={marks}
+                    state={state}
+                    ghosts={parts.ghosts?.errors}
+                    print={parts.print}
+                    factor={factor ?? 0}
+                    sigma={sigma}
+                    selected={selected}
+                  />
+                </g>
                 <Legend
                   units={units}
                   factor={factor}
@@ -147,6 +147,15 @@ export function Sheet(parts: SheetParts) {
       </figure>
     </>
   );
+}
+
+/** The lines along which a tape is laid, from place to place [mm]. */
+export function Taped({ lines }: { lines: readonly (readonly (Pair | undefined)[])[] }) {
+  const { at } = useScale();
+  const drawn = lines.map(
+    ([from, to]) => from && to && `M${at(from).join(" ")}L${at(to).join(" ")}`,
+  );
+  return <path class="taped" d={drawn.join("")} />;
 }
 
 function Wood({ size }: { size: Pair }) {

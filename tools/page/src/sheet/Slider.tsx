@@ -23,7 +23,7 @@ interface SliderParts {
 
 export function Slider({ x, wide, move, left, right }: SliderParts) {
   return (
-    <label class="slide">
+    <label class="slide tick">
       <span>{left}</span>
       <input
         type="range"

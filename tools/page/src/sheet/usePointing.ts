@@ -1,14 +1,14 @@
 // Which mark is meant: by a mouse that points at it, a finger that touches it, keys that go to it.
 import { useRef, useState } from "preact/hooks";
 import type { SheetParts } from "./Sheet";
-import type { Scale } from "./scale";
 import type { Zoom } from "./useZoom";
 import { markAt, nearest, pointIn } from "./view";
 
 const [MOUSE, FINGER] = [24, 32]; // [px] as far as a mark is meant
 
-export function usePointing(parts: SheetParts, scale: Scale, zoom: Zoom, factor: number) {
+export function usePointing(parts: SheetParts, zoom: Zoom, factor: number) {
   const { marks, states, shown = 0, press } = parts;
+  const { scale } = zoom;
   const [inner, setInner] = useState<number>();
   const isPinned = useRef(false);
   const [selected, select] = parts.select ? [parts.selected, parts.select] : [inner, setInner];
@@ -46,7 +46,9 @@ export function usePointing(parts: SheetParts, scale: Scale, zoom: Zoom, factor:
   return {
     selected,
     pointer: {
+      ...zoom.pointer,
       onPointerMove: (event: PointerEvent) => {
+        zoom.pointer.onPointerMove(event);
         if (event.pointerType === "touch" || event.buttons || isPinned.current) return;
         const mark = meant(event, MOUSE);
         if (mark !== selected) select(mark);
@@ -55,6 +57,7 @@ export function usePointing(parts: SheetParts, scale: Scale, zoom: Zoom, factor:
         if (!isPinned.current && selected !== undefined) select(undefined);
       },
       onClick: (event: MouseEvent) => {
+        if (zoom.takesClick(event)) return;
         const mark = meant(event, FINGER);
         pin(mark);
         if (mark !== undefined) press?.(mark);

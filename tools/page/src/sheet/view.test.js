@@ -1,7 +1,7 @@
 // Runs with `node --test`.
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { factorFor, markAt, nearest, rounded, ticks } from "./view.ts";
+import { factorFor, rounded, ticks } from "./view.ts";
 
 test("arrows are the longest that a sixth of the sheet allows, by a round factor", () => {
   assert.equal(factorFor([[3, 4], null], 2440, 0), 50);
@@ -21,27 +21,4 @@ test("ticks are round, few, and from end to end whichever end comes first", () =
   assert.deepEqual(ticks(0.3, -0.3, 4), [-0.2, 0, 0.2]);
   assert.deepEqual(ticks(2, 2, 4), []);
   assert.deepEqual([1, 4.9, 5, 0.03, 700].map(rounded), [1, 2, 5, 0.02, 500]);
-});
-
-test("a key goes to the mark next to it in that direction", () => {
-  const places = [
-    [-10, 5],
-    [0, 5],
-    [10, 5],
-    [-10, -5],
-    [0, -5],
-  ];
-  assert.equal(markAt("ArrowRight", places, undefined), 0);
-  assert.equal(markAt("ArrowRight", places, 0), 1);
-  assert.equal(markAt("ArrowLeft", places, 2), 1);
-  assert.equal(markAt("ArrowDown", places, 1), 4);
-  assert.equal(markAt("ArrowUp", places, 1), 1);
-  assert.equal(markAt("End", places, 1), 4);
-  assert.equal(markAt("x", places, 1), undefined);
-});
-
-test("the nearest within reach is meant", () => {
-  const places = [[0, 0], null, [10, 0]];
-  assert.equal(nearest([7, 1], places, 5), 2);
-  assert.equal(nearest([5, 9], places, 5), undefined);
 });

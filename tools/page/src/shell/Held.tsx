@@ -2,8 +2,8 @@
 // before it is answered.
 
 import { send } from "../api/client";
-import { Head } from "../controls/Head";
 import { setting } from "../controls/settings";
+import { Table } from "../controls/Table";
 import { Do } from "./doing";
 import { isReady, type Machine, subject, useMachine } from "./machine";
 import { useProject, useTell } from "./project";
@@ -39,18 +39,16 @@ function Question({ held, machine }: { held: HeldAnswer; machine: Machine }) {
       <h2>
         {subject(machine)} holds other numbers than {file}. Which hold?
       </h2>
-      <table>
-        <Head names={["number", file, "the machine"]} />
-        <tbody>
-          {numbers.slice(0, SHOWN).map((each) => (
-            <tr key={each.number}>
-              <th scope="row">{each.name}</th>
-              <td>{setting(each.number, each.in_file, each.unit)}</td>
-              <td>{setting(each.number, each.in_machine, each.unit)}</td>
-            </tr>
-          ))}
-        </tbody>
-      </table>
+      <Table
+        names={["number", file, "the machine"]}
+        rows={numbers
+          .slice(0, SHOWN)
+          .map(({ name, number, unit, in_file, in_machine }) => [
+            name,
+            setting(number, in_file, unit),
+            setting(number, in_machine, unit),
+          ])}
+      />
       {numbers.length > SHOWN && <p>and {numbers.length - SHOWN} more.</p>}
       <p class="row">
         <Do disabled={blocked} work={() => tell("machine/settings")}>

@@ -9,7 +9,7 @@ import { MachineBar } from "./MachineBar";
 import { MachineContext, useLiveMachine } from "./machine";
 import { Pair } from "./Pair";
 import { type Loaded, type Shared, useSharedProject } from "./project";
-import { Screen } from "./Screen";
+import { Screen as Framed } from "./Screen";
 import { Shares } from "./Shares";
 import { ROOMS, STEPS, type Step } from "./steps";
 import { Way, WayOn } from "./Way";
@@ -19,11 +19,11 @@ const NOWHERE: Step = {
   id: "nowhere",
   title: "No such screen",
   Screen: () => (
-    <Screen title="No such screen" say="The address names no screen of the lab.">
+    <Framed title="No such screen" say="The address names no screen of the lab.">
       <a class="go" href="#/open">
         To the machine
       </a>
-    </Screen>
+    </Framed>
   ),
   needs: () => "",
 };
@@ -91,10 +91,7 @@ function Main({ step, shared, loaded }: { step: Step; shared: Shared; loaded: Lo
         <Held />
       </div>
       {missing ? (
-        <section class="screen">
-          <h1>{step.title}</h1>
-          <p class="soft">This screen opens later: {missing}.</p>
-        </section>
+        <Framed title={step.title} say={`This screen opens later: ${missing}.`} />
       ) : (
         <Screen key={step.id} />
       )}

@@ -23,44 +23,30 @@ interface ScreenParts {
 
 export function Screen(parts: ScreenParts) {
   const { title, say, why, command, busy, stage, fieldsFirst, act, children } = parts;
-  const asks = (
-    <div class="asks">
-      <h1>{title}</h1>
-      <p class="say">{say}</p>
-    </div>
-  );
-  const work = (
-    <>
-      {children}
-      {why && (
-        <details class="why">
-          <summary>Why?</summary>
-          {why}
-        </details>
-      )}
-      {command && (
-        <details class="command">
-          <summary>In a terminal</summary>
-          <code>{command}</code>
-        </details>
-      )}
-    </>
-  );
-  const acts = act && <div class="act">{act}</div>;
-  if (!stage)
-    return (
-      <section class="screen" aria-busy={busy}>
-        {asks}
-        {work}
-        {acts}
-      </section>
-    );
+  const look = ["screen", stage && "two", fieldsFirst && "fields-first"].filter(Boolean).join(" ");
   return (
-    <section class={fieldsFirst ? "screen two fields-first" : "screen two"} aria-busy={busy}>
-      {asks}
-      <div class="stage">{stage}</div>
-      <div class="work">{work}</div>
-      {acts}
+    <section class={look} aria-busy={busy}>
+      <div class="asks">
+        <h1>{title}</h1>
+        <p class="say">{say}</p>
+      </div>
+      {stage && <div class="stage">{stage}</div>}
+      <div class="work">
+        {children}
+        {why && (
+          <details class="why">
+            <summary>Why?</summary>
+            {why}
+          </details>
+        )}
+        {command && (
+          <details class="command">
+            <summary>In a terminal</summary>
+            <code>{command}</code>
+          </details>
+        )}
+      </div>
+      {act && <div class="act">{act}</div>}
     </section>
   );
 }

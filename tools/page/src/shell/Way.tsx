@@ -33,7 +33,7 @@ export function Way({ project, here }: WayParts) {
   return (
     <nav aria-label="Steps" class={open ? "open" : ""}>
       <button type="button" class="fold" aria-expanded={open} onClick={() => setOpen(!open)}>
-        {number > 0 ? `${number} of ${STEPS.length}: ${title}` : title}
+        {number > 0 ? `${number} ${title}` : title}
         <span aria-hidden="true">{open ? "▴" : "▾"}</span>
       </button>
       <div class="links">

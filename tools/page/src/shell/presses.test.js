@@ -23,26 +23,6 @@ beforeEach(() => {
   );
 });
 
-test("a press is sent until it is answered, and its answer is said", async () => {
-  void presses.press("stop");
-  for (let i = 0; i < 3; i++) {
-    asked[i].fail(SILENCE);
-    await breath();
-    assert.equal(asked.length, i + 1); // it rests in between
-    rests[i]();
-    await breath();
-  }
-  assert.deepEqual(
-    asked.map(({ way }) => way),
-    ["stop", "stop", "stop", "stop"],
-  );
-  assert.deepEqual(heard.at(-1), ["stop", "unanswered", ""]);
-  asked[3].answer();
-  await breath();
-  assert.deepEqual(heard.at(-1), ["stop", "done", ""]);
-  assert.equal(rests.length, 3);
-});
-
 test("what is refused is said and not sent again", async () => {
   void presses.press("hold");
   asked[0].fail(new Error("no machine is connected"));

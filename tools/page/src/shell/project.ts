@@ -48,7 +48,6 @@ export const SILENT = "The lab does not answer";
 /** What the frame knows: the project once it is loaded, and choices that may still wait. */
 export interface Loaded {
   shared: Shared | undefined;
-  choices: Kept<Choices>;
   trouble: string;
   /** This phone is not paired, or was sent away: the server answers it nothing. */
   isStranger: boolean;
@@ -83,7 +82,7 @@ export function useSharedProject(): Loaded {
     trouble,
     setTrouble,
   };
-  return { shared, choices, trouble: trouble || choices.refused, isStranger, reload };
+  return { shared, trouble: trouble || choices.refused, isStranger, reload };
 }
 
 function useLoadedProject(setTrouble: (change: (line: string) => string) => void) {

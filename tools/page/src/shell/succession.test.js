@@ -35,14 +35,6 @@ beforeEach(() => {
   succession = new Succession();
 });
 
-test("a save before the answer to the save before it waits, and builds on it", async () => {
-  const saves = [succession.save(FIRST, added(1)), succession.save(FIRST, added(2))];
-  await breath();
-  assert.equal(asked.length, 1);
-  await answerAll();
-  assert.deepEqual((await Promise.all(saves)).at(-1).list, [1, 2]);
-});
-
 test("who still knows what was there long ago saves onto what is there now", async () => {
   for (const number of [1, 2, 3]) {
     const saved = succession.save(FIRST, added(number));
@@ -50,21 +42,6 @@ test("who still knows what was there long ago saves onto what is there now", asy
     await saved;
   }
   assert.deepEqual(disk.list, [1, 2, 3]);
-});
-
-test("what somebody else saved is not replaced unseen; once it is seen it may be", async () => {
-  const mine = succession.save(FIRST, added(1));
-  await answerAll();
-  await mine;
-  disk = { digest: "theirs", list: [8] };
-  const late = assert.rejects(succession.save(FIRST, added(2)), /changed/);
-  await answerAll();
-  await late;
-  assert.deepEqual(disk.list, [8]);
-  succession.learn(disk);
-  const again = succession.save(disk, added(2));
-  await answerAll();
-  assert.deepEqual((await again).list, [8, 2]);
 });
 
 test("a state that comes back is not taken for what replaced it", async () => {

@@ -3,13 +3,6 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { Turns } from "./turns.ts";
 
-test("answers in order count", () => {
-  const turns = new Turns();
-  const [first, second] = [turns.begin(), turns.begin()];
-  assert.ok(turns.counts(first));
-  assert.ok(turns.counts(second));
-});
-
 test("an answer that a later one has overtaken does not count", () => {
   const turns = new Turns();
   const [first, second] = [turns.begin(), turns.begin()];

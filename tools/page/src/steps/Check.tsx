@@ -16,7 +16,6 @@ import { Promised } from "./check/Promised";
 import { Refused } from "./correct/Refused";
 import { useWriting } from "./correct/useWriting";
 import { brokenWords, useGoOn } from "./cut/GoOn";
-import "./check/check.css";
 
 export type CheckAnswer = Schemas["CheckAnswer"];
 

@@ -15,6 +15,7 @@ import { useGoOn } from "./cut/GoOn";
 import { NewSheet } from "./cut/NewSheet";
 import { Outcome, Read, ToReadings } from "./cut/Outcome";
 import { Pauses } from "./cut/Pauses";
+import { Running } from "./cut/Running";
 import { useSetChains } from "./cut/SetChains";
 import "./cut/cut.css";
 
@@ -48,7 +49,11 @@ function OpenCut({ grid }: { grid: Grid }) {
   });
   const [chains, setChains] = useSetChains();
   const acts = {
-    wait: null,
+    wait: (
+      <button type="button" disabled>
+        Readings open after mark {grid.marks.at(-1)?.name}
+      </button>
+    ),
     connect: null,
     read: <Read grid={grid} />,
     chains: setChains,
@@ -63,7 +68,7 @@ function OpenCut({ grid }: { grid: Grid }) {
       title={
         runs ? running(machine) : `Cut ${grid.marks.length} ${grid.is_proposed ? "more " : ""}marks`
       }
-      say={runs ? whileRunning(machine, grid) : grid.is_proposed ? PROPOSED : CHOSEN}
+      say={runs ? whileRunning(machine) : grid.is_proposed ? PROPOSED : CHOSEN}
       why={<Why />}
       command={grid.command}
       stage={<CutMap grid={grid} />}
@@ -71,7 +76,7 @@ function OpenCut({ grid }: { grid: Grid }) {
       act={acts[next]}
     >
       <Trouble>{grid.trouble}</Trouble>
-      {!runs && <Pauses grid={grid} />}
+      {runs ? <Running grid={grid} machine={machine} /> : <Pauses grid={grid} />}
       <Outcome grid={grid} isRead={next === "read"} />
       {next === "chains" && chains}
       {next === "go on" && whichIsLast}
@@ -99,15 +104,10 @@ function running({ waits_for, unseen }: Machine): string {
   return waits_for ? "The machine waits for you" : "The machine cuts";
 }
 
-function whileRunning({ waits_for, unseen, program, kind }: Machine, grid: Grid): string {
+function whileRunning({ waits_for, unseen }: Machine): string {
   if (unseen > 0) return "It may cut on. Look at it, with a hand on its power switch.";
-  if (waits_for) return `${capital(waits_for)}. Then press Go on, below.`;
-  const { marks, minutes } = grid;
-  const done = marks.filter(({ lines }) => lines <= (program?.done ?? 0)).length;
-  const left = minutes * (1 - (program?.done ?? 0) / Math.max(1, program?.total ?? 1));
-  // A virtual machine is as fast as it was asked to be.
-  const time = kind === "board" ? `, about ${Math.ceil(left)} min left` : "";
-  return `${done} of ${marks.length} marks${time}. ${CUTS}`;
+  if (waits_for) return `${capital(waits_for)}. Then press Go on.`;
+  return CUTS;
 }
 
 /** What else can be done. */

@@ -1,7 +1,6 @@
 // Step 10: what was fitted and written over time, with the error and each number.
 
 import type { Schemas } from "../api/client";
-import { namedLength } from "../controls/lengths";
 import { useNewest } from "../shell/newest";
 import { useProject } from "../shell/project";
 import { Screen } from "../shell/Screen";
@@ -60,11 +59,6 @@ export function Diary() {
         </section>
       )}
       {diary.spoilt > 0 && <p>{diary.spoilt} lines of diary.jsonl cannot be read.</p>}
-      {fits.length > 0 && (
-        <p class="legend">
-          The error of the newest fit is {namedLength(fits.at(-1)?.rms_mm ?? 0, units, 2)}.
-        </p>
-      )}
     </Screen>
   );
 }

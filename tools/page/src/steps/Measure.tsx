@@ -1,5 +1,7 @@
 // Step 4: choose how to measure, and see before a hole is cut what the marks could tell.
+import { send } from "../api/client";
 import { Trouble } from "../controls/Trouble";
+import { useAsked } from "../shell/asked";
 import { useNewest } from "../shell/newest";
 import { useProject } from "../shell/project";
 import { Screen } from "../shell/Screen";
@@ -7,7 +9,8 @@ import { EffectList } from "./measure/EffectList";
 import { Layouts } from "./measure/Layouts";
 import { MarksMap } from "./measure/MarksMap";
 import type { Layout, Place } from "./measure/plan";
-import { usePreview } from "./measure/usePreview";
+
+const MOMENT_MS = 250; // after a plan was changed
 
 export function Measure() {
   const { project, choose } = useProject();
@@ -18,7 +21,10 @@ export function Measure() {
   const id = project.choices.layout ?? "nine";
   const chosen = layouts.find((layout) => layout.id === id);
   const places = id === "own" ? saved : (chosen?.places ?? []);
-  const { answer: plan, refused, looking } = usePreview(id, places, settings);
+  const asked = { layout: id, places: id === "own" ? places : [] };
+  const preview = () => send<Layout.Plan>("POST", "preview", asked);
+  const state = JSON.stringify([asked, settings]);
+  const { answer: plan, refused, looking } = useAsked(preview, state, MOMENT_MS);
   if (layouts.length === 0 || !project.machine)
     return <Screen title="Which marks?" say="One moment …" busy />;
   const keep = (planned: Place[]) => void choose({ layout: "own", planned, proposed: "" });
@@ -26,6 +32,7 @@ export function Measure() {
     const planned = layout === "own" && saved.length === 0 ? places : saved;
     void choose({ layout, planned, proposed: "" });
   };
+  const better = layouts.find((layout) => layout.id === advice?.layout && layout.id !== id);
   return (
     <Screen
       title="Which marks?"
@@ -43,8 +50,28 @@ export function Measure() {
           )}
         </>
       }
+      act={
+        better && (
+          <>
+            <button type="button" class="primary" onClick={() => take(better.id)}>
+              Take {better.title.toLowerCase()}, {Math.round(better.minutes)} minutes
+            </button>
+            <a class="go" href="#/cut">
+              Keep these
+            </a>
+          </>
+        )
+      }
     >
-      <Advised advice={advice} chosen={id} take={take} />
+      <p class="advised" role="status" aria-busy={!advice || undefined}>
+        {advice ? (
+          <>
+            <strong>Recommended.</strong> {advice.sentence}
+          </>
+        ) : (
+          "Working out which marks to recommend …"
+        )}
+      </p>
       <Layouts
         layouts={layouts}
         chosen={id}
@@ -64,31 +91,6 @@ export function Measure() {
         </>
       )}
     </Screen>
-  );
-}
-
-interface AdvisedParts {
-  advice: Layout.Advice | undefined; // it takes a while
-  chosen: Layout.Id;
-  take: (layout: Layout.Id) => void;
-}
-
-function Advised({ advice, chosen, take }: AdvisedParts) {
-  if (!advice)
-    return (
-      <p class="advised" role="status" aria-busy>
-        Working out which marks to recommend …
-      </p>
-    );
-  return (
-    <p class="advised">
-      <strong>Recommended.</strong> {advice.sentence}{" "}
-      {chosen !== advice.layout && (
-        <button type="button" onClick={() => take(advice.layout)}>
-          Take these
-        </button>
-      )}
-    </p>
   );
 }
 

@@ -1,5 +1,4 @@
 // Step 1: which machine is it? A file of settings, a port, or a virtual machine.
-import { useState } from "preact/hooks";
 import { type Project, sendFile } from "../api/client";
 import { isPhone } from "../api/here";
 import { namedLength } from "../controls/lengths";
@@ -7,11 +6,10 @@ import { Connection } from "../machine/Connection";
 import { BeginStep, FirstDay, useGuide } from "../machine/Guide";
 import { MachinePicture } from "../machine/MachinePicture";
 import { Phones } from "../machine/Phones";
-import { useDo } from "../shell/doing";
 import { useMachine } from "../shell/machine";
+import { PickFile } from "../shell/PickFile";
 import { useProject } from "../shell/project";
 import { Screen } from "../shell/Screen";
-import "./open.css";
 
 export function Open() {
   const { project } = useProject();
@@ -66,41 +64,14 @@ function Opened({ machine }: { machine: NonNullable<Project["machine"]> }) {
   );
 }
 
-/** Takes a file that is picked or dropped. */
 function SettingsFile() {
   const { project, take } = useProject();
-  const [over, setOver] = useState(false);
-  const [, run, refusal] = useDo();
-  const open = async (file: File | undefined) => {
-    if (file) await run(async () => take(await sendFile<Project>("settings", file)));
-  };
   return (
-    <label
-      class={over ? "box pick over" : "box pick"}
-      onDragOver={(event) => {
-        event.preventDefault();
-        setOver(true);
-      }}
-      onDragLeave={() => setOver(false)}
-      onDrop={(event) => {
-        event.preventDefault();
-        setOver(false);
-        void open(event.dataTransfer?.files[0]);
-      }}
-    >
-      <b>{project.machine ? `${project.machine.file} is open; open another` : "Settings' file"}</b>
-      <small>groundcontrol.ini, webcontrol.json or machine.toml: pick it, or drop it here</small>
-      <input
-        type="file"
-        accept=".ini,.json,.toml"
-        onChange={(event) => {
-          const input = event.currentTarget;
-          void open(input.files?.[0]).then(() => {
-            input.value = "";
-          });
-        }}
-      />
-      {refusal}
-    </label>
+    <PickFile
+      title={project.machine ? `${project.machine.file} is open; open another` : "Settings' file"}
+      hint="groundcontrol.ini, webcontrol.json or machine.toml"
+      accept=".ini,.json,.toml"
+      take={async (file) => take(await sendFile<Project>("settings", file))}
+    />
   );
 }

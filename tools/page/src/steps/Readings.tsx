@@ -4,7 +4,6 @@ import type { Schemas } from "../api/client";
 import { namedLength } from "../controls/lengths";
 import { Trouble } from "../controls/Trouble";
 import { useUnits } from "../controls/units";
-import { Doubts } from "../readings/Doubts";
 import { lengthBetween } from "../readings/distances";
 import { FileOfReadings, FormPicker } from "../readings/FormPicker";
 import { Grid } from "../readings/Grid";
@@ -14,13 +13,13 @@ import { Spans } from "../readings/Spans";
 import { Tape } from "../readings/Tape";
 import { useDoubts } from "../readings/useDoubts";
 import { useReadings } from "../readings/useReadings";
-import { Changed } from "../shell/Changed";
 import { Screen } from "../shell/Screen";
 import { TakeAlong } from "../shell/TakeAlong";
 import "../readings/readings.css";
 
+const LEAST = 9; // marks for a first verdict
 const PLACED =
-  "Type where each mark is, from the two edges. Enter goes on. Each number is saved at once. A reading that disagrees gets a ring.";
+  "Type each mark from the blue edges, or touch another on the sheet. Enter goes on. Each number is saved at once.";
 const TAPED =
   "Lay the tape between the two marks of each line, in this order, and type what it says. Each number is saved at once and stays open to change.";
 
@@ -28,14 +27,14 @@ export function Readings() {
   const units = useUnits();
   const readings = useReadings();
   const { doubts, looking, refused } = useDoubts(readings.form);
-  const { form, kept } = readings;
+  const { form } = readings;
   if (!form) return <Screen title="What does the tape say?" say="One moment …" busy />;
   const read = form.marks.filter((mark) => mark.read).length;
   const doubted = new Set(doubts.filter((doubt) => doubt.is_mark).map((doubt) => doubt.index));
   const off = offTarget(form.marks.filter(({ index }) => !doubted.has(index)));
   const asked = form.spans.filter((span) => lengthBetween(form.distances, span)).length;
   const isTaped = form.spans.length > 0;
-  const grid = <Grid form={form} readings={readings} doubted={doubted} />;
+  const grid = <Grid form={form} readings={readings} doubts={doubts} />;
   return (
     <Screen
       title="What does the tape say?"
@@ -46,6 +45,7 @@ export function Readings() {
         form.marks.length > 0 && <ReadingsMap form={form} doubted={doubted} pick={readings.pick} />
       }
       fieldsFirst
+      act={read >= LEAST && <ToVerdict read={read} all={form.marks.length} />}
     >
       <FormPicker form={form} choose={readings.chooseFile} />
       {form.marks.length > 0 && (
@@ -59,11 +59,8 @@ export function Readings() {
             {off > 0 && (doubted.size > 0 ? " without what disagrees." : ".")}
             {looking && " Looking for readings that disagree …"}
           </p>
-          <Changed kept={kept} />
-          <Trouble>{kept.refused}</Trouble>
           <Trouble>{refused && `Nothing looks for readings that disagree. ${refused}`}</Trouble>
-          <Doubts form={form} doubts={doubts} readings={readings} units={units} />
-          <Spans form={form} take={readings.take} doubts={doubts} />
+          <Spans {...{ form, readings, doubts }} />
           {isTaped ? (
             <details open={read > 0}>
               <summary>Where the marks are, if you measure that too</summary>
@@ -77,6 +74,22 @@ export function Readings() {
       )}
       <FileOfReadings form={form} choose={readings.chooseFile} />
     </Screen>
+  );
+}
+
+/** The verdict is possible before all is read; it names more when it is. */
+function ToVerdict({ read, all }: { read: number; all: number }) {
+  return read < all ? (
+    <>
+      <a class="button tinted" href="#/verdict">
+        First verdict, from {read} marks
+      </a>
+      <small>{all - read} to go; all name more</small>
+    </>
+  ) : (
+    <a class="button primary" href="#/verdict">
+      Go to the verdict
+    </a>
   );
 }
 

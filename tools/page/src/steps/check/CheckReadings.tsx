@@ -1,11 +1,7 @@
 // The readings of the check marks, typed as all others are.
-import { Trouble } from "../../controls/Trouble";
 import { Grid } from "../../readings/Grid";
 import { useReadings } from "../../readings/useReadings";
-import { Changed } from "../../shell/Changed";
 import "../../readings/readings.css";
-
-const NOBODY: ReadonlySet<number> = new Set();
 
 export function CheckReadings({ file }: { file: string }) {
   const readings = useReadings(file);
@@ -13,9 +9,7 @@ export function CheckReadings({ file }: { file: string }) {
   return (
     <section aria-label="Readings of the check marks">
       <h2>What does the tape say?</h2>
-      <Grid form={readings.form} readings={readings} doubted={NOBODY} />
-      <Changed kept={readings.kept} />
-      <Trouble>{readings.kept.refused}</Trouble>
+      <Grid form={readings.form} readings={readings} doubts={[]} />
     </section>
   );
 }

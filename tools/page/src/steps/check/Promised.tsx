@@ -1,7 +1,7 @@
 // How far off each check mark may be, and is.
 import type { Schemas } from "../../api/client";
-import { Head } from "../../controls/Head";
 import { namedLength, type Unit } from "../../controls/lengths";
+import { Table } from "../../controls/Table";
 
 interface PromisedParts {
   marks: Schemas["CheckAnswer"]["marks"];
@@ -10,20 +10,13 @@ interface PromisedParts {
 
 export function Promised({ marks, units }: PromisedParts) {
   return (
-    <table class="checked">
-      <Head
-        names={["mark", "promised within", "off from what was promised", "off from the target"]}
-      />
-      <tbody>
-        {marks.map((mark) => (
-          <tr key={mark.name}>
-            <th scope="row">{mark.name}</th>
-            <td>{namedLength(mark.promised, units, 2)}</td>
-            <td>{namedLength(mark.off, units, 2)}</td>
-            <td>{namedLength(mark.error, units, 2)}</td>
-          </tr>
-        ))}
-      </tbody>
-    </table>
+    <Table
+      class="checked"
+      names={["mark", "promised within", "off from what was promised", "off from the target"]}
+      rows={marks.map(({ name, ...mm }) => [
+        name,
+        ...[mm.promised, mm.off, mm.error].map((each) => namedLength(each, units, 2)),
+      ])}
+    />
   );
 }

@@ -1,8 +1,7 @@
 // The numbers of the machine, each with a box to accept it.
 import type { Schemas } from "../../api/client";
 import { useProject } from "../../shell/project";
-import { asked } from "./asked";
-import { believable, withAll } from "./believable";
+import { asked, believable, withAll } from "./asked";
 import { NumberTable } from "./NumberTable";
 
 export function Numbers({ made, busy }: { made: Schemas["CorrectionParts"]; busy: boolean }) {

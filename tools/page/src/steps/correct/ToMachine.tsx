@@ -1,6 +1,7 @@
 // What was written, how it comes into the machine, and what the machine says that it holds now.
 import type { Project } from "../../api/client";
 import { setting, settingText } from "../../controls/settings";
+import { Table } from "../../controls/Table";
 import { isReady, useMachine } from "../../shell/machine";
 import { useProject } from "../../shell/project";
 import { lastSent } from "./kept";
@@ -55,19 +56,14 @@ export function ToMachine({ writing, isNext, isHeld }: ToMachineParts) {
           {sent.changed.length > 0 && (
             <p>The sled stands where it stood; its place reads otherwise with other numbers.</p>
           )}
-          <table>
-            <tbody>
-              {sent.changed.slice(0, SHOWN).map((number) => (
-                <tr key={number.number}>
-                  <th scope="row">{number.name || "a setting"}</th>
-                  <td>
-                    {setting(number.number, number.after, number.unit)}, was{" "}
-                    {settingText(number.before)}
-                  </td>
-                </tr>
-              ))}
-            </tbody>
-          </table>
+          <Table
+            rows={sent.changed
+              .slice(0, SHOWN)
+              .map(({ number, name, unit, before, after }) => [
+                name || "a setting",
+                `${setting(number, after, unit)}, was ${settingText(before)}`,
+              ])}
+          />
           {sent.changed.length > SHOWN && <p>and {sent.changed.length - SHOWN} more.</p>}
         </>
       )}

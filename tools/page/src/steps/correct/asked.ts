@@ -1,4 +1,5 @@
-// Which numbers of a correction are asked about: those that would change, and those that are accepted.
+// Which numbers of a correction are asked about: those that would change, and those that are accepted; and which of them
+// are accepted all at once.
 
 interface Asked {
   name: string;
@@ -20,4 +21,19 @@ export function asked<Number extends Asked>(
   return numbers
     .map((number) => again.get(number.name) ?? number)
     .filter(({ name, before, after }) => before !== after || accepted.includes(name));
+}
+
+interface Believable {
+  name: string;
+  possible: boolean;
+}
+
+/** Those that "Accept all" takes: a real machine can have them. */
+export function believable(numbers: readonly Believable[]): string[] {
+  return numbers.filter(({ possible }) => possible).map(({ name }) => name);
+}
+
+/** What is accepted once all of these are; what was accepted by hand stays. */
+export function withAll(accepted: readonly string[], names: readonly string[]): string[] {
+  return [...new Set([...accepted, ...names])];
 }

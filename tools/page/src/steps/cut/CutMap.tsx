@@ -3,9 +3,11 @@ import { useMemo } from "preact/hooks";
 import { Sheet } from "../../sheet/Sheet";
 import { useScale } from "../../sheet/scale";
 import { useMachine } from "../../shell/machine";
+import { useProject } from "../../shell/project";
 import type { Grid } from "../Cut";
 
 const DEEP = -0.2; // [mm] the bit is in the wood
+const SLED = 230; // [mm] its radius
 
 export function CutMap({ grid }: { grid: Grid }) {
   const { program, place, knows_place, kind, unseen } = useMachine();
@@ -35,16 +37,23 @@ interface SledParts {
 }
 
 function Sled({ place: [x, y, z], old }: SledParts) {
-  const [cx, cy] = useScale().at([x, y]);
+  const { frame } = useProject().project.machine ?? {};
+  const { at, px } = useScale();
+  const [cx, cy] = at([x, y]);
+  const chains = [-0.5, 0.5].map((side) => {
+    const motor = at([side * (frame?.motor_gap ?? 0), frame?.motor_height ?? 0]);
+    return `M${motor.join(" ")}L${cx} ${cy}`;
+  });
   return (
     <g
-      fill="none"
-      stroke={old ? "var(--soft)" : "var(--before)"}
-      stroke-width={2}
+      fill="var(--paper)"
+      fill-opacity={0.6}
+      stroke={old ? "var(--soft)" : "var(--ink)"}
       stroke-dasharray={old ? 4 : undefined}
     >
-      <circle cx={cx} cy={cy} r={16} />
-      <circle cx={cx} cy={cy} r={3} fill={z < DEEP ? "var(--before)" : "none"} />
+      <path d={chains.join("")} />
+      <circle cx={cx} cy={cy} r={SLED * px} />
+      <circle cx={cx} cy={cy} r={4} fill={z < DEEP ? "var(--ink)" : undefined} />
     </g>
   );
 }

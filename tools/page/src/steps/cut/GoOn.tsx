@@ -37,7 +37,7 @@ export function useGoOn(parts: GoOnParts): [question: ComponentChild, act: Compo
     <fieldset class="last-seen row">
       <legend>Look at the sheet: which of these marks is the last on it?</legend>
       {Array.from({ length: perhaps + 1 }, (_, more) => surely + more).map((count) => (
-        <label key={count}>
+        <label key={count} class="tick">
           <input
             type="radio"
             name="last-seen"

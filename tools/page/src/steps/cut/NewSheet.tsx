@@ -13,7 +13,7 @@ export function NewSheet({ grid }: { grid: Grid }) {
   const units = useUnits();
   const chosen = project.choices.new_sheet ?? false;
   return (
-    <label class="new-sheet">
+    <label class="tick">
       <input
         type="checkbox"
         checked={chosen}

@@ -16,24 +16,13 @@ export function Course({ course }: { course: Schemas["Course"] }) {
       </figcaption>
       {points.length > 1 && (
         <svg viewBox="0 0 100 100" preserveAspectRatio="none" role="img" aria-label={said(course)}>
-          {points.map((point, index) => (
-            <g key={point.at} stroke="var(--act)">
-              <line
-                x1={across(index)}
-                x2={across(index)}
-                y1={up(point.low)}
-                y2={up(point.high)}
-                class="interval"
-              />
-              <line
-                x1={across(index) - 2}
-                x2={across(index) + 2}
-                y1={up(point.value)}
-                y2={up(point.value)}
-                class="middle"
-              />
-            </g>
-          ))}
+          <path
+            d={points.map(({ low, high }, i) => `M${across(i)} ${up(low)}V${up(high)}`).join("")}
+          />
+          <path
+            class="middle"
+            d={points.map(({ value }, i) => `M${across(i) - 2} ${up(value)}h4`).join("")}
+          />
         </svg>
       )}
     </figure>

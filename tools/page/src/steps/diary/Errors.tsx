@@ -1,8 +1,8 @@
 // The error of each fit: before it, after it, and on marks that took no part.
 import type { Schemas } from "../../api/client";
 import { Bar } from "../../controls/Bar";
-import { Head } from "../../controls/Head";
 import { namedLength, type Unit } from "../../controls/lengths";
+import { Table } from "../../controls/Table";
 
 type Fit = Schemas["DiaryFit"];
 
@@ -10,28 +10,25 @@ export function Errors({ fits, units }: { fits: Fit[]; units: Unit }) {
   const most = Math.max(...fits.map((fit) => fit.before_mm ?? 0), 0.1);
   const shown = (mm: number | null) => (mm === null ? "–" : namedLength(mm, units, 2));
   return (
-    <table class="rounds">
-      <Head names={["fit", "error before and after", "marks left out"]} />
-      <tbody>
-        {fits.map((fit) => (
-          <tr key={fit.at + fit.machine}>
-            <th scope="row">
-              {new Date(fit.at).toLocaleDateString(undefined, { dateStyle: "medium" })}
-              <br />
-              {fit.machine}, {fit.readings} readings
-              <br />
-              {fit.said}
-            </th>
-            <td class="bars">
-              <Bar share={(fit.before_mm ?? 0) / most} colour="var(--before)" />
-              {shown(fit.before_mm)}
-              <Bar share={(fit.rms_mm ?? 0) / most} colour="var(--after)" />
-              {shown(fit.rms_mm)}
-            </td>
-            <td>{shown(fit.left_out_mm)}</td>
-          </tr>
-        ))}
-      </tbody>
-    </table>
+    <Table
+      class="rounds"
+      names={["fit", "error before and after", "marks left out"]}
+      rows={fits.map((fit) => [
+        <>
+          {new Date(fit.at).toLocaleDateString(undefined, { dateStyle: "medium" })}
+          <br />
+          {fit.machine}, {fit.readings} readings
+          <br />
+          {fit.said}
+        </>,
+        <div key={fit.at} class="bars">
+          <Bar share={(fit.before_mm ?? 0) / most} colour="var(--before)" />
+          {shown(fit.before_mm)}
+          <Bar share={(fit.rms_mm ?? 0) / most} colour="var(--after)" />
+          {shown(fit.rms_mm)}
+        </div>,
+        shown(fit.left_out_mm),
+      ])}
+    />
   );
 }

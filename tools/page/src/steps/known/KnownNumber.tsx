@@ -1,8 +1,9 @@
 // A number that can be measured by hand: what is read, and how far that may be off.
-import { useEffect, useRef, useState } from "preact/hooks";
+import { useEffect, useRef } from "preact/hooks";
 import { type Schemas, send } from "../../api/client";
 import { shownLength, typedLength, type Unit } from "../../controls/lengths";
 import { useUnits } from "../../controls/units";
+import { useTyped } from "../../controls/useTyped";
 import { Do } from "../../shell/doing";
 import { useMachine } from "../../shell/machine";
 import { numberOf, readingOf, type Value } from "./values";
@@ -34,20 +35,15 @@ export function KnownNumber({ number, known, here, wanted, look, keep }: NumberP
   const stated = known && readingOf(number, known);
   const saved = stated ? show(stated.value) : "";
   const sure = shownLength(stated?.sigma ?? number.usual, unit, Math.max(number.digits, 1));
-  const [read, setRead] = useState(saved);
-  const [sigma, setSigma] = useState(sure);
-  const mending = useRef(false); // text that is not a number stays in view until it is corrected
-  useEffect(() => {
-    if (!mending.current || saved !== "") setRead(saved);
-  }, [saved]);
-  useEffect(() => setSigma(sure), [sure]);
+  const isWrong = (text: string) => text !== "" && typedLength(text, unit) === undefined;
+  const [read, setRead] = useTyped(saved, isWrong);
+  const [sigma, setSigma] = useTyped(sure, () => false);
   const [typed, error] = [typedLength(read, unit), typedLength(sigma, unit)];
-  const wrong = (read !== "" && typed === undefined) || error === undefined || error <= 0;
+  const wrong = isWrong(read) || error === undefined || error <= 0;
   // Why what is saved cannot be; not said of what is typed over it.
   const refused = read === saved ? number.refused : "";
   const done = () => {
-    mending.current = read !== "" && typed === undefined;
-    if (read === "" || mending.current) {
+    if (read === "" || isWrong(read)) {
       // The number before it does not count any more.
       if (known) keep(undefined);
     } else if (!wrong && typed !== undefined && error !== undefined) {

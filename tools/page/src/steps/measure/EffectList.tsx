@@ -8,34 +8,33 @@ export function EffectList({ plan }: { plan: Layout.Plan }) {
     <details>
       <summary>Each cause by itself</summary>
       <ul class="tiles plain" aria-label="What these marks could tell">
-        {plan.preview.outlines.map((effect, _, all) => (
-          <li key={effect.effect} class={`box ${tone(effect)}`}>
-            <b>
-              <span aria-hidden="true">{SIGN[tone(effect)]}</span> {effect.noun}
-            </b>
-            <small>{words(effect, all)}</small>
-          </li>
-        ))}
+        {plan.preview.outlines.map((effect, _, all) => {
+          const [sign, words] = told(effect, all);
+          return (
+            <li key={effect.effect} class="box">
+              <b>
+                <span aria-hidden="true">{sign}</span> {effect.noun}
+              </b>
+              <small>{words}</small>
+            </li>
+          );
+        })}
       </ul>
     </details>
   );
 }
 
-type Tone = "named" | "alike" | "hidden";
-const SIGN: Record<Tone, string> = { named: "●", alike: "◐", hidden: "○" };
-
-function tone(effect: Effect): Tone {
-  if (!effect.is_seen) return "hidden";
-  return effect.is_distinct ? "named" : "alike";
-}
-
-function words(effect: Effect, all: readonly Effect[]): string {
-  if (!effect.is_seen) return "would stay hidden in its usual size";
-  if (effect.is_distinct) return "would be found and named";
-  const [first, second] = effect.alike.map((name) => all.find((e) => e.effect === name)?.noun);
-  const more = effect.alike.length - 2;
-  const others = [first, second].filter(Boolean).join(", ");
-  return others
-    ? `would show, but may be taken for ${others}${more > 0 ? ` and ${more} more` : ""}`
-    : "would show, but is not always told apart";
+/** A sign and words: whether an effect is named, only shows, or stays hidden. */
+function told(effect: Effect, all: readonly Effect[]): [sign: string, words: string] {
+  if (!effect.is_seen) return ["○", "would stay hidden in its usual size"];
+  if (effect.is_distinct) return ["●", "would be found and named"];
+  const nouns = effect.alike.map((name) => all.find((each) => each.effect === name)?.noun);
+  const others = nouns.slice(0, 2).filter(Boolean).join(", ");
+  const more = nouns.length > 2 ? ` and ${nouns.length - 2} more` : "";
+  return [
+    "◐",
+    others
+      ? `would show, but may be taken for ${others}${more}`
+      : "would show, but is not always told apart",
+  ];
 }

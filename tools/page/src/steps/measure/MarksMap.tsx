@@ -2,8 +2,7 @@
 import { useState } from "preact/hooks";
 import { typedLength } from "../../controls/lengths";
 import { useUnits } from "../../controls/units";
-import { Sheet } from "../../sheet/Sheet";
-import { useScale } from "../../sheet/scale";
+import { Sheet, Taped } from "../../sheet/Sheet";
 import type { Place } from "./plan";
 
 const AXES = ["x", "y"];
@@ -36,7 +35,7 @@ export function MarksMap({ places, spans, keep }: MapParts) {
         selected={selected}
         select={select}
       >
-        <Spans places={places} spans={spans} />
+        <Taped lines={spans.map((ends) => ends.map((place) => places[place]))} />
       </Sheet>
       <details>
         <summary>Other marks: by their place, or without one</summary>
@@ -63,13 +62,4 @@ export function MarksMap({ places, spans, keep }: MapParts) {
       </details>
     </>
   );
-}
-
-function Spans({ places, spans }: { places: Place[]; spans: [number, number][] }) {
-  const { at } = useScale();
-  const lines = spans.map(([first, second]) => {
-    const [from, to] = [places[first], places[second]];
-    return from && to ? `M${at(from).join(" ")}L${at(to).join(" ")}` : "";
-  });
-  return <path class="taped" d={lines.join("")} />;
 }

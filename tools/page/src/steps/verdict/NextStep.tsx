@@ -1,6 +1,6 @@
 // The best next measurement: where on the sheet, how long, and how likely it settles the question.
-import { Head } from "../../controls/Head";
 import { Progress } from "../../controls/Progress";
+import { Table } from "../../controls/Table";
 import type { Mark } from "../../sheet/marks";
 import { Sheet } from "../../sheet/Sheet";
 import { useMachine } from "../../shell/machine";
@@ -79,19 +79,15 @@ function Others({ offers: [, ...others], ordinary }: Pick<NextAnswer, "offers" |
   if (all.length === 0) return null;
   const canTake = all.some((other) => other.taking);
   return (
-    <table>
-      <Head names={["other ways", "what it promises", ...(canTake ? [""] : [])]} />
-      <tbody>
-        {all.map(({ proposal: { title, minutes, promise }, taking }) => (
-          <tr key={title}>
-            <th scope="row">
-              {title} <small>{Math.round(minutes)} minutes</small>
-            </th>
-            <td>{promise}</td>
-            {canTake && <td>{taking && <TakeMarks {...{ taking, title }} />}</td>}
-          </tr>
-        ))}
-      </tbody>
-    </table>
+    <Table
+      names={["other ways", "what it promises", ...(canTake ? [""] : [])]}
+      rows={all.map(({ proposal: { title, minutes, promise }, taking }) => [
+        <>
+          {title} <small>{Math.round(minutes)} minutes</small>
+        </>,
+        promise,
+        ...(canTake ? [taking && <TakeMarks taking={taking} title={title} />] : []),
+      ])}
+    />
   );
 }

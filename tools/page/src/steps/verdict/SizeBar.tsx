@@ -9,30 +9,14 @@ export function SizeBar({ size }: { size: Schemas["Size"] }) {
   const [least, most] = [Math.min(...ends), Math.max(...ends)];
   const at = (value: number) => ROOM + ((100 - 2 * ROOM) * (value - least)) / (most - least || 1);
   const [from, to] = [at(size.limits[0] ?? least), at(size.limits[1] ?? most)];
+  const sure = size.low !== null && size.high !== null ? `M${at(size.low)} 5H${at(size.high)}` : "";
   return (
     <figure class="size">
       <figcaption>{size.said}</figcaption>
       <svg viewBox="0 0 100 10" preserveAspectRatio="none" aria-hidden="true">
         <rect x={from} y={2} width={to - from} height={6} fill="var(--line)" />
         <line x1={at(0)} x2={at(0)} y1={0} y2={10} stroke="var(--soft)" />
-        {size.low !== null && size.high !== null && (
-          <line
-            x1={at(size.low)}
-            x2={at(size.high)}
-            y1={5}
-            y2={5}
-            stroke="var(--act)"
-            class="interval"
-          />
-        )}
-        <line
-          x1={at(size.value)}
-          x2={at(size.value)}
-          y1={1}
-          y2={9}
-          stroke="var(--act)"
-          class="interval"
-        />
+        <path class="interval" d={`${sure}M${at(size.value)} 1V9`} stroke="var(--act)" />
       </svg>
       {size.range_said && (
         <small class={size.possible ? "" : "wrong"}>

@@ -1,6 +1,6 @@
 // Causes that may act although the marks do not show it, in the words of `plumb diagnose`.
-import { Head } from "../../controls/Head";
 import { namedLength, type Unit } from "../../controls/lengths";
+import { Table } from "../../controls/Table";
 import { capital } from "../../controls/words";
 import type { VerdictParts } from "./words";
 
@@ -13,18 +13,10 @@ export function UnseenCauses({ verdict, units }: { verdict: VerdictParts; units:
       {causes.length > 0 && (
         <>
           <p>{words}</p>
-          <table>
-            <Head names={header} />
-            <tbody>
-              {causes.map((cause) => (
-                <tr key={cause.noun}>
-                  <th scope="row">{cause.noun}</th>
-                  <td>{namedLength(cause.mm, units)}</td>
-                  <td>{cause.taken_up}</td>
-                </tr>
-              ))}
-            </tbody>
-          </table>
+          <Table
+            names={header}
+            rows={causes.map((cause) => [cause.noun, namedLength(cause.mm, units), cause.taken_up])}
+          />
         </>
       )}
       {silent && <p>{capital(silent)}.</p>}
