@@ -92,6 +92,10 @@ std::string MegaBrain::takeSaid() {
   std::string said;
   if (!board_) return said;
   said.swap(board_->said);
+  if (bootloader_.empty()) {  // whole lines; a bootloader knows none
+    said.clear();
+    for (const std::string& line : board_->lines) said += line + "\r\n";
+  }
   board_->lines.clear();
   return said;
 }
