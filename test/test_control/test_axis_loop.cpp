@@ -112,7 +112,7 @@ TEST(AxisLoop, DropsItsDutyOnceWhenTheSetPointsTurnRound) {
   }
 }
 
-TEST(AxisLoop, KeepsItsDutyWhereTheSetPointsHardlyMove) {
+TEST(AxisLoop, KeepsItsDutyWhenTheSetPointsHardlyMove) {
   motion::AxisLoop loop = drivenAt(0.3f);
   ASSERT_GT(loop.follow(0, -0.24f * kPerTick, 0), 80);
   EXPECT_LT(loop.follow(0, -0.26f * kPerTick, 0), 0);

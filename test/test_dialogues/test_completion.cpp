@@ -69,7 +69,7 @@ class Completion : public testing::TestWithParam<unsigned> {};
 
 }  // namespace
 
-TEST_P(Completion, OfADrawnProgramWithOverridesAndHolds) {
+TEST_P(Completion, OfARandomProgramWithOverridesAndHolds) {
   for (unsigned program = 0; program < 4; ++program) {
     const unsigned seed = 4 * GetParam() + program;
     HostMachine host(Drawn(seed).steps());

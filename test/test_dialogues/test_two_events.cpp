@@ -38,7 +38,7 @@ class TwoEvents : public testing::TestWithParam<int> {};
 
 }  // namespace
 
-TEST_P(TwoEvents, MoveNothingThatTheTableDoesNotSay) {
+TEST_P(TwoEvents, MoveOnlyWhatTheTableSays) {
   const int first = GetParam();
   std::mt19937 random(17 + unsigned(first));
   for (int second = 0; second < kEventCount; ++second)

@@ -26,7 +26,7 @@ TEST_F(PlaceAlone, IsUnknownIfTheChainsFitNoPlace) {
   EXPECT_FALSE(isPlaceKept());
 }
 
-TEST_F(PlaceAlone, IsSearchedAgainAfterAChainWasPulled) {
+TEST_F(PlaceAlone, IsSearchedAgainAfterAChainIsPulled) {
   axes.simulate(false);
   waiting.in_each_round = [&] { place.keepWhenAtRest(board.now_ms); };
   waiting.waitFor(1000);

@@ -126,14 +126,14 @@ TEST(Stretch, BrakesInTimeFromASlightlyTooHighSpeed) {
   EXPECT_EQ(40, stretch.ticks);
 }
 
-TEST(Invariants, OfTheMoverHoldAfterEachStepOfRandomMoves) {
+TEST(Invariants, HoldForTheMoverAfterEachStepOfRandomMoves) {
   for (unsigned seed = 0; seed < 60 && !testing::Test::HasFailure(); ++seed) {
     SCOPED_TRACE(seed);
     Asking(seed).go(60);
   }
 }
 
-TEST(Invariants, OfAStretchHoldForRandomBounds) {
+TEST(Invariants, HoldForAStretchWithRandomBounds) {
   std::mt19937 random(3);
   std::uniform_real_distribution<float> any(0, 1);
   for (int i = 0; i < 200000 && !testing::Test::HasFailure(); ++i) {

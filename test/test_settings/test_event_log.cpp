@@ -81,7 +81,7 @@ TEST(EventLog, AcceptsAnEventWhileAnotherIsWritten) {
   }
 }
 
-TEST(EventLog, EndsBeforeItWearsACell) {
+TEST(EventLog, StopsBeforeItWearsOutACell) {
   Eeprom eeprom = usedEeprom();
   Board board(eeprom);
   eeprom.worn = {};
@@ -96,7 +96,7 @@ TEST(EventLog, EndsBeforeItWearsACell) {
   EXPECT_EQ(4 * 9999, Board(eeprom).memory.log().total());
 }
 
-TEST(EventLog, GivesUpAtAWornCellAndKeepsWhatTheOtherRecordSays) {
+TEST(EventLog, GivesUpAtAWornCellAndKeepsTheOtherRecord) {
   for (int cell = 0; cell < EventLog::kBytes; ++cell) {
     Eeprom eeprom = logged();
     for (const uint16_t at : {uint16_t(Memory::kFirstLog), uint16_t(Memory::kFirstLog + 800)}) {
