@@ -1,4 +1,4 @@
-// Settings as the kinematics needs them: the published numbers translated, and ours added. The
+// Settings as the kinematics needs them: published numbers translated, ours added. The
 // reasons: docs/decisions/0007-published-numbers-keep-their-meaning.md.
 #pragma once
 

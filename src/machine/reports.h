@@ -1,4 +1,4 @@
-// The lines that the machine sends five times a second, whatever it does.
+// The lines that the machine sends five times a second at all times.
 #pragma once
 
 #include "sled_place.h"

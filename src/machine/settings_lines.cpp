@@ -109,7 +109,7 @@ void SettingsLines::dump(uint16_t first) {
     if (parts_.values.table().at(i).access != settings::Access::kListed) continue;
     settings::putSetting(parts_.values, i, first, put);
     parts_.out.end();
-    // Whatever else goes on, goes on; a stop ends the dump.
+    // Everything else goes on meanwhile; a stop ends the dump.
     parts_.waiting.service();
     if (parts_.waiting.isStopping()) return;
     // A sender that takes the lines of both for one table keeps wrong numbers.

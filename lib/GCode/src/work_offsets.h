@@ -7,7 +7,7 @@ namespace gcode {
 
 /// Added to a program's coordinate they give the machine's. Axes are 0, 1, 2 for x, y, z.
 ///
-/// The maker of this object stores the six systems of G54 to G59. The shift of G92 and the tool's
+/// The caller stores the six systems of G54 to G59. The shift of G92 and the tool's
 /// length are stored here, and are lost with power.
 class WorkOffsets {
  public:

@@ -9,7 +9,7 @@
 namespace kinematics {
 
 /// A line of the registry: an effect and the number of its first $-setting.
-/// A number keeps its meaning for ever once it was released.
+/// Once released, a number never changes its meaning.
 template <int FirstSetting, template <class> class EffectTemplate>
 struct At {
   enum { kFirstSetting = FirstSetting };

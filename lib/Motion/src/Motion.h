@@ -1,4 +1,4 @@
-// Front door of motion: from moves and feeds to set-points of all axes, and from a set-point to the
+// The library's front door: from moves and feeds to set-points, and from a set-point to the
 // duty of its motor.
 #pragma once
 

@@ -1,4 +1,4 @@
-// The cells of the marks, row by row as they lie on the sheet; on a phone that of the open mark, and the sheet opens others.
+// The cells of the marks, in rows as on the sheet; on a phone only the open mark's, and the sheet opens others.
 import { useUnits } from "../controls/units";
 import { useProject } from "../shell/project";
 import { Cell } from "./Cell";
@@ -21,7 +21,7 @@ export function Grid({ form, readings, doubted }: GridParts) {
   const [upright, across] = edges.split("-") as [string, string];
   const units = useUnits();
   const order = [...marks].sort(
-    ({ target: [x, y] }, { target: [x2, y2] }) => y2 - y || x - x2, // a repeat stays behind
+    ({ target: [x, y] }, { target: [x2, y2] }) => y2 - y || x - x2, // a repeat comes after its first
   );
   const isFolded = useNarrow() && marks.length > FEW;
   const next = (index: number) => {
