@@ -79,8 +79,7 @@ bool Answers::refuseMistake(gcode::Mistake mistake) {
   return refuseLine(false, numberOf(mistake.fault), textOf(mistake.fault), mistake.letter);
 }
 
-/// Begins the text. A halt is an alarm, but to a Grbl sender a mistake in a line stays an
-/// error.
+/// Begins the text. A halt is an alarm, but to a Grbl sender a mistake in a line stays an error.
 void Answers::beginRefusal(bool is_motion, uint8_t number) {
   if (halts() && (is_motion || !out_.speaksGrbl()))
     out_.alarm(grbl::kAlarmOfTarget);

@@ -15,8 +15,8 @@ namespace machine {
 /// mustHalt() is then true once. Functions that refuse return false, so a command can return their
 /// result.
 ///
-/// A Grbl sender gets a mistake in a line as `error:N`, and a motion that cannot be
-/// done as `ALARM:2`, each with the text before it.
+/// A Grbl sender gets a mistake in a line as `error:N`, and a motion that cannot be done as
+/// `ALARM:2`, each with the text before it.
 class Answers {
  public:
   Answers(Printer& out, const settings::Values& values) : out_(out), values_(values) {}

@@ -1,5 +1,5 @@
-// The tick of all axes: set-point, axes, slip watch, yielding feed. Then how
-// the main program holds the way and lifts z off it.
+// The tick of all axes: set-point, axes, slip watch, yielding feed. Then how the main program holds
+// the way and lifts z off it.
 #include "axes.h"
 
 #include "settings_table.h"

@@ -62,8 +62,8 @@ enum class Lines : uint8_t {
 
 /// The machine's state; path and z are stopped and started only here.
 ///
-/// The path runs only in states whose row says so, and z leaves
-/// it only while the operator's lines are done, or on its way back.
+/// The path runs only in states whose row says so, and z leaves it only while the operator's lines
+/// are done, or on its way back.
 class Course {
  public:
   explicit Course(Axes& axes) : axes_(axes) {}

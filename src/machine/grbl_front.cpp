@@ -1,5 +1,5 @@
-// Requests of a Grbl sender: the status at each `?`, lines with a `$`, and jogs. How lines
-// look to such a sender is the printer's.
+// Requests of a Grbl sender: the status at each `?`, lines with a `$`, and jogs. How lines look to
+// such a sender is the printer's.
 #include "grbl_front.h"
 
 #include <string.h>

@@ -59,8 +59,7 @@ bool OperatorLines::setZByHand(float z, bool into_work) {
 
 void OperatorLines::resume() {
   const uint32_t now = parts_.clock.milliseconds();
-  // A `~` that ends this wait does not answer a later pause.
-  // Grbl senders may send it at any time.
+  // A `~` that ends this wait does not answer a later pause. Grbl senders may send it at any time.
   if (!parts_.course.isRunning() || now - resumed_ms_ < kTwice || parts_.out.speaksGrbl())
     parts_.input.takeResume();
   resumed_ms_ = now;

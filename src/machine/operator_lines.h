@@ -11,8 +11,8 @@ namespace machine {
 /// Serves a hold or a pause from its beginning until z is back at the program's height.
 ///
 /// A sender that runs ahead, or has not noticed yet, may have sent lines of its program. So the
-/// operator's lines have their own buffer: it takes what comes after the first moments of a hold
-/// or pause, and waiting program lines stay as they are. Each operator's line is run at once, or
+/// operator's lines have their own buffer: it takes what comes after the first moments of a hold or
+/// pause, and waiting program lines stay as they are. Each operator's line is run at once, or
 /// refused with the reason, and never run later.
 class OperatorLines {
  public:

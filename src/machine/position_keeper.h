@@ -9,11 +9,11 @@ namespace machine {
 
 /// Keeps the position's record in the EEPROM.
 ///
-/// A record at rest is valid only while all motors are without power and stand still, and
-/// their encoders still show the counts of the record. Before anything changes a length, be it a
-/// motor or a declaration, the record becomes a record of motion. A new record is due once
-/// everything has stood still for a moment. A doubtful position is never stored. Simulated motion
-/// (B99 ON) leaves the record alone.
+/// A record at rest is valid only while all motors are without power and stand still, and their
+/// encoders still show the counts of the record. Before anything changes a length, be it a motor or
+/// a declaration, the record becomes a record of motion. A new record is due once everything has
+/// stood still for a moment. A doubtful position is never stored. Simulated motion (B99 ON) leaves
+/// the record alone.
 class PositionKeeper {
  public:
   PositionKeeper(settings::Memory& memory, const Axes& axes) : memory_(memory), axes_(axes) {}

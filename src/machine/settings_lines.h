@@ -21,8 +21,7 @@ class SettingsLines {
   void dump(uint16_t first = 0);
   /// Takes the text behind the `$`: a number, `=`, a value.
   bool set(const char* text);
-  /// For a Grbl sender: Grbl's numbers that mean something here, and the settings from 1000
-  /// on.
+  /// For a Grbl sender: Grbl's numbers that mean something here, and the settings from 1000 on.
   void dumpForGrbl();
   void sayGrblNumbers();
   bool setForGrbl(const char* text);

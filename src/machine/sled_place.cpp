@@ -180,8 +180,8 @@ float SledPlace::farthestOff() const {
 }
 
 void SledPlace::keepWhenAtRest(uint32_t now_ms) {
-  // A motor may run on, a chain may be pulled by hand, a heavy sled may sink: what is reported,
-  // and where the next move begins, is where the sled is.
+  // A motor may run on, a chain may be pulled by hand, a heavy sled may sink: what is reported, and
+  // where the next move begins, is where the sled is.
   if (parts_.keeper.isReleased()) followPulledChains();
   if (!parts_.keeper.isDue(now_ms)) return;
   settings::Position position;

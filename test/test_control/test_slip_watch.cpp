@@ -1,5 +1,5 @@
-// A load that falls away for a moment is suspected; what an even load, a ramp or the other chain do
-// is not.
+// A load that drops away for a moment raises a suspicion; an even load, a ramp or the other chain
+// does not.
 #include <gtest/gtest.h>
 
 #include "axis.h"

@@ -1,4 +1,4 @@
-// What the control tick makes of a chain that lets go of its motor for a moment, on motors with
+// How the control tick reacts to a chain that lets go of its motor for a moment, on motors with
 // their loops.
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
-// Whatever the operator does to the feed: a program reaches its last place, z included, and each of
-// its lines is answered once.
+// With any overrides and holds a program reaches its last place, z included, and each of its lines
+// is answered once.
 #include <gtest/gtest.h>
 
 #include <random>
@@ -8,7 +8,7 @@
 
 namespace {
 
-/// A program of drawn moves with drawn overrides and holds among them.
+/// A program of random moves with random overrides and holds.
 class Drawn {
  public:
   explicit Drawn(unsigned seed) : random_(seed), is_grbl_(seed % 2 == 1) {}

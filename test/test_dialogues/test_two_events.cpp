@@ -10,7 +10,7 @@ using namespace two_events;
 
 namespace {
 
-/// What the law looks at.
+/// What is watched.
 Seen seenOf(const Machine& machine) {
   const Axes& axes = machine.parts().axes;
   Seen seen = {

@@ -148,7 +148,7 @@ TEST(Registry, EveryEffectHasASummaryAPatternAndARemedy) {
 
 namespace {
 
-/// Counts what an effect says to the judge.
+/// Counts the numbers that an effect sets on the judge.
 struct CountSaid {
   int sets = 0;
   void set(const char*, double) { ++sets; }

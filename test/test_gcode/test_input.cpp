@@ -249,7 +249,7 @@ TEST(Quick, BytesAbove127HoldAndChangeTheFeed) {
   EXPECT_EQ(Quick::kHold, line.put('\x84'));
   put(line, "5\n");
   EXPECT_EQ("G1 X5|", lines(line));
-  // One behind the other.
+  // One after the other.
   EXPECT_EQ(Quick::kFeedDown, line.put('\x92'));
   EXPECT_EQ(Quick::kFeedDown, line.put('\x92'));
 }

@@ -1,4 +1,4 @@
-// Words and numbers: what clients send is read as they mean it, and text that is no number is never
+// Words and numbers: clients' lines are read as intended, and text that is not a number is never
 // read as a number.
 #include <gtest/gtest.h>
 

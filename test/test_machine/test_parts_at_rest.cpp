@@ -108,7 +108,7 @@ TEST_F(ReportsAlone, AreDueEveryFifthOfASecond) {
 
 struct KeeperAlone : PartsAtRest {};
 
-// Else a chain that is pulled while the EEPROM is written would move the start of a planned move.
+// Otherwise pulling a chain while the EEPROM is written would shift the start of a planned move.
 TEST_F(KeeperAlone, KeepsMotorsWhileTheyAreAboutToGetPower) {
   EXPECT_TRUE(keeper.isReleased());
   keeper.beginMoving();

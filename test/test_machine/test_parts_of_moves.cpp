@@ -1,4 +1,4 @@
-// A stop while a line waits for room, and the errors that a test makes on purpose.
+// A stop while a line waits for room, and when a test of the loops counts as running.
 #include "parts.h"
 
 using namespace machine;

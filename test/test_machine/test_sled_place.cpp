@@ -1,4 +1,4 @@
-// Where the sled is: looked for, said or not, lost, and followed at rest.
+// Where the sled is: found, reported, lost, and followed at rest.
 #include <cmath>
 #include <tuple>
 

@@ -1,4 +1,4 @@
-// Each row of the settings says what it touches: these things change with its value, and nothing
+// Each row of the settings lists what it touches: these things change with its value, and nothing
 // else does.
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// A laser's strength belongs to its move and to no other, and follows the speed.
+// A laser's strength applies to its own move only, and follows the speed.
 #include <gtest/gtest.h>
 
 #include "plain.h"

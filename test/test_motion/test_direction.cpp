@@ -1,4 +1,4 @@
-// Which way a path leads at its ends, and what a corner makes of it.
+// The direction of a path at its ends, and the speed at a corner.
 #include <gtest/gtest.h>
 
 #include "plain.h"

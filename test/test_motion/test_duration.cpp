@@ -1,4 +1,4 @@
-// How long the queue says that its moves last, against the ticks that they then take.
+// The queue's estimate of its moves' duration, against the ticks they then take.
 #include <gtest/gtest.h>
 
 #include <random>

@@ -1,4 +1,4 @@
-// The invariants of mover_detail.h and stretch.h, asked after every step of random moves.
+// The invariants of mover_detail.h and stretch.h, checked after every step of random moves.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -12,7 +12,7 @@ namespace {
 
 const double kOnSheet = 0.01;  // [mm/tick^2] acceleration of moves without z
 
-/// Random moves one behind the other, and a mover that is asked after each set-point.
+/// Random moves in a row, and a mover that is checked after each set-point.
 class Asking {
  public:
   explicit Asking(unsigned seed) : random_(seed) {

@@ -1,5 +1,5 @@
-// What the queue makes of a move: its length, acceleration and speed over three axes, and the speed
-// at which each corner is passed.
+// A move in the queue: its length, acceleration and speed over three axes, and the speed at which
+// each corner is passed.
 #include <gtest/gtest.h>
 
 #include <algorithm>

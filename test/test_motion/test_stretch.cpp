@@ -1,4 +1,4 @@
-// Stretches of many ticks: they do what single ticks would do, and they are few.
+// Stretches of many ticks: they agree with single ticks, and they are few.
 #include <gtest/gtest.h>
 
 #include <cmath>

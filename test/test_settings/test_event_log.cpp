@@ -1,4 +1,4 @@
-// The log of what went wrong with the board: counts that survive a power cut in any byte.
+// The log of the board's faults: counts that survive a power cut in any byte.
 #include <algorithm>
 
 #include "boards.h"

@@ -14,8 +14,8 @@ const char kUnreadable = '?';
 
 bool isControl(char character) { return uint8_t(character) < ' ' && character != '\t'; }
 
-/// Whether Grbl senders use that byte, or its UTF-8 lead byte, as a command. No digit
-/// turns into one of these by a single flipped bit.
+/// Whether Grbl senders use that byte, or its UTF-8 lead byte, as a command. No digit turns into
+/// one of these by a single flipped bit.
 bool isOfGrbl(uint8_t byte) { return (byte >= 0x80 && byte <= 0xa1) || byte == 0xc2; }
 
 /// The character to store for an incoming character.

@@ -62,8 +62,8 @@ class Input {
   /// counts once, and never for a line that ended after it.
   bool takeResume();
 
-  /// Forgets everything that waits. A line that has begun is dropped up to its end:
-  /// its rest alone could be read as another line.
+  /// Forgets everything that waits. A line that has begun is dropped up to its end: its rest alone
+  /// could be read as another line.
   void clear();
 
  private:

@@ -41,8 +41,8 @@ struct Modal {
   /// M2 and M30: coordinates of G54, the plane of G17, feed a minute, and no cycle.
   void endProgram();
 
-  /// Takes a code that only changes how words are read, or confirms what is always so; `tenths`
-  /// is ten times the code. False for any other code.
+  /// Takes a code that only changes how words are read, or confirms what is always so; `tenths` is
+  /// ten times the code. False for any other code.
   bool take(uint16_t tenths);
 };
 

@@ -57,8 +57,8 @@ enum class Word : uint8_t {
   kCount
 };
 
-/// The settings, their comments for the dump, and texts for refusals. Numbers rise from row to
-/// row. The board has all of it in flash; this interface hides how flash is read.
+/// The settings, their comments for the dump, and texts for refusals. Numbers rise from row to row.
+/// The board has all of it in flash; this interface hides how flash is read.
 class Table {
  public:
   virtual uint8_t count() const = 0;

@@ -1,5 +1,5 @@
-// How long the page waits for an answer. A request that never ends would block what waits for it and hold a
-// connection that others need.
+// How long the page waits for an answer. A request that never ends would block what waits for it and hold a connection
+// that others need.
 
 /** Polling [ms]. */
 export const LOOK_MS = 10_000;

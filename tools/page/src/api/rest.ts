@@ -1,5 +1,5 @@
-// Whether the page is at rest: no request is open, no timer is pending and nothing is left to draw.
-// <html data-rest> says so to tests and screenshots.
+// Whether the page is at rest: no request is open, no timer is pending and nothing is left to draw. <html data-rest>
+// says so to tests and screenshots.
 import { options } from "preact";
 
 const PRESSES = [

@@ -32,7 +32,7 @@ function OpenBench({ bench }: { bench: Board }) {
   const live = useLive(choice, kept, bench.board);
   const stairs = useStairs(kept, bench.board);
   const gains = useGains(kept, bench.board);
-// Sorted once, by what each would leave: a row must not move away while it is being ticked.
+  // Sorted once, by what each would leave: a row must not move away while it is being ticked.
   const first = useRef(gains);
   first.current ??= gains;
   const rank = ({ name }: { name: string }) => first.current?.[name] ?? 0;
@@ -45,7 +45,7 @@ function OpenBench({ bench }: { bench: Board }) {
   const hasMarks = bench.marks.length > 0;
   const [laid, lay] = useState("");
   const drawn = useDrawn(laid ? [laid] : [], bench.board);
-// A slider moves more often than fits arrive: what has not changed is not drawn again.
+  // A slider moves more often than fits arrive: what has not changed is not drawn again.
   const stage = useMemo(() => {
     const states = [bench.as_set, ...(frame ? [frame] : [])];
     const hasEffects = frame && !!now && now.choice.effects.length > 0;

@@ -8,11 +8,11 @@ interface EffectCardParts {
   effect: Effect;
   choice: Choice;
   fit: Fit | undefined;
-/** The error that adding it would leave [mm]. */
+  /** The error that adding it would leave [mm]. */
   left: number | undefined;
-/** Shows a choice; `keep`: the slider was released. */
+  /** Shows a choice; `keep`: the slider was released. */
   change: (choice: Choice, keep: boolean) => void;
-/** Whether its pattern is shown over the marks. */
+  /** Whether its pattern is shown over the marks. */
   isLaid: boolean;
   lay: (() => void) | undefined; // undefined: there is no mark
 }

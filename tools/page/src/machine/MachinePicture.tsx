@@ -14,9 +14,9 @@ export type Distance =
 
 interface PictureParts {
   machine: Machine;
-/** The distance to mark. */
+  /** The distance to mark. */
   marked?: Distance | undefined;
-/** Its label. */
+  /** Its label. */
   words?: string;
 }
 

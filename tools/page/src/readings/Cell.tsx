@@ -11,17 +11,17 @@ interface CellParts {
   units: Unit;
   /** Names of the two edges, like "left". */
   from: readonly [string, string];
-/** The edges that it is typed from. */
+  /** The edges that it is typed from. */
   edges: string;
-/** Its key among the half readings. */
+  /** Its key among the half readings. */
   place: HalfPlace;
   doubted: boolean;
-/** An earlier mark has the same name. */
+  /** An earlier mark has the same name. */
   again: boolean;
   /** Goes on to the mark after it. */
   next: () => void;
   change: (value: Place | undefined) => void;
-/** Takes pasted spreadsheet columns; returns whether the text was some. */
+  /** Takes pasted spreadsheet columns; returns whether the text was some. */
   paste: (text: string) => boolean;
 }
 
@@ -38,7 +38,7 @@ export function Cell(parts: CellParts) {
     setTexts(typed);
     const read = complete(typed, units);
     const isHalf = !read && typed.some((each) => each.trim() !== "");
-// Half a reading does not count, and the number before it no longer does either.
+    // Half a reading does not count, and the number before it no longer does either.
     if (read || value) change(read);
     keepHalf(place, isHalf ? { edges, texts: typed } : undefined);
   };

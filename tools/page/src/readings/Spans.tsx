@@ -49,7 +49,7 @@ export function Spans({ form, take, doubts }: SpansParts) {
 
 interface SpanParts {
   name: string;
-/** Its index among the form's distances; -1 if it is not measured. */
+  /** Its index among the form's distances; -1 if it is not measured. */
   index: number;
   length: number | undefined;
   doubted: boolean;

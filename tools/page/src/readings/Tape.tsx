@@ -29,7 +29,7 @@ export function Tape({ form, take }: TapeParts) {
   const { project, choose } = useProject();
   const save = useSave(form, take);
   const stated = form.tape_sigma !== null;
-// If only distances are asked for, edges do not matter.
+  // If only distances are asked for, edges do not matter.
   const fromEdges = form.spans.length === 0 || form.marks.some((mark) => mark.read);
   const finest = project.choices.fineness ?? 0.5;
   const state = (value: string) =>

@@ -27,7 +27,7 @@ export function keepHalf({ key, file, index }: HalfPlace, half: Half | undefined
   try {
     localStorage.setItem(PREFIX + key, JSON.stringify(all));
   } catch {
-// Without storage it is kept as long as the tab is open.
+    // Without storage it is kept as long as the tab is open.
   }
 }
 

@@ -16,7 +16,7 @@ export type Typed = Record<string, Place>;
 export interface TypedForm extends OpenMark {
   form: Form | undefined;
   kept: Kept<Typed>;
-/** Shows the result of a save, unless another form is open by now. */
+  /** Shows the result of a save, unless another form is open by now. */
   take: (form: Form) => void;
   chooseFile: (name: string) => void;
 }
@@ -41,7 +41,7 @@ export function useReadings(first = ""): TypedForm {
   const take = useCallback(
     (answer: Form) => {
       if (newest.current?.file !== answer.file) return;
-// A save has finished since: this answer is out of date.
+      // A save has finished since: this answer is out of date.
       turns.overtake();
       show(answer);
     },
@@ -52,7 +52,7 @@ export function useReadings(first = ""): TypedForm {
     try {
       const answer = await get<Form>(`readings?file=${encodeURIComponent(file)}`);
       if (turns.counts(question)) show(answer);
-// The reason for a refused save stays visible.
+      // The reason for a refused save stays visible.
       setTrouble((line) => (line === refused.current ? "" : line));
     } catch (error) {
       refused.current = error instanceof Error ? error.message : String(error);
@@ -60,7 +60,7 @@ export function useReadings(first = ""): TypedForm {
       if (isSilence(error)) setSilences((count) => count + 1);
     }
   }, [file, turns, show, setTrouble]);
-// Without an answer, ask again.
+  // Without an answer, ask again.
   useEffect(() => {
     if (silences === 0) return;
     const timer = setTimeout(() => void load(), AGAIN_MS);
@@ -91,7 +91,7 @@ export function useReadings(first = ""): TypedForm {
       );
       take(answer);
       void reloadProject();
-// From other edges its numbers differ.
+      // From other edges its numbers differ.
       return answer.edges === edges ? typedIn(answer) : value;
     },
     reload: load,

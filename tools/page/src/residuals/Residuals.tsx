@@ -14,16 +14,16 @@ interface ResidualsParts {
   spans: readonly Span[];
   /** As set, with the frame fitted, and with effects. */
   states: readonly Left[];
-/** The state drawn below the one shown. */
+  /** The state drawn below the one shown. */
   ghosts?: Left | undefined;
   sigma: number; // [mm] of a reading
   covariates: readonly Covariate[] | undefined;
-/** The effects' patterns, over the errors that the frame leaves. */
+  /** The effects' patterns, over the errors that the frame leaves. */
   drawn: Drawn | undefined;
-/** Marks whose readings disagree: they do not affect the scale. */
+  /** Marks whose readings disagree: they do not affect the scale. */
   doubted: readonly number[];
   doubtedSpans: readonly number[];
-/** The state shown at first: where the model fails, or what is left. */
+  /** The state shown at first: where the model fails, or what is left. */
   opensOn?: "frame" | "last";
 }
 

@@ -15,7 +15,7 @@ export interface Scale {
 const EDGE = { left: 50, right: 10, top: 10 };
 const ROOM = 0.05; // of the width on each side, for arrows that leave the sheet
 
-/** The scale of a drawing that is so wide [px]. */
+/** The scale of a drawing of this width [px]. */
 export function scaleOf(size: Pair, wide: number): Scale {
   const [width, height] = [(1 + 2 * ROOM) * size[0], size[1] + 2 * ROOM * size[0]];
   const px = Math.max(1, wide - EDGE.left - EDGE.right) / width;
@@ -42,5 +42,5 @@ export const useScale = () => useContext(ScaleContext);
 
 /** Width and height of the machine's sheet [mm]. */
 export const SheetSize = createContext<Pair>([2440, 1220]);
-/** From which settings a drawing is: their name and digest. */
+/** The settings that a drawing was made from: name and digest. */
 export const Stamp = createContext("");

@@ -1,4 +1,4 @@
-// How large the sheet is drawn: enlarged it is wider than its frame, which scrolls as everything that is too wide does.
+// How large the sheet is drawn: enlarged, it is wider than its frame, which then scrolls.
 import { useLayoutEffect, useRef, useState } from "preact/hooks";
 import type { Pair } from "./view";
 
@@ -17,7 +17,7 @@ export interface Zoom {
 export function useZoom(frame: { current: HTMLElement | null }): Zoom {
   const [times, setTimes] = useState(1);
   const before = useRef(times);
-  // What is in the middle stays there.
+  // Keep the middle where it is.
   useLayoutEffect(() => {
     const ratio = times / before.current;
     before.current = times;

@@ -1,4 +1,4 @@
-// Which numbers of a correction are asked about: those that would change, and those that are accepted.
+// Which numbers of a correction to show: those that would change, and those that are accepted.
 
 interface Asked {
   name: string;
