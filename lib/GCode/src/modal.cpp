@@ -56,8 +56,8 @@ bool Modal::take(uint16_t tenths) {
     case 990:
       retracts_to_r = tenths == 990;
       return true;
-    // Always so: cutter compensation, scaling, rotation and polar words are off, spindle speed is in
-    // turns a minute, corners are passed within a fixed distance.
+    // Always so: cutter compensation, scaling, rotation and polar words are off, spindle speed is
+    // in turns a minute, corners are passed within a fixed distance.
     case 150:
     case 400:
     case 500:
