@@ -1,5 +1,5 @@
-// Requests of a Grbl sender: the status at each `?`, lines with a `$`, and jogs. How lines look to
-// such a sender is the printer's.
+// Requests of a Grbl sender: the status at each `?`, lines with a `$`, and jogs. How lines look is
+// up to the printer.
 #include "grbl_front.h"
 
 #include <string.h>
@@ -20,7 +20,7 @@ void GrblFront::askStatus(bool is_in_line) {
 }
 
 /// Whether a line shows that the only `?` so far was noise: GroundControl and WebControl put a
-/// space behind each line, and senders of Grbl go on asking.
+/// space behind each line, and Grbl senders go on asking.
 bool GrblFront::isOfMaslow(const char* line) const {
   const size_t length = strlen(line);
   return parts_.out.speaksGrbl() && !is_sure_ && length != 0 && line[length - 1] == ' ';

@@ -35,7 +35,7 @@ enum class Dialect : uint8_t {
 /// A line is one of three kinds. Data begin with `[`, `<` or `$` and are the same in both dialects,
 /// as are plain lines. A refusal or an alarm has its words behind `error: ` or `ALARM: `; a sender
 /// of Grbl gets the words as `[MSG:...]`, and then `error:N` or `ALARM:N`. Everything else is for
-/// people; a sender of Grbl gets it as `[MSG:...]`.
+/// people; a Grbl sender gets it as `[MSG:...]`.
 class Printer {
  public:
   explicit Printer(Wire& wire) : wire_(wire) {}
@@ -52,7 +52,7 @@ class Printer {
   FlashText alsoToOpen() const { return speaksGrbl() ? FLASH("unlock ($X)") : FLASH("press Stop"); }
   /// A whole line that is the same in both dialects.
   void plain(FlashText text);
-  /// `error:N` without words, for a sender of Grbl.
+  /// `error:N` without words, for a Grbl sender.
   void bareError(uint8_t number) { sayVerdict(FLASH("error:"), number); }
 
   Printer& operator<<(FlashText text);
@@ -64,7 +64,7 @@ class Printer {
   /// large for any machine, shows as zero: clients stop at words such as "nan".
   Printer& fixed(float number, uint8_t decimals);
 
-  /// Ends the line. A sender of Grbl gets no empty lines.
+  /// Ends the line. A Grbl sender gets no empty lines.
   void end();
 
   /// A whole line of fixed text.

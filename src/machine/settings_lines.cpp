@@ -22,7 +22,7 @@ struct GrblSetting {
 const GrblSetting kForGrbl[] PROGMEM = {
     {10, kSettingCount, 1},     // the status says machine places
     {13, kReportInches, 0},     //
-    {20, kSettingCount, 0},     // the sheet's edge stops the sled, whatever a sender sets
+    {20, kSettingCount, 0},     // the sheet's edge always stops the sled
     {21, kSettingCount, 0},     // no limit switches
     {22, kSettingCount, 0},     // no homing
     {30, kSpindleMost, 0},      //

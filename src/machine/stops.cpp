@@ -18,7 +18,7 @@ void Stops::stop() {
   parts_.cutter.off();
 }
 
-/// After an alarm lines get no answer, so none waits any longer. A sender of Grbl waits for each.
+/// After an alarm lines get no answer, so none waits any longer. A Grbl sender waits for each.
 void Stops::forgetUnanswered() {
   if (!parts_.out.speaksGrbl()) forgetLines();
 }

@@ -20,7 +20,7 @@ TEST_F(MovesAlone, WaitForRoomInTheQueueUntilAStop) {
 
 struct AxisTestsAlone : PartsAtRest {};
 
-TEST_F(AxisTestsAlone, AreUnderWayOnlyWhileTheyRun) {
+TEST_F(AxisTestsAlone, CountAsTestingOnlyWhileTheyRun) {
   bool was_testing = false;
   waiting.in_each_round = [&] {
     was_testing = axis_tests.isTesting();
