@@ -1,4 +1,4 @@
-// Corrections that two settings carry at once: a published number and the number of an effect. The
+// Corrections that are set twice: by a published setting and by an effect's own setting. The
 // machine adds both (docs/decisions/0007-published-numbers-keep-their-meaning.md).
 #pragma once
 

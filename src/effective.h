@@ -1,5 +1,5 @@
-// Settings as the kinematics needs them: the published numbers translated, and ours added. The
-// reasons: docs/decisions/0007-published-numbers-keep-their-meaning.md.
+// Settings as the kinematics needs them: published numbers translated, ours added. The reasons:
+// docs/decisions/0007-published-numbers-keep-their-meaning.md.
 #pragma once
 
 #include <quadrilateral.h>

@@ -39,7 +39,7 @@ inline const char* pointerIn(const char* const* texts, uint8_t index) {
 
 }  // namespace flash_rows
 
-/// Rows, comments and words, read from flash.
+/// Rows, comments and texts, read from flash.
 class FlashTable : public settings::Table {
  public:
   uint8_t count() const override { return kSettingCount; }

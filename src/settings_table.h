@@ -7,7 +7,7 @@
 //   name in C++, number, "name, unit", kind, step, default, lowest, highest, what it touches,
 //   section and key of the published programs, or "", sentence,
 //   what differs from the published firmware, or ""
-// A number keeps its meaning for ever once it was released. Free: 14, 47 to 59, 73, 74, 79 to 84.
+// Once released, a number never changes its meaning. Free: 14, 47 to 59, 73, 74, 79 to 84.
 // Never use 85 to 98 and 144: WebControl gives them another meaning.
 #pragma once
 
@@ -192,7 +192,7 @@
 #define PLUMB_KEPT(...) PLUMB_ENTRY(kKept, __VA_ARGS__)
 #define PLUMB_ENTRIES PLUMB_SETTINGS(PLUMB_LISTED, PLUMB_HIDDEN, PLUMB_KEPT)
 
-// Words for refusing $n=v; see Word in lib/Settings/src/table.h.
+// Texts for refusing $n=v; see Word in lib/Settings/src/table.h.
 // clang-format off
 #define PLUMB_SETTINGS_WORDS(WORD) \
   WORD(kUnknown, "is no setting") \

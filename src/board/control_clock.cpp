@@ -87,7 +87,7 @@ void ControlClock::begin(void (*tick)(), void (*hang)(), uint8_t ticks_per_secon
 uint32_t ControlClock::milliseconds() { return millis(); }
 
 void ControlClock::idle() {
-  // Back from a hang, the main program makes a round before ticks may drive again.
+  // After a hang the main program runs one round before ticks may drive again.
   if (silent_ticks >= most_silent_ticks && !has_hung) {
     has_hung = true;
     return;

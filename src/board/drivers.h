@@ -18,7 +18,7 @@ struct Levels {
   uint8_t input1, input2, enable;
 };
 
-/// A motor's driver, with its pins in the order in which they mean forward and reverse.
+/// A motor's driver; its inputs are in the order forward, reverse.
 struct Channel {
   Driver driver;
   uint8_t input1, input2, enable;  ///< pins; on the TLE9201: direction, disable and PWM
@@ -136,7 +136,7 @@ inline uint8_t pwmFor(Driver driver, uint8_t wanted) {
 /// Divider bits of the PWM timer 2 for a choice of 1 to 3; those of timers 3 and 4 are the choice.
 inline uint8_t dividerBitsOfTimer2(uint8_t choice) { return choice == 3 ? 4 : choice; }
 
-/// Words that name the driver in the greeting, as the published firmware spells them.
+/// The driver's name in the greeting, as the published firmware spells it.
 inline const char* nameOf(Driver driver) {
   switch (driver) {
     case Driver::kTle5206:

@@ -115,7 +115,7 @@ void Motors::arrange(bool over_top, uint8_t pwm_choice) {
     channel_[i] = channelOf(*shield_, Motor(i), over_top);
     encoder_[i] = encoderOf(*shield_, Motor(i), over_top);
     const Levels off = levelsOff(channel_[i]);
-    // No level equals its inverse, so the next levels are put on the pins in any case.
+    // The inverse differs from every level, so the next levels are always put on the pins.
     shown_[i] = {uint8_t(~off.input1), uint8_t(~off.input2), uint8_t(~off.enable)};
     put(Axis(i), off);
   }

@@ -1,4 +1,4 @@
-// The painted bytes. Nothing else lies there, because the firmware has no heap.
+// The painted bytes. Nothing else is there, as the firmware has no heap.
 #include "stack_guard.h"
 
 #include <stdint.h>

@@ -1,4 +1,4 @@
-// The words of refusals.
+// The texts of refusals.
 #include "answers.h"
 
 namespace machine {
@@ -79,8 +79,7 @@ bool Answers::refuseMistake(gcode::Mistake mistake) {
   return refuseLine(false, numberOf(mistake.fault), textOf(mistake.fault), mistake.letter);
 }
 
-/// Begins the words. A halt is an alarm, but to a sender of Grbl a mistake in a line stays an
-/// error.
+/// Begins the text. A halt is an alarm, but to a Grbl sender a mistake in a line stays an error.
 void Answers::beginRefusal(bool is_motion, uint8_t number) {
   if (halts() && (is_motion || !out_.speaksGrbl()))
     out_.alarm(grbl::kAlarmOfTarget);
@@ -99,7 +98,7 @@ bool Answers::endRefusal() {
 
 void Answers::quoteLine() {
   out_ << FLASH("Halted at ");
-  // As people write it: reading removed the spaces between words.
+  // With the spaces that reading removed.
   for (const char* at = line_; *at != '\0'; ++at) {
     if (at != line_ && isLetter(*at) && *at != 'E' && !isLetter(at[-1]) && at[-1] != ' ')
       out_ << ' ';

@@ -15,8 +15,8 @@ namespace machine {
 /// mustHalt() is then true once. Functions that refuse return false, so a command can return their
 /// result.
 ///
-/// A sender of Grbl hears what is wrong with a line as `error:N`, and of a motion that cannot be
-/// done as `ALARM:2`, the words before it.
+/// A Grbl sender gets a mistake in a line as `error:N`, and a motion that cannot be done as
+/// `ALARM:2`, each with the text before it.
 class Answers {
  public:
   Answers(Printer& out, const settings::Values& values) : out_(out), values_(values) {}
@@ -41,10 +41,10 @@ class Answers {
     return must;
   }
 
-  /// Begins the words of a refusal; the caller ends the line. `number` is one of Grbl's.
+  /// Begins the text of a refusal; the caller ends the line. `number` is Grbl's error number.
   void beginError(uint8_t number = grbl::kStatement);
   bool refuse(FlashText why, uint8_t number = grbl::kStatement);
-  /// Refuses a line without words, as a sender of Grbl expects it.
+  /// Refuses a line without a text, as a Grbl sender expects.
   bool refuseBare(uint8_t number);
   /// Refuses a motion that cannot be done, so that the machine is not where the program thinks:
   /// asks for a halt or answers `error:`, as setting $70 says.
@@ -52,13 +52,13 @@ class Answers {
   bool refuseMotion(FlashText why, char letter = '\0') {
     return refuseLine(true, grbl::kTravel, why, letter);
   }
-  /// Refuses a line whose words make no sense; asks for a halt as above.
+  /// Refuses a line that makes no sense; asks for a halt as above.
   bool refuseWords(FlashText why, char letter = '\0') {
     return refuseLine(false, grbl::kUnsupported, why, letter);
   }
   /// Refuses a motion with a sentence around a length [mm].
   bool refuseMotion(FlashText why, float mm, FlashText more);
-  /// Refuses a line without meaning, in the words of the published firmware.
+  /// Refuses an unknown line with the published firmware's message.
   bool refuseStatement();
   bool refuseMistake(gcode::Mistake mistake);
   bool refuseCode(const gcode::Piece& piece);
@@ -76,7 +76,7 @@ class Answers {
   bool is_answered_ = false, must_halt_ = false, is_serving_ = false;
 };
 
-// Refusals of more than one part.
+// Refusals used in more than one place.
 FlashText tooLongForChains();
 FlashText tooLongForZ();
 FlashText tooFar();

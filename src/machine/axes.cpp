@@ -1,5 +1,5 @@
-// The tick of all axes: a set-point, the axes, the watch for slips, the feed that yields. Then how
-// the main program holds the way and lifts z off it.
+// The tick of all axes: set-point, axes, slip watch, yielding feed. Then how the main program holds
+// the way and lifts z off it.
 #include "axes.h"
 
 #include "settings_table.h"
@@ -7,7 +7,7 @@
 namespace machine {
 namespace {
 
-// [1/256] Below this share of the planned speed the operator hears of it.
+// [1/256] The operator is notified below this share of the planned speed.
 const uint16_t kMuch = 200;
 
 }  // namespace

@@ -11,7 +11,7 @@ class BCodes {
  public:
   explicit BCodes(Parts& parts) : parts_(parts) {}
 
-  /// Does a line, which is clean.
+  /// Runs a cleaned line.
   bool run(const char* line);
 
  private:
@@ -21,10 +21,10 @@ class BCodes {
   bool setChains(const gcode::Words& words);
   bool pullChain(const gcode::Words& words);
   bool testLoop(uint8_t code, const gcode::Words& words);
-  /// B99: only the word ON simulates the motors.
+  /// B99: only ON simulates the motors.
   bool switchMotors(const char* word);
   bool simulateMotors(bool on);
-  /// Waits until the settings in force outlive a power cut; false after a stop.
+  /// Waits until the settings in force are stored; false after a stop.
   bool awaitStored();
 
   Parts& parts_;

@@ -1,11 +1,11 @@
-// A look at the board.
+// Supply, drivers and EEPROM, one look at a time.
 #include "board_watch.h"
 
 namespace machine {
 
 BoardEvent BoardWatch::look(Aux& aux, const BoardLimits& limits, bool is_powered, bool is_worn) {
   takeSupply(aux.bandGap(), limits.band_gap);
-  // A driver without power may complain that it has none.
+  // A driver without power may report just that.
   complaints_ = is_powered && hasComplained(aux) ? uint8_t(complaints_ + 1) : uint8_t(0);
   if (complaints_ >= kPatience) {
     complaints_ = 0;

@@ -13,7 +13,7 @@ char foreignAxis(const Words& words) {
   return gcode::kNoLetter;
 }
 
-/// The letter of a coordinate that no machine reaches; 0 if there is none.
+/// The letter of a coordinate beyond any machine's reach; 0 if there is none.
 char farAxis(const gcode::Modal& modal, const Words& words) {
   for (uint8_t axis = 0; axis < kPlaceAxes; ++axis) {
     const float most = axis == kZAxis ? kMostZ : kMostTravel;
@@ -42,7 +42,7 @@ bool Codes::run(const char* text) {
 
 bool Codes::runPiece(const gcode::Piece& piece) {
   const Words& words = piece.words;
-  // A hold may have come in a wait that goes on in a hold, as a dwell does.
+  // A hold may have come during a wait that goes on in a hold, such as a dwell.
   parts_.waiting.untilRunning();
   // After a stop broke a line off only its modes still count: a stopped jog ends in G90.
   if (parts_.waiting.isStopping() || parts_.answers.isAnswered())
@@ -82,7 +82,7 @@ bool Codes::moveInMode(const Words& words) {
 }
 
 /// After G80 no motion is in force. Programs go on with z alone to lift the bit, and that is safe
-/// whichever motion they mean.
+/// whatever the motion was.
 bool Codes::riseAfterCycle(const Words& words) {
   const Place target = parts_.moves.targetOf(words);
   if (goesAcross(words) || target.z < parts_.program.aim().z)
@@ -191,7 +191,7 @@ bool Codes::dwell(const gcode::Piece& piece) {
   const Words& words = piece.words;
   if (words.hasPlace())
     return parts_.answers.refuseWords(FLASH("G4 takes P or S and goes nowhere"));
-  // P is in seconds for a sender of Grbl, else in milliseconds.
+  // P is in seconds for a Grbl sender, else in milliseconds.
   const float part = parts_.out.speaksGrbl() ? 1 : 0.001f;
   const float seconds =
       float(fabs(words.value('P') != 0 ? words.value('P') * part : words.value('S')));

@@ -10,9 +10,9 @@ class Codes {
  public:
   explicit Codes(Parts& parts) : parts_(parts) {}
 
-  /// Does a line, which is clean.
+  /// Runs a cleaned line.
   bool run(const char* text);
-  /// Looks for mistakes and for codes that this machine does not know; nothing is done.
+  /// Checks for mistakes and unknown codes without running anything.
   bool check(const char* text);
 
  private:

@@ -6,7 +6,7 @@
 namespace machine {
 namespace {
 
-/// State after an event, and the permissions of each state.
+/// The state after each event, and what each state permits.
 struct Row {
   State after[uint8_t(Event::kCount)];
   bool path_goes;

@@ -9,7 +9,7 @@ namespace machine {
 enum class State : uint8_t {
   kRunning,   ///< lines are done, the path goes on
   kChecking,  ///< `$C`: lines are read for mistakes, and nothing is done
-  kJogging,   ///< `$J`: what is queued are jogs; the operator goes on with them, or ends them
+  kJogging,   ///< `$J`: jogs are queued; the operator sends more, or ends them
   kJogEnds,   ///< a jog was broken off: everything brakes, the lines stay
   kHeld,      ///< 0x84: everything stands until `~`; the operator may move z
   kPaused,    ///< M0, M1, M6 or z by hand: as above, once the path is at its end
@@ -26,21 +26,21 @@ enum class State : uint8_t {
 /// Events that change it.
 enum class Event : uint8_t {
   kHold,    ///< 0x84
-  kPause,   ///< a line that waits for `~` is next
+  kPause,   ///< the next line waits for `~`
   kResume,  ///< `~`
   kLower,   ///< z is about to go back
   kBack,    ///< z is where the program left it
   kStop,    ///< `!` or ctrl-X
   kHalt,    ///< a motion was refused
   kAlarm,   ///< a fault
-  kStood,   ///< after a stop, a fault or a jog: nothing turns any longer
+  kStood,   ///< after a stop, a fault or a jog: everything stands
   kJog,     ///< a jog is next
   kEndJog,  ///< 0x85
   kCheck,   ///< `$C`
   kCount,
 };
 
-/// Kind of act of a line, as far as a state lets it or not.
+/// Kinds of lines, as states accept or refuse them.
 enum Kind : uint8_t {
   kQuestion = 1,  ///< says something, and changes nothing
   kSetting = 2,   ///< sets numbers
@@ -50,7 +50,7 @@ enum Kind : uint8_t {
   kCheck = 32,    ///< `$C`
 };
 
-/// Whose lines are done: bits of Kind. In the operator's turn OperatorLines looks more closely.
+/// Which lines are run: bits of Kind. In the operator's turn OperatorLines is stricter.
 enum class Lines : uint8_t {
   kNobody = 0,
   kQuestions = kQuestion | kSetting,
@@ -60,10 +60,10 @@ enum class Lines : uint8_t {
   kProgram = kQuestion | kSetting | kCode | kAct | kJog | kCheck,
 };
 
-/// The machine's state, and the only door by which path and z stop and go on.
+/// The machine's state; path and z are stopped and started only here.
 ///
-/// Motion has no other switch: the path goes in those states only whose row says so, and z leaves
-/// it only while the operator's lines are done, or on its way back.
+/// The path runs only in states whose row says so, and z leaves it only while the operator's lines
+/// are done, or on its way back.
 class Course {
  public:
   explicit Course(Axes& axes) : axes_(axes) {}
@@ -75,15 +75,15 @@ class Course {
   bool isWaiting() const { return state_ >= State::kHeld && state_ <= State::kLowering; }
   /// Whether z goes back, or is about to.
   bool isComingBack() const { return is(State::kResuming) || is(State::kLowering); }
-  /// Whether every wait of a command ends, and everything comes to rest.
+  /// Whether all waits of commands end and everything comes to rest.
   bool isStopping() const;
-  /// Whether only a stop or ctrl-X opens the machine again.
+  /// Whether only a stop or ctrl-X unlocks the machine.
   bool isHalted() const { return state_ >= State::kHalted; }
   Lines lines() const { return linesIn(state_); }
-  /// The gate of every line, be it G, B or `$`: whether one of that kind may run now.
+  /// Whether a line of this kind, be it G, B or `$`, may run now.
   bool allows(Kind kind) const { return (uint8_t(lines()) & kind) != 0; }
 
-  /// Takes an event: what may not move any longer brakes, what may goes on. False where the event
+  /// Takes an event: brakes what may no longer move, and starts what may. False where the event
   /// changes nothing.
   bool take(Event event);
 

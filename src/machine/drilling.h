@@ -10,7 +10,7 @@ class Drilling {
  public:
   explicit Drilling(Parts& parts) : parts_(parts) {}
 
-  /// Begins G81 to G83 by their number: the words of this line and of the next lines drill.
+  /// Begins G81 to G83 by their number; they apply to this line and those after it.
   void begin(uint8_t cycle);
   /// Drills the holes of a line.
   bool drill(const gcode::Words& words);

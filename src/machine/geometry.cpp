@@ -67,7 +67,7 @@ void Geometry::prepareRing(const Values& values, const kinematics::Frame<float>&
   const float far_run = sprockets_.right.x + half_width_;
   const float near_run = sprockets_.right.x - half_width_;
   const float drop = frame.motor_height + half_height_;
-  // A sheet as wide as the frame has no chain that could hold its corner.
+  // On a sheet as wide as the frame no chain could hold the corner.
   const float least_run = near_run > 50 ? near_run : 50;
   const float span = float(sqrt(far_run * far_run + drop * drop));
   sprockets_.effects = motion::sagSlopes(sag, far_run, least_run, drop, span);

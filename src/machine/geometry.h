@@ -60,8 +60,8 @@ class Geometry {
  private:
   bool isSheetReachable() const;
   /// The ring's constants, with or without what bends. Returns how large the errors are that repeat
-  /// with each turn of the sprockets [mm]. What it works with is gone from the stack before the
-  /// constants are used.
+  /// with each turn of the sprockets [mm]. Its temporaries are off the stack before the constants
+  /// are used.
   __attribute__((noinline)) float shapeRing(const settings::Values& values, bool bends);
   void prepareRing(const settings::Values& values, const kinematics::Frame<float>& frame);
   void prepareBrackets(const settings::Values& values, const kinematics::Frame<float>& frame);

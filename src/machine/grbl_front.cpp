@@ -1,5 +1,5 @@
-// Requests of a sender of Grbl: the status at each `?`, lines with a `$`, and jogs. How lines
-// look to such a sender is the printer's.
+// Requests of a Grbl sender: the status at each `?`, lines with a `$`, and jogs. How lines look is
+// up to the printer.
 #include "grbl_front.h"
 
 #include <string.h>
@@ -11,7 +11,7 @@ namespace machine {
 using gcode::Words;
 
 void GrblFront::askStatus(bool is_in_line) {
-  // Maslow clients never send it, so at the beginning of a line it says who is there.
+  // Maslow clients never send it, so at the beginning of a line it tells a Grbl sender.
   if (!parts_.out.speaksGrbl() && is_in_line) return;
   if (!parts_.out.speaksGrbl()) is_new_ = true;
   is_sure_ = parts_.out.speaksGrbl();
@@ -20,13 +20,13 @@ void GrblFront::askStatus(bool is_in_line) {
 }
 
 /// Whether a line shows that the only `?` so far was noise: GroundControl and WebControl put a
-/// space behind each line, and senders of Grbl go on asking.
+/// space behind each line, and Grbl senders go on asking.
 bool GrblFront::isOfMaslow(const char* line) const {
   const size_t length = strlen(line);
   return parts_.out.speaksGrbl() && !is_sure_ && length != 0 && line[length - 1] == ' ';
 }
 
-/// Some senders of Grbl begin with these, and no client of Maslow's does.
+/// Some Grbl senders begin with these, and no Maslow client does.
 bool GrblFront::isGreetedBy(const char* line) {
   if (line[1] == '\0' || line[2] != '\0' || strchr("IGX", line[1]) == nullptr) return false;
   is_sure_ = true;
@@ -34,14 +34,14 @@ bool GrblFront::isGreetedBy(const char* line) {
   return true;
 }
 
-/// A client of Maslow's is there: it knows nothing of check mode.
+/// A Maslow client is connected; it does not know check mode.
 void GrblFront::speakMaslow() {
   parts_.out.speak(Dialect::kMaslow);
   if (parts_.course.is(State::kChecking)) parts_.course.take(Event::kCheck);
 }
 
 FlashText GrblFront::stateNow(bool is_executing) {
-  // No program begins from a place that nobody knows, and its place in the status is none.
+  // No program can begin from an unknown place, and the status has none to show.
   if (parts_.course.isHalted() || !parts_.place.isKnown()) return FLASH("Alarm");
   if (parts_.course.isWaiting()) return parts_.axes.isAtRest() ? FLASH("Hold:0") : FLASH("Hold:1");
   if (parts_.course.is(State::kChecking)) return FLASH("Check");
@@ -84,7 +84,7 @@ void GrblFront::reset() {
   parts_.greeting.sayWelcome();
 }
 
-/// The modes with which a sender of Grbl begins.
+/// The modes with which a Grbl sender begins.
 void GrblFront::resetModes() {
   const float feed = parts_.modal.feed;
   parts_.modal = gcode::Modal();
@@ -116,7 +116,7 @@ bool GrblFront::run(const char* line) {
       return true;
     case 'I':
       parts_.out.line(FLASH("[VER:1.1h.20261125:Plumb " PLUMB_VERSION "]"));
-      // V: a spindle of more than one speed. Then moves that wait, and characters.
+      // V: a spindle with variable speed. Then the waiting moves and characters.
       parts_.out.line(FLASH("[OPT:V,16,128]"));
       return true;
     case 'N':
@@ -176,7 +176,7 @@ bool GrblFront::unlock() {
   parts_.out.plain(FLASH("ok"));
   parts_.answers.setAnswered(true);
   const bool is_lost = parts_.keeper.hasLost() || !parts_.place.isKnown();
-  // The end of a stop says what was lost once all stands.
+  // At the end of a stop, once everything stands, a message says what was lost.
   if (is_lost && !(parts_.course.isHalted() && parts_.keeper.hasLost()))
     parts_.out.line(parts_.place.whatIsLost());
   if (parts_.course.isHalted()) {
@@ -197,13 +197,13 @@ bool GrblFront::toggleCheck() {
 bool GrblFront::jog(const char* text) {
   parts_.course.take(Event::kJog);
   const gcode::Modal program = parts_.modal;
-  // Nothing of a program depends on a jog, so no refusal halts the machine.
+  // No program depends on a jog, so a refused one does not halt the machine.
   parts_.answers.serve(true);
   const bool done = queueJog(text);
   parts_.answers.serve(false);
   parts_.modal = program;
   if (parts_.answers.isAnswered()) return done;
-  // At once, for a sender waits with its next jog; and also where 0x85 ended the wait for room.
+  // At once, as the sender waits for it before the next jog; also if 0x85 ended the wait for room.
   parts_.out.plain(FLASH("ok"));
   parts_.answers.setAnswered(true);
   return done;
@@ -228,7 +228,7 @@ bool GrblFront::queueJog(const char* text) {
   return parts_.moves.moveStraight(parts_.moves.targetOf(words), goesAcross(words), feed);
 }
 
-/// Takes a jog's codes into the modes, and its words; false, with a refusal, where it has others.
+/// Takes a jog's modes and words; false, with a refusal, if it has other codes.
 bool GrblFront::readJog(const char* text, Words& words) {
   gcode::Piece piece;
   for (gcode::Pieces pieces(text); pieces.next(piece);) {

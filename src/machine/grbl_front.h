@@ -1,4 +1,4 @@
-// The front for senders of Grbl.
+// The front end for Grbl senders.
 #pragma once
 
 #include "b_lines.h"
@@ -6,26 +6,26 @@
 
 namespace machine {
 
-/// Answers `?` and lines with a `$`, and does jogs, for a sender of Grbl.
+/// Answers `?` and `$` lines and runs jogs for a Grbl sender.
 class GrblFront {
  public:
   GrblFront(Parts& parts, Stops& stops) : parts_(parts), stops_(stops) {}
 
   /// A `?` came.
   void askStatus(bool is_in_line);
-  /// Says the status if it was asked for.
+  /// Sends the status if it was asked for.
   void answerStatus(bool is_executing);
-  /// Whether a line of a client of Maslow's takes this one for a sender of Grbl: `$I`, `$G`, `$X`.
+  /// Whether a line shows that a Grbl sender is connected: `$I`, `$G`, `$X`.
   bool isGreetedBy(const char* line);
   bool isOfMaslow(const char* line) const;
   void speakMaslow();
-  /// Does a line that begins with `$`.
+  /// Runs a line that begins with `$`.
   __attribute__((noinline)) bool run(const char* line);
   /// 0x18.
   void reset();
   /// 0x85, or a hold in a jog.
   void endJog();
-  /// Whether a line is a jog that waited when a jog was ended: it is answered, and not done.
+  /// Whether a line is a jog that waited when jogging ended: it is answered, but not run.
   bool isDroppedJog(const char* line);
 
  private:
@@ -43,7 +43,7 @@ class GrblFront {
   Stops& stops_;
   bool is_status_due_ = false;  ///< a `?` came
   bool is_new_ = false;         ///< it has asked for the first time
-  bool is_sure_ = false;        ///< it has asked again, or in words
+  bool is_sure_ = false;        ///< it has asked again, or sent a `$` line
   uint8_t dropped_jogs_ = 0;    ///< lines that waited when a jog was ended
 };
 

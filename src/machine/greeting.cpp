@@ -1,4 +1,4 @@
-// The words of a start.
+// The messages of a start.
 #include "greeting.h"
 
 #include "version.h"
@@ -17,7 +17,7 @@ void Greeting::sayBoard() {
 
 void Greeting::sayReady() {
   out_.line(FLASH("Plumb v" PLUMB_VERSION ", firmware for the Maslow CNC"));
-  // Nobody is known yet, and some senders of Grbl wait for this line before they say anything.
+  // The client is not known yet, and some Grbl senders wait for this line before they send.
   sayWelcome();
   out_.line(FLASH("ready"));
   out_.plain(FLASH("ok"));

@@ -24,9 +24,9 @@ class Greeting {
   void sayMotors(bool are_simulated);
   /// Says why the firmware started, unless the start was usual.
   void sayStart();
-  /// Says where the settings come from, unless they are as they were left.
+  /// Says where the settings come from, unless they are simply the stored ones.
   void saySource(const settings::Started& started);
-  /// After a reset by a sender of Grbl: the line for which it waits.
+  /// After a reset by a Grbl sender: the line that it waits for.
   void sayWelcome();
   /// Prints the lines after which clients begin to send.
   void sayReady();

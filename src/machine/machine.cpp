@@ -75,7 +75,7 @@ void Machine::readWire() {
     if (quick == gcode::Quick::kStatus)
       grbl_.askStatus(input.isInLine());
     else
-      // To a sender of Grbl `!` is a hold.
+      // For a Grbl sender `!` is a hold.
       takeQuick(parts_.out.speaksGrbl() && quick == gcode::Quick::kStop ? gcode::Quick::kHold
                                                                         : quick);
   }
@@ -90,12 +90,12 @@ void Machine::takeQuick(gcode::Quick quick) {
       parts_.out.plain(FLASH("ok"));
       return stops_.stop();
     case Quick::kResume:
-      // Whoever holds counts answers: neither 0x84 nor the ~ behind it has any.
+      // Clients that use 0x84 count answers: neither it nor the `~` after it gets one.
       if (!parts_.course.is(State::kHeld) && !parts_.out.speaksGrbl())
         parts_.out.plain(FLASH("ok"));
       return parts_.operator_lines.resume();
     case Quick::kHold:
-      // A chain does not go on at a duty. The line gets no answer, so the client must hear why.
+      // A chain cannot go on at a duty. The line gets no answer, so a message says why.
       if (parts_.axes.isDriven() || parts_.axis_tests.isTesting())
         return stops_.raise(Remedy::kOpen, FLASH("A hold ended a pull or a test of motors"));
       // A hold ends a jog.
@@ -126,7 +126,7 @@ void Machine::loop() {
   if (isStopping()) return stops_.finish();
   if (parts_.course.is(State::kJogging) && !isMoving()) parts_.course.take(Event::kStood);
   char line[gcode::Input::kRoom + 1];
-  // A program waits here while its moves are made: nothing of a line stands on the stack.
+  // A program waits here during its moves, with nothing of a line on the stack.
   if (parts_.course.isWaiting() || !parts_.planner.hasRoom() || !parts_.input.takeLine(line))
     return parts_.clock.sleep();
   parts_.answers.begin(line);
@@ -158,7 +158,7 @@ bool Machine::execute(char* line) {
   if (grbl_.isOfMaslow(first)) grbl_.speakMaslow();
   const bool is_b = *first == 'b' || *first == 'B';
   if (is_b && mayRun(kindOf(first))) {
-    // The first words of GroundControl, WebControl and the lab.
+    // The first lines that GroundControl, WebControl and the lab send.
     if (bCodeOf(first) == 5) grbl_.speakMaslow();
     echo(first);
   }
@@ -173,14 +173,14 @@ bool Machine::execute(char* line) {
   return parts_.course.is(State::kChecking) ? codes_.check(line) : codes_.run(line);
 }
 
-/// The gate of every line.
+/// Decides whether a line may run.
 bool Machine::mayRun(Kind kind) const {
   // A jog begins, and so does the check, where nothing is on its way.
   const bool needs_rest = (kind == kJog || kind == kCheck) && parts_.course.isRunning();
   return parts_.course.allows(kind) && !(needs_rest && isMoving());
 }
 
-/// A line comes after an alarm: only a sender of Grbl counts on an answer.
+/// A line after an alarm: only a Grbl sender counts on an answer.
 bool Machine::refuseNow(Kind kind) {
   if (parts_.course.isHalted() && !parts_.out.speaksGrbl()) return false;
   const bool is_line_of_dollar = kind != kCode && kind != kAct;

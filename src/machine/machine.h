@@ -1,5 +1,5 @@
-// The machine: what a line from the computer makes the motors do, and everything that it says.
-// Without Arduino: ports.h holds what it needs of a board. README.md says which part does what.
+// The machine: how lines from the computer move the motors, and every answer to them. Without
+// Arduino: ports.h holds what it needs of a board. README.md says which part does what.
 #pragma once
 
 #include "b_codes.h"
@@ -8,7 +8,7 @@
 
 namespace machine {
 
-/// A Maslow: its parts, the main program, and which part does which line.
+/// A Maslow: its parts, the main program, and which part runs which line.
 ///
 /// Commands run to their end in the main program. While a command waits, service() keeps everything
 /// else going (waiting.h). Functions that may wait return whether they were completed.
@@ -35,7 +35,7 @@ class Machine : private Waiting {
   /// How often the machine needs its control tick; known after begin().
   uint8_t ticksPerSecond() const { return ticks_per_second_; }
 
-  /// What a dry run looks at.
+  /// For dry runs.
   const Parts& parts() const { return parts_; }
 
  private:

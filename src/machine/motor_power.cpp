@@ -34,7 +34,7 @@ void MotorPower::restWhenIdle(bool is_busy) {
 }
 
 bool MotorPower::doesFrictionHold() const {
-  // Nobody knows what hangs on chains that nobody has set.
+  // Until the chains are set, what hangs on them is unknown.
   if (!parts_.place.isKnown() || parts_.axes.isSimulated()) return true;
   const Place at = parts_.place.now(false);
   const float kPerMetre = 1000;  // [mm]

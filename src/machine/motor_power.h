@@ -23,7 +23,7 @@ class MotorPower {
   bool awaitRecord();
 
   // Reasons to refuse a motion before its motors get power.
-  /// Refuses to go on from where nobody sent the sled: it moved while its motors were off.
+  /// Refuses to go on if the sled moved while its motors were off.
   bool goOnFromHere();
   /// Refuse to move chains, or z, by motors whose position loop has no gain: they would lag without
   /// an alarm.
@@ -44,7 +44,7 @@ class MotorPower {
 
   Parts& parts_;
   Rest rest_ = Rest::kUnwatched;
-  bool has_said_so_ = false;  ///< that they stay on where the sled is high
+  bool has_said_so_ = false;  ///< that motors stay on because the sled is high
   uint32_t last_busy_ms_ = 0;
 };
 

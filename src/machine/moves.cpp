@@ -7,7 +7,7 @@ namespace {
 using gcode::Words;
 
 const float kLeastFeed = 1;        // [mm/min]
-const float kInTheWork = 0.05f;    // [mm] below the surface: nobody lets go of a bit there
+const float kInTheWork = 0.05f;    // [mm] below the surface, where the bit must be held
 const float kMostCutOff = 0.005f;  // [mm] between a chord and its arc
 const uint8_t kMostPieces = 5;     // of a line that four edges cut
 

@@ -46,7 +46,7 @@ void NewValues::prepareGeometry() {
   is_geometry_stale_ = false;
   parts_.geometry.prepare(parts_.values);
   parts_.planner.setGeometry(parts_.geometry);
-  // A correction that was cured is news again when it comes back.
+  // A correction that was set right is reported again if it comes back.
   said_twice_ &= twiceBits(parts_.values);
 }
 

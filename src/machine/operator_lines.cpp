@@ -59,8 +59,7 @@ bool OperatorLines::setZByHand(float z, bool into_work) {
 
 void OperatorLines::resume() {
   const uint32_t now = parts_.clock.milliseconds();
-  // A `~` that ends a wait is no answer to a pause to come.
-  // Senders of Grbl press it at any time.
+  // A `~` that ends this wait does not answer a later pause. Grbl senders may send it at any time.
   if (!parts_.course.isRunning() || now - resumed_ms_ < kTwice || parts_.out.speaksGrbl())
     parts_.input.takeResume();
   resumed_ms_ = now;
@@ -70,7 +69,7 @@ void OperatorLines::resume() {
 gcode::Input& OperatorLines::inputFor(char character) {
   const uint32_t kFirstMs = 300;  // a sender that has not noticed may go on for a moment
   if (character != '\n' && !coming_->isInLine()) {
-    // To a sender of Grbl a line in a hold is one of the program, to be done after it.
+    // For a Grbl sender a line sent in a hold belongs to the program and runs after the hold.
     const bool is_own = !parts_.out.speaksGrbl() && isOperatorsTurn() &&
                         parts_.clock.milliseconds() - since_ms_ >= kFirstMs;
     coming_ = is_own ? &typed_ : &parts_.input;

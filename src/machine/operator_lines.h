@@ -11,9 +11,9 @@ namespace machine {
 /// Serves a hold or a pause from its beginning until z is back at the program's height.
 ///
 /// A sender that runs ahead, or has not noticed yet, may have sent lines of its program. So the
-/// operator's lines have another room: it takes what comes after the first moments of a hold
-/// or pause, and whatever of a program waits is as it was. Each of these lines is done at once, or
-/// refused with the reason, and never done later.
+/// operator's lines have their own buffer: it takes what comes after the first moments of a hold or
+/// pause, and waiting program lines stay as they are. Each operator's line is run at once, or
+/// refused with the reason, and never run later.
 class OperatorLines {
  public:
   explicit OperatorLines(Parts& parts);
@@ -39,15 +39,15 @@ class OperatorLines {
     typed_.clear();
     stale_ = 0;
   }
-  /// The room for the line that a character belongs to.
+  /// The buffer for the line that a character belongs to.
   gcode::Input& inputFor(char character);
-  /// To be called often: does a line of the operator, or a step of z's way back.
+  /// To be called often: runs a line of the operator, or a step of z's way back.
   void serve();
   /// Whether a line may be done while the program waits.
   bool isForOperator(const char* line) const;
 
  private:
-  /// [ms] Somebody who presses `~` twice answers one question.
+  /// [ms] A second `~` within this time counts as the same press.
   enum : uint16_t { kTwice = 1000 };
 
   bool isForOperator(const gcode::Piece& piece) const;
@@ -62,8 +62,8 @@ class OperatorLines {
   bool jogZ(const gcode::Words& words);
 
   Parts& parts_;
-  gcode::Input typed_;                          ///< lines of the operator
-  gcode::Input* coming_;                        ///< the room of the line that came last
+  gcode::Input typed_;                          ///< the operator's lines
+  gcode::Input* coming_;                        ///< the buffer of the last line
   gcode::Modal program_;                        ///< modes of the program, restored at the end
   uint8_t stale_ = 0;                           ///< lines that waited when a hold came
   uint32_t since_ms_ = 0;                       ///< when the wait began

@@ -14,8 +14,8 @@
 
 namespace machine {
 
-/// The board, the numbers, the axes, the words to the computer, and the parts that act. Those that
-/// act get all of it, and use what is above them, never what is below.
+/// The board, the settings, the axes, the printer, and the parts that act. Those that act get all
+/// of it, and use what is above them, never what is below.
 struct Parts : Ports {
   Parts(const Ports& ports, const BoardName& board, Waiting& whoever_waits)
       : Ports(ports), waiting(whoever_waits), greeting(board, out), telemetry(*this, board.start) {}

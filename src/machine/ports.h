@@ -23,7 +23,7 @@ class Wire {
   virtual int16_t read() = 0;
   /// Sends a character; waits only if the line's buffer is full.
   virtual void write(char character) = 0;
-  /// How many characters were lost since the last call, because nobody read them in time.
+  /// How many characters were lost since the last call because they were not read in time.
   virtual uint8_t lost() = 0;
 
  protected:
@@ -91,7 +91,7 @@ class Clock {
   virtual void holdTicks() = 0;
   virtual void releaseTicks() = 0;
   /// [us] Longest time from when a control tick was due until it was over, since the last call; 0
-  /// where nobody measures it.
+  /// where it is not measured.
   virtual uint16_t longestTick() { return 0; }
   /// Whether the stack has kept out of the program's data since the start. If not, the tick does
   /// not run any more, and the board has taken the power off the motors.

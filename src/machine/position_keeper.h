@@ -9,11 +9,11 @@ namespace machine {
 
 /// Keeps the position's record in the EEPROM.
 ///
-/// The law: a record at rest is valid only while all motors are without power and stand still, and
-/// their encoders still show the counts of the record. Before anything changes a length, be it a
-/// motor or a declaration, the record becomes a record of motion. A new record is due once
-/// everything has stood still for a moment. A doubtful position is never stored. Simulated motion
-/// (B99 ON) leaves the record alone.
+/// A record at rest is valid only while all motors are without power and stand still, and their
+/// encoders still show the counts of the record. Before anything changes a length, be it a motor or
+/// a declaration, the record becomes a record of motion. A new record is due once everything has
+/// stood still for a moment. A doubtful position is never stored. Simulated motion (B99 ON) leaves
+/// the record alone.
 class PositionKeeper {
  public:
   PositionKeeper(settings::Memory& memory, const Axes& axes) : memory_(memory), axes_(axes) {}
@@ -37,9 +37,9 @@ class PositionKeeper {
   /// The position was never known, or was erased: there is no record.
   void startAfresh() { lost_ = kUnset; }
 
-  /// Somebody declared the lengths of the chains: they are trusted again.
+  /// The lengths of the chains were declared: they are trusted again.
   void declareChains();
-  /// Somebody declared z.
+  /// The height of z was declared: it is trusted again.
   void declareZ();
   /// Lengths stay, but now counts mean other lengths, or the chains mean another place.
   void reconsider();

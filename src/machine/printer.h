@@ -24,7 +24,7 @@ enum : uint8_t {
 enum : uint8_t { kAlarmOfTarget = 2, kAlarmOfFault = 3 };
 }  // namespace grbl
 
-/// Dialect of the program at the other end of the line.
+/// The dialect of the connected program.
 enum class Dialect : uint8_t {
   kMaslow,  ///< GroundControl and WebControl
   kGrbl,    ///< a sender that asks with `?`
@@ -35,7 +35,7 @@ enum class Dialect : uint8_t {
 /// A line is one of three kinds. Data begin with `[`, `<` or `$` and are the same in both dialects,
 /// as are plain lines. A refusal or an alarm has its words behind `error: ` or `ALARM: `; a sender
 /// of Grbl gets the words as `[MSG:...]`, and then `error:N` or `ALARM:N`. Everything else is for
-/// people; a sender of Grbl gets it as `[MSG:...]`.
+/// people; a Grbl sender gets it as `[MSG:...]`.
 class Printer {
  public:
   explicit Printer(Wire& wire) : wire_(wire) {}
@@ -43,16 +43,16 @@ class Printer {
   void speak(Dialect dialect) { dialect_ = dialect; }
   bool speaksGrbl() const { return dialect_ == Dialect::kGrbl; }
 
-  /// Begins the words of a refusal, or of an alarm; end() ends them. The number is Grbl's.
+  /// Begins the text of a refusal or an alarm; end() ends it. The number is Grbl's.
   Printer& error(uint8_t number) { return begin(FLASH("error: "), FLASH("error:"), number); }
   Printer& alarm(uint8_t number) { return begin(FLASH("ALARM: "), FLASH("ALARM:"), number); }
-  /// Way out of a halt.
+  /// How to get out of a halt, as a sentence.
   FlashText toOpen() const { return speaksGrbl() ? FLASH("Unlock ($X)") : FLASH("Press Stop"); }
   /// The same inside a sentence.
   FlashText alsoToOpen() const { return speaksGrbl() ? FLASH("unlock ($X)") : FLASH("press Stop"); }
   /// A whole line that is the same in both dialects.
   void plain(FlashText text);
-  /// `error:N` without words, for a sender of Grbl.
+  /// `error:N` without words, for a Grbl sender.
   void bareError(uint8_t number) { sayVerdict(FLASH("error:"), number); }
 
   Printer& operator<<(FlashText text);
@@ -64,7 +64,7 @@ class Printer {
   /// large for any machine, shows as zero: clients stop at words such as "nan".
   Printer& fixed(float number, uint8_t decimals);
 
-  /// Ends the line. A sender of Grbl gets no empty lines.
+  /// Ends the line. A Grbl sender gets no empty lines.
   void end();
 
   /// A whole line of fixed text.
@@ -83,8 +83,8 @@ class Printer {
   Wire& wire_;
   Dialect dialect_ = Dialect::kMaslow;
   Line line_ = Line::kNothing;
-  FlashText verdict_ = FLASH("");  ///< what comes behind a message: `error:` or `ALARM:`
-  uint8_t number_ = 0;             ///< of that; 0: nothing comes
+  FlashText verdict_ = FLASH("");  ///< what follows a message: `error:` or `ALARM:`
+  uint8_t number_ = 0;             ///< its number; 0: nothing follows
 };
 
 /// Writes the digits of a number that cannot be negative, with a zero at the end and a point before

@@ -1,4 +1,4 @@
-// The lines that the machine sends five times a second, whatever it does.
+// The lines that the machine sends five times a second at all times.
 #pragma once
 
 #include "sled_place.h"
@@ -16,7 +16,7 @@ class Reports {
   /// `[PE:...]`: how far the chains are from their set-points, and the room for lines.
   void sayErrors();
 
-  /// Three coordinates [mm], in the units of reports to a sender of Grbl.
+  /// Three coordinates [mm], in the units of reports to a Grbl sender.
   void sayPlace(const Place& place);
 
  private:

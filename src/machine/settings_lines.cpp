@@ -22,7 +22,7 @@ struct GrblSetting {
 const GrblSetting kForGrbl[] PROGMEM = {
     {10, kSettingCount, 1},     // the status says machine places
     {13, kReportInches, 0},     //
-    {20, kSettingCount, 0},     // the sheet's edge stops the sled, whatever a sender sets
+    {20, kSettingCount, 0},     // the sheet's edge always stops the sled
     {21, kSettingCount, 0},     // no limit switches
     {22, kSettingCount, 0},     // no homing
     {30, kSpindleMost, 0},      //
@@ -109,7 +109,7 @@ void SettingsLines::dump(uint16_t first) {
     if (parts_.values.table().at(i).access != settings::Access::kListed) continue;
     settings::putSetting(parts_.values, i, first, put);
     parts_.out.end();
-    // Whatever else goes on, goes on; a stop ends the dump.
+    // Everything else goes on meanwhile; a stop ends the dump.
     parts_.waiting.service();
     if (parts_.waiting.isStopping()) return;
     // A sender that takes the lines of both for one table keeps wrong numbers.

@@ -13,16 +13,15 @@ class SettingsLines {
  public:
   explicit SettingsLines(Parts& parts) : parts_(parts) {}
 
-  /// Does a line that begins with `$`, for a client of Maslow's.
+  /// Runs a line that begins with `$` from a Maslow client.
   bool run(const char* line);
   /// `$RST=` and a letter.
   bool reset(const char* what);
-  /// Says all listed settings, a line each, with numbers from `first` on.
+  /// Prints all listed settings, one a line, with numbers from `first` on.
   void dump(uint16_t first = 0);
   /// Takes the text behind the `$`: a number, `=`, a value.
   bool set(const char* text);
-  /// For a sender of Grbl: Grbl's numbers that mean something here, and the settings from 1000
-  /// on.
+  /// For a Grbl sender: Grbl's numbers that mean something here, and the settings from 1000 on.
   void dumpForGrbl();
   void sayGrblNumbers();
   bool setForGrbl(const char* text);

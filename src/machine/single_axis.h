@@ -30,10 +30,10 @@ class SingleAxis {
   /// B10.
   bool measureChain(bool left);
   /// G38.2 to G38.5: z goes on until the probe touches, or, away from it, until it lets go. There z
-  /// becomes zero, but keeps its height for a sender of Grbl, which counts from there. False,
+  /// becomes zero, but keeps its height for a Grbl sender, which counts from there. False,
   /// with a refusal, also where it goes to the end though it must not.
   bool probe(float target, bool until_touch, bool must);
-  /// Says where the last probe ended, for a sender of Grbl.
+  /// Says where the last probe ended, for a Grbl sender.
   void sayProbed();
 
  private:

@@ -62,7 +62,7 @@ bool SledPlace::isSaid(Search why) {
 bool SledPlace::search(Search why) {
   const bool is_said = isSaid(why) && parts_.keeper.trustsChains();
   if (is_said) moved_by_ = 0;
-  // A sender of Grbl reads the place from the status.
+  // A Grbl sender reads the place from the status.
   const bool is_shown = is_said && !parts_.out.speaksGrbl();
   if (is_shown) parts_.out.line(FLASH("[Forward Calculating Position]"));
   const FoundPlace found = byChains(parts_.axes.length(kLeftAxis), parts_.axes.length(kRightAxis));
@@ -131,7 +131,7 @@ void SledPlace::sayUnset(bool has_defaults) {
 
 void SledPlace::lose(settings::Doubt why) {
   parts_.keeper.doubt(kLeftAxis, why);
-  // A place that the chains contradict says nothing about z. Else nothing tells which axis moved.
+  // If the chains contradict the place, z may still be right. Else any axis may have moved.
   if (why != settings::Doubt::kPlace) parts_.keeper.doubt(kZAxis, why);
   parts_.axes.standStill();
   // Else the next move of z would start from chains of no length.
@@ -180,8 +180,8 @@ float SledPlace::farthestOff() const {
 }
 
 void SledPlace::keepWhenAtRest(uint32_t now_ms) {
-  // A motor may have run on, somebody may pull a chain, a heavy sled may sink: what is reported,
-  // and where the next move begins, is where the sled is.
+  // A motor may run on, a chain may be pulled by hand, a heavy sled may sink: what is reported, and
+  // where the next move begins, is where the sled is.
   if (parts_.keeper.isReleased()) followPulledChains();
   if (!parts_.keeper.isDue(now_ms)) return;
   settings::Position position;

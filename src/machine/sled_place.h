@@ -16,10 +16,10 @@ enum class Whereabouts : uint8_t {
   kFound,    ///< the place is known
 };
 
-/// Why the place is worked out from the chains. The reason decides whether it is said.
+/// Why the place is worked out from the chains. It decides whether the place is reported.
 enum class Search : uint8_t {
   kStart,         ///< the machine starts
-  kDeclared,      ///< somebody said how long the chains are
+  kDeclared,      ///< the lengths of the chains were declared
   kCentred,       ///< the chains were brought to their lengths at 0,0
   kStopped,       ///< a stop ended what was going on
   kNewSettings,   ///< a client has sent its settings

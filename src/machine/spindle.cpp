@@ -42,7 +42,7 @@ bool Spindle::takeS(const gcode::Words& words) {
 void Spindle::switchLaser(bool on) {
   const bool changes = parts_.cutter.isArmed() != on;
   parts_.cutter.arm(on);
-  // Maslow clients hear it at each stop.
+  // Maslow clients expect this at each stop.
   if (changes || !parts_.out.speaksGrbl())
     parts_.out.line(on ? FLASH("Laser on") : FLASH("Laser off"));
 }

@@ -1,4 +1,4 @@
-// Stops, halts and alarms: what begins them, and what is done once all stands.
+// Stops, halts and alarms: how they begin, and what follows once everything stands.
 #include "stops.h"
 
 namespace machine {
@@ -18,7 +18,7 @@ void Stops::stop() {
   parts_.cutter.off();
 }
 
-/// After an alarm lines get no answer, so none waits any longer. A sender of Grbl waits for each.
+/// After an alarm lines get no answer, so none waits any longer. A Grbl sender waits for each.
 void Stops::forgetUnanswered() {
   if (!parts_.out.speaksGrbl()) forgetLines();
 }
@@ -77,7 +77,7 @@ void Stops::sayRemedy(Remedy remedy) {
       parts_.out << FLASH(", set the chains (B06 or B08), or z (G10 Z0)");
       break;
     case Remedy::kSwitchOff:
-      // Stop does not help: what the data hold may be wrong.
+      // A stop does not help: the firmware's data may be wrong.
       parts_.out << FLASH("Switch the Mega off and on, and report the line before this one");
       break;
   }

@@ -6,7 +6,7 @@
 
 namespace machine {
 
-/// Acts of a person after an alarm.
+/// What the operator has to do after an alarm.
 enum class Remedy : uint8_t { kOpen, kLookForHold, kMendAndSet, kSwitchOff };
 
 /// Stops the machine, by a character, a refusal or a fault, and says why.
@@ -18,7 +18,7 @@ class Stops {
   void stop();
   /// A motion was refused: queued moves end first.
   void halt();
-  /// To be called once a stop or an alarm has ended every command: what follows when all stands.
+  /// To be called once a stop or an alarm has ended every command: finishes when everything stands.
   void finish();
   /// Says the texts and the remedy as one line.
   void raise(Remedy remedy, FlashText text, FlashText more = FLASH(""), FlashText last = FLASH(""));

@@ -27,7 +27,7 @@ struct AxisState {
 /// One axis: where it is, where it shall be, and the loops that bring it there.
 ///
 /// Lengths are in mm, or "fine": in the counts of a set-point, motion::kCountsPerMm. tick() runs in
-/// the control interrupt, and whoever calls another function keeps the tick off.
+/// the control interrupt; callers of the other functions keep the tick off.
 class TickedAxis {
  public:
   TickedAxis(Drives& drives, Axis axis) : drives_(drives), axis_(axis) {}

@@ -45,7 +45,7 @@ bool Waiting::areNear(bool all) const {
 }
 
 void Waiting::awaitStandstill() {
-  const uint32_t kPatience = 1000;  // [ms] somebody may turn a sprocket by hand
+  const uint32_t kPatience = 1000;  // [ms] a sprocket may be turned by hand
   const uint32_t kStill = 20;       // [ms] a tick that came late is followed by one without counts
   const uint32_t start = clock_.milliseconds();
   uint32_t went = start, now = start;

@@ -9,7 +9,7 @@ namespace machine {
 /// The waits of the main program, for commands.
 ///
 /// Every wait of the firmware is here. During a wait, service() keeps quick characters, set-points,
-/// reports and memory going, and does the operator's lines in a hold or a pause. Each wait returns
+/// reports and memory going, and runs the operator's lines in a hold or a pause. Each wait returns
 /// false once a stop was asked for: then the command returns too.
 class Waiting {
  public:
@@ -18,16 +18,16 @@ class Waiting {
 
   /// A round of everything that goes on by itself.
   virtual void service() = 0;
-  // For the operator's lines, which are done during a wait.
-  /// Does a B code or `$$`.
+  // For the operator's lines, which run during a wait.
+  /// Runs a B code or `$$`.
   virtual bool runQuestion(const char* line) = 0;
-  /// Says `ok` if the line is done and nothing has answered it.
+  /// Answers `ok` if the line is done and not yet answered.
   virtual void answer(bool done) = 0;
   uint32_t milliseconds() { return clock_.milliseconds(); }
   bool isStopping() const { return course_.isStopping(); }
   bool isMoving() const { return !planner_.isIdle() || !axes_.isEmpty(); }
 
-  /// A round of a wait: the processor sleeps until something comes, for a millisecond at most.
+  /// A round of a wait: the processor sleeps until an interrupt, for a millisecond at most.
   void pass() {
     service();
     clock_.sleep();
@@ -49,7 +49,7 @@ class Waiting {
   bool isDwelling() const { return dwelling_; }
   /// Waits until the moves queued so far are done and the motors have reached their end.
   bool drain();
-  /// Waits until all axes are near their set-points, but not for ever.
+  /// Waits until all axes are near their set-points, up to a limit.
   void settle();
   /// Until no motor turns, also without power, and all axes that follow are near their set-points;
   /// but not for ever. Also in a stop: an encoder that was lost on the way is noticed here.

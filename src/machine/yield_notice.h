@@ -1,4 +1,4 @@
-// When the operator hears that the feed yields.
+// When the operator is notified that the feed yields.
 #pragma once
 
 #include <stdint.h>

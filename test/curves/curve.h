@@ -31,7 +31,7 @@ struct Meant {
   }
 };
 
-/// An arc in the words of a program [mm], rounded to the last digit.
+/// An arc as a program writes it [mm], rounded to the last digit.
 struct Rounded {
   SheetPlace from, to, centre;
   double radius;  ///< as for R: negative for the long way round

@@ -29,7 +29,7 @@ bool passNumbers(const std::string& text, std::size_t at, int count, const std::
   return text.compare(at, std::string::npos, rest) == 0;
 }
 
-/// Whether a line is one that senders of Grbl know.
+/// Whether a line is one that Grbl senders know.
 bool isKnownToGrbl(const std::string& line) {
   for (const char* start : {"ok", "error:", "ALARM:", "<", "[", "$", "Grbl 1.1"})
     if (startsWith(line, start)) return true;
@@ -89,7 +89,7 @@ void Answers::taken(char character) {
     takenEnd(follows_quick);
   else if (beginsLine(character))
     is_in_line_ = true;
-  // In a comment it is text: then lines are answered, which no rule forbids.
+  // In a comment it is text: then lines are answered, which is allowed.
   if (uint8_t(character) == kHold) is_held_ = true;
   if (uint8_t(character) == kHold || after_quick_) is_idle_ = false;
 }

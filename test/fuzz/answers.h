@@ -8,8 +8,8 @@
 /// a stop broke off, and none for a `~` that ends a hold by 0x84. In a pause, or too late to hold
 /// anything, 0x84 holds nothing, and the `~` behind it has its answer.
 ///
-/// A sender of Grbl gets an answer for each line, also after an alarm, and none for quick
-/// characters. Only the line in which an alarm comes may have none.
+/// A Grbl sender gets an answer for each line, also after an alarm, and none for quick characters.
+/// Only the line in which an alarm comes may have none.
 class Answers {
  public:
   /// The machine took a character from the wire.
@@ -23,12 +23,12 @@ class Answers {
 
   bool isComplete() const { return answered_ >= lines_ + quick_ - broken_; }
   bool isOfGrbl() const { return is_of_grbl_; }
-  /// Whether nobody can tell from outside which dialect the machine will speak, and from when on.
+  /// Whether the dialect that the machine will use is unknown from outside, and from when on.
   bool isUnclear() const { return is_unclear_; }
   bool isLocked() const { return is_locked_; }
   /// After a halt the moves before it are finished; after an alarm nothing turns.
   bool mayDrive() const { return is_unclear_ || !is_locked_ || is_halted_; }
-  /// Whether the last status says so, and nothing came since that could change it.
+  /// Whether the last status says so, and nothing since could have changed it.
   bool isIdle() const { return is_idle_; }
   bool isSimulated() const { return is_simulated_; }
   /// Settings lines since the last look.

@@ -9,7 +9,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, std::size_t size) {
   Story story;
   story.step_ms = steps[data[0] & 3];
   story.is_polite = (data[0] & 4) == 0;
-  // Most stories begin with a machine that knows where it is, because others reject every move.
+  // Most runs begin with a machine that knows its position, because others reject every move.
   if ((data[0] & 0x18) != 0x18) story.eeprom = ownImage();
   story.sent.assign(data + 1, data + size);
   live(story);

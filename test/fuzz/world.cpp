@@ -21,7 +21,7 @@ const long kLastPatienceMs = 60000;  // for the settings after a stop
 const long kQuietMs = 3000;
 
 const char* const kStopAndAsk = "!\n$$\n";
-const char* const kResetAndAsk = "\x18\n$$\n";  // as a sender of Grbl
+const char* const kResetAndAsk = "\x18\n$$\n";  // as a Grbl sender
 
 const double kMainPerCount = 63.5 / 8113.73, kZPerCount = 3.17 / 7560;  // [mm]
 const double kMainTopSpeed = 26, kZTopSpeed = 1.1;                      // [mm/s]

@@ -1,4 +1,4 @@
-// A simulated board around the firmware's machine, and what must hold whatever a sender sends.
+// A simulated board around the firmware's machine, and what must hold for any input.
 #pragma once
 
 #include <cstdint>
@@ -23,7 +23,7 @@ struct Story {
   bool is_polite = true;  ///< waits for the answer to a line before it sends the next
 };
 
-/// Plays a story, then presses Stop and asks for the settings. Aborts if anything that must hold
+/// Plays an input, then presses Stop and asks for the settings. Aborts if anything that must hold
 /// does not. Returns the EEPROM's bytes at the end.
 std::vector<uint8_t> live(const Story& story);
 

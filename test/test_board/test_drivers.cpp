@@ -61,7 +61,7 @@ TEST(Wiring, NeverCrossesZ) {
     }
 }
 
-TEST(Wiring, KeepsDirectionAndDisableOfATle9201Apart) {
+TEST(Wiring, TurnsATle9201RoundByItsDirectionPin) {
   for (const bool over_top : {true, false})
     for (const Motor motor : {Motor::kLeft, Motor::kRight, Motor::kZ}) {
       const Channel channel = channelOf(shieldOf(7), motor, over_top);
@@ -70,7 +70,7 @@ TEST(Wiring, KeepsDirectionAndDisableOfATle9201Apart) {
     }
 }
 
-TEST(Shields, HaveStrapsAndPinsOfTheirOwn) {
+TEST(Shields, HaveDistinctStrapsAndUseNoPinTwice) {
   std::set<uint8_t> straps;
   for (const Shield& shield : kShields) {
     EXPECT_TRUE(straps.insert(shield.straps).second) << "v1." << int(shield.version);
@@ -120,7 +120,7 @@ TEST(Drivers, PulseOneInputOfATle5206AndBrakeWithBothLow) {
   EXPECT_FALSE(hasEnable(z));
 }
 
-TEST(Drivers, OfTheTle5206AloneReportErrors) {
+TEST(Drivers, ReportErrorsOnlyOnATle5206) {
   for (const Shield& shield : kShields) {
     const bool speaks = shield.driver == Driver::kTle5206;
     EXPECT_EQ(speaks ? 12 : kNoPin, errorPinOf(shield, Motor::kLeft)) << int(shield.version);
@@ -159,7 +159,7 @@ TEST(Drivers, ShortAMotorToBrakeIt) {
   expectLevels(levelsToBrake(over(7, Motor::kLeft)), 0, 0, 0);
 }
 
-TEST(Drivers, CanReachFullDutyBothWaysOnPinsThatExist) {
+TEST(Drivers, PulseOnlyPinsThatHavePwm) {
   for (const Shield& shield : kShields)
     for (const Motor motor : {Motor::kLeft, Motor::kRight, Motor::kZ})
       for (const bool over_top : {true, false}) {
@@ -174,7 +174,7 @@ TEST(Drivers, CanReachFullDutyBothWaysOnPinsThatExist) {
       }
 }
 
-TEST(Drivers, GetAPwmThatTheirChipFollows) {
+TEST(Drivers, GetAPwmFrequencyThatTheChipCanFollow) {
   for (const uint8_t wanted : {0, 1, 2, 3, 9}) EXPECT_EQ(pwmFor(Driver::kTle5206, wanted), 3);
   EXPECT_EQ(pwmFor(Driver::kTle9201, 1), 2);
   EXPECT_EQ(pwmFor(Driver::kL298, 1), 1);

@@ -4,7 +4,7 @@
 
 #include "axis.h"
 
-/// A sled with any two of the forty motors.
+/// A sled with two of the forty motors.
 template <class Axis = ControlledAxis>
 class SledWith {
  public:

@@ -102,7 +102,7 @@ TEST(AxisLoop, DropsItsDutyOnceWhenTheSetPointsTurnRound) {
     motion::AxisLoop loop = drivenAt(way * 0.3f);
     const float before = way * float(loop.follow(0, way * 0.3f * kPerTick, 0));
     ASSERT_GT(before, 100);
-    // What the new speed asks for is left.
+    // Only the new speed's duty is left.
     EXPECT_LT(way * float(loop.follow(0, -way * 0.3f * kPerTick, 0)), 0);
     // Driven against these set-points again, by an error, it keeps its duty.
     float pushed = 0;
@@ -112,7 +112,7 @@ TEST(AxisLoop, DropsItsDutyOnceWhenTheSetPointsTurnRound) {
   }
 }
 
-TEST(AxisLoop, KeepsItsDutyWhereTheSetPointsHardlyMove) {
+TEST(AxisLoop, KeepsItsDutyWhenTheSetPointsHardlyMove) {
   motion::AxisLoop loop = drivenAt(0.3f);
   ASSERT_GT(loop.follow(0, -0.24f * kPerTick, 0), 80);
   EXPECT_LT(loop.follow(0, -0.26f * kPerTick, 0), 0);

@@ -37,7 +37,7 @@ DueTravel learned(int duty, int moved, int ticks) {
 // A weak motor makes 0.0014 turns a second for each step of duty beyond the duty that it needs, and
 // 0.007 turns may be due. Before it has run, the needed duty is 120; the margin is an eighth of
 // that and 15.
-TEST(DueTravel, IsThatOfAWeakMotorBeyondItsMargin) {
+TEST(DueTravel, IsWhatAWeakMotorWouldTravelBeyondItsMargin) {
   for (const int sign : {-1, 1}) {
     EXPECT_EQ(0, ticksUntilDue(atRest(), sign * 150, 0));
     EXPECT_EQ(51, ticksUntilDue(atRest(), sign * 160, 0))
@@ -49,20 +49,20 @@ TEST(DueTravel, IsThatOfAWeakMotorBeyondItsMargin) {
   EXPECT_NEAR(ticksUntilDue(atRest(kCounts, 0.005f), 160, 0), 101, 4);
 }
 
-TEST(DueTravel, IsPaidFourfoldByCounts) {
+TEST(DueTravel, IsReducedByFourForEachCount) {
   EXPECT_EQ(0, ticksUntilDue(atRest(), 255, 3)) << "11.9 counts are due, 12 paid";
   EXPECT_EQ(8, ticksUntilDue(atRest(), 255, 1)) << "56.8 counts at 11.9 - 4 a tick";
 }
 
 // The chain of a heavy sled turns its motor against a drive that brakes.
-TEST(DueTravel, IsNotMadeByCountsAgainstTheDrive) {
+TEST(DueTravel, DoesNotGrowWhenTheMotorTurnsAgainstTheDrive) {
   EXPECT_EQ(0, ticksUntilDue(atRest(), 130, -1));
   EXPECT_EQ(0, ticksUntilDue(atRest(), 130, -2));
   EXPECT_EQ(5, ticksUntilDue(atRest(), 255, -1)) << "as if none came";
 }
 
 // A broken channel counts to and fro. 11.9 counts are due a tick, 4 are paid for each that comes.
-TEST(DueTravel, IsNotPaidByCountsThatGoBack) {
+TEST(DueTravel, IsNotReducedByCountsToAndFro) {
   const auto ticks = [](std::initializer_list<int> moved) {
     DueTravel due = atRest();
     for (int i = 1; i < 100; ++i)
@@ -76,7 +76,7 @@ TEST(DueTravel, IsNotPaidByCountsThatGoBack) {
 }
 
 // 11.9 counts are due a tick, up to 56.8. Up to two that went must come back before any pays.
-TEST(DueTravel, CountsThatWentAwayComeBackFirst) {
+TEST(DueTravel, CountsBackwardsMustBeMadeUpFirst) {
   const auto ticks = [](std::initializer_list<int> first) {
     DueTravel due = atRest();
     for (const int moved : first) EXPECT_FALSE(due.look(255 * kMean, 0, int16_t(moved)));
@@ -89,13 +89,13 @@ TEST(DueTravel, CountsThatWentAwayComeBackFirst) {
   EXPECT_EQ(6, ticks({-9})) << "as if two";
 }
 
-TEST(DueTravel, EarlierTravelIsNoCredit) {
+TEST(DueTravel, IsNotReducedInAdvanceByEarlierTravel) {
   DueTravel due = atRest();
   for (int i = 0; i < 100; ++i) EXPECT_FALSE(due.look(255 * kMean, 0, 9));
   EXPECT_EQ(5, ticksUntilDue(due, 255, 0)) << "as of a motor that never moved";
 }
 
-TEST(DueTravel, StaysDueInATickWithoutDuty) {
+TEST(DueTravel, IsKeptThroughATickWithoutDuty) {
   DueTravel due = atRest();
   for (int i = 0; i < 40; ++i) EXPECT_FALSE(due.look(160 * kMean, 0, 0)) << i;
   EXPECT_FALSE(due.look(0, 0, 0));
@@ -134,7 +134,7 @@ TEST(DueTravel, LearnsEachDirectionSeparately) {
   EXPECT_NEAR(ticksUntilDue(backward, -121, 0), 27, 2);
 }
 
-TEST(DueTravel, IsAlwaysMadeAtFullDuty) {
+TEST(DueTravel, GrowsAtFullDutyForTheStiffestMotor) {
   const DueTravel stiff = learned(255, 2, 1000);
   EXPECT_EQ(0, ticksUntilDue(stiff, 210, 0));
   EXPECT_EQ(51, ticksUntilDue(stiff, 220, 0)) << "210 is the most that it may need";

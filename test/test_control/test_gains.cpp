@@ -20,14 +20,14 @@ AxisLoop loopWith(const Gains& position, const Gains& speed = kNone, float tick 
 
 }  // namespace
 
-TEST(Ahead, IsThreeHundredthsOfASecondToTheNearestTick) {
+TEST(Ahead, IsThirtyMillisecondsRoundedToTicks) {
   EXPECT_EQ(3, AxisLoop::ticksAhead(0.01f));
   EXPECT_EQ(6, AxisLoop::ticksAhead(0.005f));
   EXPECT_EQ(4, AxisLoop::ticksAhead(0.0085f)) << "3.53 ticks";
   EXPECT_EQ(3, AxisLoop::ticksAhead(0.0087f)) << "3.45 ticks";
 }
 
-TEST(PositionGains, TheSpeedFedForwardNeedsAGain) {
+TEST(PositionGains, FeedSpeedForwardOnlyWithANonZeroGain) {
   for (const float gain : {0.5f, 1300.0f}) {
     AxisLoop loop = loopWith({gain, 0, 0, 1});
     loop.follow(0, 0.001f, 0);
@@ -44,7 +44,7 @@ TEST(PositionGains, TheSpeedFedForwardNeedsAGain) {
   EXPECT_EQ(0, loop.wanted()) << "a gain that was taken back";
 }
 
-TEST(PositionGains, EachActsAlone) {
+TEST(PositionGains, EachActsOnItsOwn) {
   AxisLoop proportional = loopWith({4, 0, 0, 1});
   proportional.follow(0.5f, 0, 0);
   EXPECT_NEAR(double(proportional.wanted()), 2, 1e-5);
@@ -64,7 +64,7 @@ TEST(PositionGains, EachActsAlone) {
   }
 }
 
-TEST(PositionGains, WeightMovesTheProportionalPartFromTheErrorToTheMeasure) {
+TEST(PositionGains, WeightSplitsProportionalBetweenErrorAndMeasurement) {
   AxisLoop loop = loopWith({4, 0, 0, 0.25f});
   loop.follow(1, 0, 0);
   EXPECT_NEAR(double(loop.wanted()), 4 * 0.25, 1e-5) << "a jump of the set-point";
@@ -78,7 +78,7 @@ TEST(PositionGains, WeightMovesTheProportionalPartFromTheErrorToTheMeasure) {
   EXPECT_NEAR(double(loop.wanted()), 4 * 0.25 * 0.75, 1e-5) << "what was summed is forgotten";
 }
 
-TEST(PositionGains, AnErrorOfACountIsNoneAtRest) {
+TEST(PositionGains, IgnoreAnErrorOfOneCountAtRest) {
   const float count = 1 / kCountsPerTurn;
   for (const float sign : {-1.0f, 1.0f}) {
     AxisLoop loop = loopWith({1300, 0, 0, 1});
@@ -91,7 +91,7 @@ TEST(PositionGains, AnErrorOfACountIsNoneAtRest) {
   }
 }
 
-TEST(SpeedGains, ProportionalAddsToTheDutyAtEachTick) {
+TEST(SpeedGains, ProportionalAddsToTheDutyEachTick) {
   AxisLoop loop = loopWith(kNone, {2, 0, 0, 1});
   EXPECT_EQ(20, loop.run(10));
   EXPECT_EQ(40, loop.run(10));
@@ -102,7 +102,7 @@ TEST(SpeedGains, ProportionalAddsToTheDutyAtEachTick) {
   EXPECT_EQ(20, quick.run(10));
 }
 
-TEST(SpeedGains, IntegralAddsWhatItSums) {
+TEST(SpeedGains, IntegralAccumulatesAndResetsWithItsGain) {
   // Each tick the sum grows by 32 * 0.01 * 10 = 3.2; the duty is a whole number.
   AxisLoop loop = loopWith(kNone, {0, 32, 0, 1});
   for (const int duty : {3, 9, 19}) EXPECT_EQ(duty, loop.run(10));
@@ -112,7 +112,7 @@ TEST(SpeedGains, IntegralAddsWhatItSums) {
   EXPECT_EQ(42, loop.run(10)) << "and begins at zero";
 }
 
-TEST(SpeedGains, DerivativeBrakesAChangeOfSpeedThatNobodyAskedFor) {
+TEST(SpeedGains, DerivativeBrakesAnUncommandedChangeOfSpeed) {
   AxisLoop loop = loopWith({1, 0, 0, 1}, {0, 0, 0.02f, 1});
   EXPECT_EQ(0, loop.run(10)) << "a wish changes no speed";
   loop.measure(2 * 3 / kPerMinute);
@@ -123,7 +123,7 @@ TEST(SpeedGains, DerivativeBrakesAChangeOfSpeedThatNobodyAskedFor) {
   EXPECT_EQ(0, led.follow(0, 3 / kPerMinute, 0)) << "speed and set-points changed alike";
 }
 
-TEST(SpeedGains, WeightMovesTheProportionalPartFromTheErrorToTheMeasure) {
+TEST(SpeedGains, WeightSplitsProportionalBetweenErrorAndMeasurement) {
   AxisLoop loop = loopWith(kNone, {7, 0, 0, 0.25f});
   EXPECT_EQ(17, loop.run(10)) << "7 * 0.25 * 10 = 17.5";
   loop.measure(2 * 3 / kPerMinute);

@@ -14,7 +14,7 @@ double speedAt(const world::MotorConstants& constants, int duty) {
   return (before - motor.turns()) * world::kTurn;
 }
 
-TEST(Play, InContactTheMotorFeelsAllFrictionAndTheLoad) {
+TEST(Play, MotorInContactFeelsAllFrictionAndTheLoad) {
   world::MotorConstants c;
   c.supply_resistance = 0;
   for (const double load : {0.02, 0.1, 0.19, 0.21}) {

@@ -33,7 +33,7 @@ TEST(ShortedMotor, StopsSooner) {
   }
 }
 
-TEST(ShortedMotor, RunsOnWhereNoCurrentCanFlow) {
+TEST(ShortedMotor, CoastsWhenNoCurrentCanFlow) {
   const double runs = ranOn([](Motor&) {});
   const auto runsAs = [&](void (*change)(Motor&)) {
     return ranOn([&](Motor& motor) {
@@ -47,7 +47,7 @@ TEST(ShortedMotor, RunsOnWhereNoCurrentCanFlow) {
   EXPECT_TRUE(runsAs([](Motor& motor) { motor.wires.driver_complains = true; }));
 }
 
-TEST(ShortedMotor, IsNotBrakedBelowTheDropOfTheBridge) {
+TEST(ShortedMotor, IsNotBrakedBelowTheBridgesVoltageDrop) {
   // 80 of 255 overcome friction and drop; the motor turns with less back-EMF than 1.8 V.
   Motor motor(world::MotorConstants(), 1);
   motor.run(80, 2);

@@ -115,7 +115,7 @@ TEST_P(SledAtRate, CutsCornersLittle) {
   }
 }
 
-TEST_P(SledAtRate, StraysByThePlayOfItsGearsUnderAnyControl) {
+TEST_P(SledAtRate, StraysByTheGearPlayUnderAnyControl) {
   const Spread play = ofAll("play alone", GetParam(), 800, [](unsigned seed) {
     return straysFromSquare<PlayAlone>(seed, GetParam(), 800, motion::SetPoints::kMost);
   });
@@ -124,7 +124,7 @@ TEST_P(SledAtRate, StraysByThePlayOfItsGearsUnderAnyControl) {
   EXPECT_NEAR(play.worst, 0.062, 0.005);
 }
 
-TEST_P(SledAtRate, PassesASlowCornerWhereMotorsReverse) {
+TEST_P(SledAtRate, PassesASlowCornerWhereTheMotorsReverse) {
   const Spread ours = corners("slow corner", GetParam(), 200);
   EXPECT_LT(ours.median, 0.08);
   EXPECT_LT(ours.worst, 0.12);

@@ -1,5 +1,5 @@
-// A load that falls away for a moment is suspected; what an even load, a ramp or the other chain do
-// is not.
+// A load that drops away for a moment raises a suspicion; an even load, a ramp or the other chain
+// does not.
 #include <gtest/gtest.h>
 
 #include "axis.h"
@@ -58,7 +58,7 @@ TEST(SlipWatch, LooksOnlyAfterFortyEightEvenTicks) {
   EXPECT_EQ(0, suspicions(uneven, 1, 100, false) + suspicions(uneven, 30, 140));
 }
 
-TEST(SlipWatch, SuspectsAJumpOnce) {
+TEST(SlipWatch, SuspectsAJumpOnlyOnce) {
   SlipWatch watch = calmAt(100);
   EXPECT_EQ(1, suspicions(watch, 30, 130));
   EXPECT_EQ(0, suspicions(watch, 200, 130));
@@ -97,7 +97,7 @@ TEST(SlipWatch, IsUnsteadyWhileTheDutyJumps) {
 }
 
 // The mean over sixteen ticks is fifteen ticks late.
-TEST(Pace, IsTheSpeedUpToALag) {
+TEST(Pace, IsKeptUpToAChangeOfTwelveCountsATick) {
   for (const int sign : {-1, 1})
     for (const int gain : {12, 14}) {
       Pace pace;

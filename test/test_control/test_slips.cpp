@@ -1,4 +1,4 @@
-// What the control tick makes of a chain that lets go of its motor for a moment, on motors with
+// How the control tick reacts to a chain that lets go of its motor for a moment, on motors with
 // their loops.
 #include <gtest/gtest.h>
 
@@ -97,7 +97,7 @@ struct Slips : testing::Test, Clock {
 
 }  // namespace
 
-TEST_F(Slips, AreSuspectedOfTheChainThatLetGo) {
+TEST_F(Slips, AreBlamedOnTheChainThatLetGo) {
   go(kSettles);
   expectSlips(0, 0);
   letGo({kLeftAxis});
@@ -149,7 +149,7 @@ TEST_F(Slips, AreNotSuspectedWhileAnAxisIsOff) {
   expectSlips(0, 0);
 }
 
-TEST_F(Slips, AreNotSuspectedOfSimulatedMotors) {
+TEST_F(Slips, AreNotSuspectedWithSimulatedMotors) {
   axes.simulate(true);
   axes.driveOpen(kLeftAxis, -255);
   go(kSettles);

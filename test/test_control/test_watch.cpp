@@ -47,7 +47,7 @@ TEST_P(Watched, CuttingIsNeverAFault) {
   }
 }
 
-TEST_P(Watched, BlockedMotorAndUnpluggedEncoderStand) {
+TEST_P(Watched, BlockedMotorAndUnpluggedEncoderAreReportedAsStanding) {
   for (unsigned seed = 0; seed < kMotors; ++seed) {
     world::Wires blocked, unplugged;
     blocked.blocked = true;
@@ -61,7 +61,7 @@ TEST_P(Watched, BlockedMotorAndUnpluggedEncoderStand) {
   }
 }
 
-TEST_P(Watched, ReversedMotorAndReversedEncoderTurnBack) {
+TEST_P(Watched, ReversedMotorAndReversedEncoderAreReportedAsTurningBack) {
   for (unsigned seed = 0; seed < kMotors; ++seed) {
     world::Wires motor, encoder;
     motor.motor_reversed = true;

@@ -45,14 +45,14 @@ int turnsBackAfter(int duty, int moved) {
 
 }  // namespace
 
-TEST(WatchLimits, AnAxisStandsOnlyIfHalfThePowerDrivesIt) {
+TEST(WatchLimits, AnAxisStandsOnlyAtMoreThanHalfPower) {
   for (const int sign : {-1, 1}) {
     EXPECT_EQ("left behind", leftBehindAfter(sign * 126, 0));
     EXPECT_EQ("stands", leftBehindAfter(sign * 130, 0));
   }
 }
 
-TEST(WatchLimits, TwoCountsATickAreATurning) {
+TEST(WatchLimits, AnAxisThatTurnsIsLeftBehindRatherThanStanding) {
   for (const int sign : {-1, 1}) {
     EXPECT_EQ("stands", leftBehindAfter(sign * 135, sign));
     EXPECT_EQ("left behind", leftBehindAfter(sign * 135, sign * 3));
@@ -66,7 +66,7 @@ TEST(WatchLimits, TurningBackIsAFaultAfterFifteenHundredthsOfASecond) {
   }
 }
 
-TEST(WatchLimits, DistanceCountsOnBothSidesAndOnlyBelowTheLimit) {
+TEST(WatchLimits, DistanceIsWatchedBothWaysAndALimitOf100MmTurnsItOff) {
   for (const float error : {-2.0f, 2.0f}) {
     Watch watch = watchOf(2);
     EXPECT_EQ(Fault::kNone, watch.look(0, 0, 0.99f * error)) << error;

@@ -18,7 +18,7 @@ AxisLoop loopWith(const motion::Gains& position, const motion::Gains& speed) {
 
 }  // namespace
 
-TEST(Windup, OfThePositionLoopEndsAtTheGreatestSpeed) {
+TEST(Windup, OfThePositionLoopEndsAtTopSpeed) {
   // 5 turns of error and 2 per turn and second: 10 a second, so 20 are reached after 2 s.
   AxisLoop loop = loopWith({1, 2, 0, 1}, {7, 0, 0, 1});
   for (int i = 0; i < 10000; ++i) loop.follow(5, 0, 0);
@@ -28,7 +28,7 @@ TEST(Windup, OfThePositionLoopEndsAtTheGreatestSpeed) {
       << "a second later, less the proportional 5";
 }
 
-TEST(Windup, OfTheSpeedLoopEndsAtTheGreatestDuty) {
+TEST(Windup, OfTheSpeedLoopEndsAtTopDuty) {
   // An error of 10 a minute and 20 per that and second: 200 a second.
   AxisLoop loop = loopWith({0, 0, 0, 1}, {0, 20, 0, 1});
   for (int i = 0; i < 10000; ++i) loop.run(10);

@@ -52,9 +52,9 @@ class Player {
   std::string whereInTheScript() const;
 
  protected:
-  /// Asks what only some boards understand; whether the question is over.
+  /// A question for some boards only; returns whether it is over.
   virtual bool askBoard(const std::string& verb, const Words& words);
-  /// Begins a new life of the machine.
+  /// Starts the machine anew.
   virtual void start();
 
   /// Whether this step began at least `seconds` ago.
@@ -70,7 +70,7 @@ class Player {
 
  private:
   enum { kPatientMs = 150000 };  // for a line that is expected
-  /// A question to all boards; whether it is over.
+  /// A question to any board; returns whether it is over.
   using Question = bool (Player::*)(const Words&);
 
   bool passMillisecond();

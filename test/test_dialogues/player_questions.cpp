@@ -1,4 +1,4 @@
-// What a dialogue may ask of the machine, and do to it, whichever build of the firmware drives it.
+// The questions and actions of a dialogue, for either build of the firmware.
 #include <cmath>
 #include <cstdio>
 #include <sstream>
@@ -17,7 +17,7 @@ const char* const kAxes[] = {"left", "right", "z"};
 const long kUnpoweredMs = 150;
 const double kLooksAlike = 0.25;  // [s] in which a motor may still be let go
 const double kMeasured = 0.02;    // [s] in which a pulse's length becomes known
-// At a question that ends so, nothing is waited for.
+// A question that ends like this does not wait.
 const char kAtOnce[] = " at once";
 const int kDriven = 25;       // of 255: a duty that turns a motor
 const double kBeyond = 12.7;  // [mm] of links past the other sprocket's 12 o'clock

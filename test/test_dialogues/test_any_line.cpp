@@ -1,4 +1,4 @@
-// Whatever is sent, every line gets exactly one answer, and the machine keeps working.
+// Every line, whatever it holds, gets exactly one answer, and the machine keeps working.
 #include <gtest/gtest.h>
 
 #include <cstdlib>

@@ -1,5 +1,5 @@
-// Whatever the operator does to the feed: a program reaches its last place, z included, and each of
-// its lines is answered once.
+// With any overrides and holds a program reaches its last place, z included, and each of its lines
+// is answered once.
 #include <gtest/gtest.h>
 
 #include <random>
@@ -8,7 +8,7 @@
 
 namespace {
 
-/// A program of drawn moves with drawn overrides and holds among them.
+/// A program of random moves with random overrides and holds.
 class Drawn {
  public:
   explicit Drawn(unsigned seed) : random_(seed), is_grbl_(seed % 2 == 1) {}
@@ -69,7 +69,7 @@ class Completion : public testing::TestWithParam<unsigned> {};
 
 }  // namespace
 
-TEST_P(Completion, OfADrawnProgramWithOverridesAndHolds) {
+TEST_P(Completion, OfARandomProgramWithOverridesAndHolds) {
   for (unsigned program = 0; program < 4; ++program) {
     const unsigned seed = 4 * GetParam() + program;
     HostMachine host(Drawn(seed).steps());

@@ -77,7 +77,7 @@ void push(std::vector<Step>& steps, Step::Kind kind, const std::string& text) {
 
 }  // namespace
 
-TEST(EveryGCode, OutsideTheTableIsRefusedWithItsPlace) {
+TEST(EveryGCode, OutsideTheTableIsRefusedAndMovesNothing) {
   const std::set<int> done = doneCodes();
   ASSERT_GT(done.size(), 45u);
   std::vector<Step> steps = readScript("test/dialogues", "setup.inc");
@@ -115,7 +115,7 @@ TEST(EveryGCode, OfTheTableIsDone) {
   EXPECT_EQ("", HostMachine(steps).play());
 }
 
-TEST(EveryModeCode, LeavesAPlaceOnItsLineToTheCurrentMotion) {
+TEST(EveryModeCode, LeavesCoordinatesOnItsLineToTheCurrentMotion) {
   std::vector<Step> steps = readScript("test/dialogues", "setup.inc");
   int x = 0;
   for (const int tenths : doneCodes()) {

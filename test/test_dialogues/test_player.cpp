@@ -9,7 +9,7 @@
 
 namespace {
 
-/// What goes wrong where a dialogue of these lines is played; nothing if it is answered as written.
+/// The failure of a dialogue of these lines; empty if it is answered as written.
 std::string wrongIn(const std::string& lines) {
   const std::filesystem::path folder = testing::TempDir();
   std::ofstream(folder / "asked.nc") << lines;

@@ -77,7 +77,7 @@ TEST(APowerCutAnywhere, LeavesNoFalsePosition) {
   expectNoFalsePlace(machine);
 }
 
-TEST(APowerCutAnywhere, LeavesNoFalsePositionInTheFirstMoveAfterThePublishedFirmware) {
+TEST(APowerCutAnywhere, LeavesNoFalsePositionInTheFirstMoveAfterAnUpgrade) {
   // Nothing may move before the published data is retired, or the next start would take it over
   // again.
   Eeprom image = publishedImage(true);

@@ -33,7 +33,7 @@ Belief awakenWith(SimulatedEeprom eeprom, uint8_t number, float value) {
 
 }  // namespace
 
-TEST(RescaledStart, AsksForTheChains) {
+TEST(RescaledStart, ForgetsThePositionUntilChainsAreSet) {
   const SimulatedEeprom eeprom = restingAtZero();
   for (const auto& [number, value] :
        {std::pair<uint8_t, float>{12, 8113.74f}, {13, 63.6f}, {19, 3.2f}, {20, 7561}}) {

@@ -10,7 +10,7 @@ using namespace two_events;
 
 namespace {
 
-/// What the law looks at.
+/// What is watched.
 Seen seenOf(const Machine& machine) {
   const Axes& axes = machine.parts().axes;
   Seen seen = {
@@ -38,7 +38,7 @@ class TwoEvents : public testing::TestWithParam<int> {};
 
 }  // namespace
 
-TEST_P(TwoEvents, MoveNothingThatTheTableDoesNotSay) {
+TEST_P(TwoEvents, MoveOnlyWhatTheTableSays) {
   const int first = GetParam();
   std::mt19937 random(17 + unsigned(first));
   for (int second = 0; second < kEventCount; ++second)

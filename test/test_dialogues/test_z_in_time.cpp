@@ -30,7 +30,7 @@ Heights cut(const std::vector<std::string>& lines, unsigned seed) {
   Heights heights;
   double before = host.world.travel(world::kLeft);
   host.player.look = [&] {
-    const double kCrosses = 0.002, kJumps = 1;  // [mm/ms] the sled; whoever hangs it elsewhere
+    const double kCrosses = 0.002, kJumps = 1;  // [mm/ms] the sled moves, or is hung elsewhere
     const double left = host.world.travel(world::kLeft), z = host.world.travel(world::kZ);
     heights.lowest = std::min(heights.lowest, z);
     const double went = std::fabs(left - before);

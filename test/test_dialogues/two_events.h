@@ -1,6 +1,6 @@
-// Two events at once, and the law that holds whatever comes together: nothing moves that the table
-// of states does not say, and afterwards the place is true or unknown. For the host's build of the
-// firmware and for the flashed program.
+// Two events at once, and the law for any such pair: nothing moves that the table of states does
+// not say, and afterwards the place is true or unknown. For the host's build of the firmware and
+// for the flashed program.
 #pragma once
 
 #include <random>
@@ -20,7 +20,7 @@ std::string nameOf(int event);
 /// A scene, two events at drawn moments, and an end at which the machine is asked where it is.
 std::vector<Step> stepsOf(int scene, int first, int second, std::mt19937& random);
 
-/// What is looked at of a machine.
+/// The watched state of a machine.
 struct Seen {
   machine::State state;
   bool is_powered;                                                   ///< any motor
@@ -36,7 +36,7 @@ class Law {
   void look(const Seen& seen);
   /// What broke the law first, or nothing.
   const std::string& broken() const { return broken_; }
-  /// How often it was looked whether all stands that shall stand, and whether the place is true.
+  /// How often it was checked that nothing moves that must stand, and that the place is true.
   int timesStill() const { return times_still_; }
   int timesPlace() const { return times_place_; }
 

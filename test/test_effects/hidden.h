@@ -92,7 +92,7 @@ inline Hidden hiddenBy(const std::string& name, const std::vector<Sized>& sizes,
   return hidden;
 }
 
-/// All examples of all effects, and some that are larger or both-handed.
+/// All examples of all effects, and some larger ones or ones on both sides.
 inline std::vector<Hidden> everyEffect() {
   hidden_detail::Collect collected;
   kinematics::Effects::For<double>::visit(collected);

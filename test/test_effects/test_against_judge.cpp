@@ -16,7 +16,7 @@ TEST_P(AgainstJudge, LengthsAgreeOverTheSheet) {
   EXPECT_LT(worstOver(laws, judge(GetParam().effects)), GetParam().allowed);
 }
 
-TEST_P(AgainstJudge, WouldMissWithoutTheEffect) {
+TEST_P(AgainstJudge, IsWellOffWithoutTheEffect) {
   const Machine<double> laws = prepare(frameUnder({}), GetParam().unsuspected);
   EXPECT_GT(worstOver(laws, judge(GetParam().effects)), 8 * GetParam().allowed);
 }

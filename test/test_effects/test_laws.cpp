@@ -88,7 +88,7 @@ INSTANTIATE_TEST_SUITE_P(Registry, EveryParam, testing::ValuesIn(everyParam()),
                            return tested.param.effect + "_" + tested.param.info.name;
                          });
 
-TEST_P(EveryParam, IsFeltFromZero) {
+TEST_P(EveryParam, HasANonZeroSlopeAtZero) {
   // The slope at zero must not vanish: half a size has about half the effect, not a quarter.
   const double small = 1e-3 * GetParam().info.typical;
   const double whole = effectOf(GetParam(), small), half = effectOf(GetParam(), small / 2);
@@ -96,14 +96,14 @@ TEST_P(EveryParam, IsFeltFromZero) {
   EXPECT_NEAR(0.5, half / whole, 0.02);
 }
 
-TEST_P(EveryParam, TypicalSizeIsSeenButNotAbsurd) {
+TEST_P(EveryParam, TypicalSizeMovesChainsNoticeablyButPlausibly) {
   const double mean =
       effectOf(GetParam(), GetParam().info.typical) / (2.0 * double(places<double>().size()));
   EXPECT_GT(mean, 0.005) << "mm of chain";
   EXPECT_LT(mean, 50) << "mm of chain";
 }
 
-TEST_P(EveryParam, SaysWhatItIs) {
+TEST_P(EveryParam, HasALikelyRangeASummaryAndASetting) {
   const ParamInfo& info = GetParam().info;
   EXPECT_LT(info.low, info.high);
   EXPECT_LE(info.low, info.typical);
@@ -114,7 +114,7 @@ TEST_P(EveryParam, SaysWhatItIs) {
   EXPECT_LE(GetParam().setting, 255);
 }
 
-TEST(Registry, ZeroMeansAbsentToTheLastBit) {
+TEST(Registry, EffectsAtZeroAreBitForBitAbsent) {
   // Working out the forces must change nothing either.
   const EffectParams<float> none = {};
   Machine<float> without = machineWith(none);
@@ -138,7 +138,7 @@ TEST(Registry, EffectsAddUpWithoutDisturbingEachOther) {
     }
 }
 
-TEST(Registry, EveryEffectHasItsWords) {
+TEST(Registry, EveryEffectHasASummaryAPatternAndARemedy) {
   for (const EffectInfo& info : collect().effects) {
     EXPECT_GT(strlen(info.summary), 20u) << info.name;
     EXPECT_GT(strlen(info.pattern), 20u) << info.name;
@@ -148,7 +148,7 @@ TEST(Registry, EveryEffectHasItsWords) {
 
 namespace {
 
-/// Counts what an effect says to the judge.
+/// Counts the numbers that an effect sets on the judge.
 struct CountSaid {
   int sets = 0;
   void set(const char*, double) { ++sets; }
@@ -195,7 +195,7 @@ struct Missing {
 
 }  // namespace
 
-TEST(Registry, ClearsOnlyTheEffectsThatBend) {
+TEST(Registry, ClearsOnlySagAndStretch) {
   EffectParams<double> effects;
   for (double& value : effects.value) value = 1;
   Effects::For<double>::clearBends(effects.value);
@@ -205,7 +205,7 @@ TEST(Registry, ClearsOnlyTheEffectsThatBend) {
   }
 }
 
-TEST(Registry, AddsUpTheWavesOfBothSprockets) {
+TEST(Registry, AddsUpRunoutOfBothSprockets) {
   EffectParams<double> effects = {};
   for (const AnyParam& any : everyParam())
     effects.value[any.index] = any.effect == "sprocket_runout" ? -0.25 : 3;
@@ -218,7 +218,7 @@ TEST(Registry, FindsTheFirstParameterOfAnEffect) {
   EXPECT_EQ(All::indexOf(180), All::firstOf<ChainPitch<double>>());
 }
 
-TEST(Registry, EveryHeaderSaysAllThatTheLabAsks) {
+TEST(Registry, EveryHeaderHasAllTextsForTheLab) {
   Missing missing;
   Effects::For<double>::visit(missing);
   for (const std::string& line : missing.lines) ADD_FAILURE() << line;

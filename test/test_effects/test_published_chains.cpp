@@ -31,7 +31,7 @@ double of(const EffectParams<double>& effects, int setting) {
 
 }  // namespace
 
-TEST(PublishedChains, WithoutAnArmMeanTheSame) {
+TEST(PublishedChains, MeanTheSameWithoutAnArm) {
   const EffectParams<double> ours = added(frameWithArm(0), kTold);
   EXPECT_NEAR(of(ours, 160) - 1, 9e-12, 1e-15);
   EXPECT_NEAR(of(ours, 180), 1.002, 1e-12);
@@ -40,7 +40,7 @@ TEST(PublishedChains, WithoutAnArmMeanTheSame) {
   EXPECT_NEAR(of(ours, 201), 1, 1e-12);
 }
 
-TEST(PublishedChains, TakeTheArmForChain) {
+TEST(PublishedChains, TreatTheArmAsChain) {
   const double arm = 250;
   const Frame<double> frame = frameWithArm(arm);
   const EffectParams<double> ours = added(frame, kTold);
@@ -56,7 +56,7 @@ TEST(PublishedChains, TakeTheArmForChain) {
   EXPECT_NEAR(same / published, 1, 1e-4);
 }
 
-TEST(PublishedChains, ThatAreZeroChangeNothing) {
+TEST(PublishedChains, AddNothingWhenZero) {
   const EffectParams<double> ours = added(frameWithArm(250), {0, {0, 0}, 2438.4, 1219.2});
   for (const double value : ours.value) EXPECT_EQ(1, value);
 }

@@ -28,7 +28,7 @@ struct Hose : Effect<Real> {
 
 }  // namespace
 
-TEST(Push, ListsKnowWhichEffectsPush) {
+TEST(Push, RegistryKnowsWhichEffectsPush) {
   typedef Registry<At<100, MotorLevel>, At<110, Hose>, At<120, Hose>>::For<double> Pushing;
   EXPECT_EQ(6, int(Pushing::kPushMask));
   const double parameter[] = {4, 10, 5};

@@ -18,7 +18,7 @@ Chains<double> addedBy(const std::vector<Sized>& sizes, Point<double> place) {
 
 }  // namespace
 
-TEST(ResidualPatch, ItsLinearTermsFollowTheSheet) {
+TEST(ResidualPatch, LinearTermsFollowTheSheet) {
   for (int setting : {kLeftX, kRightX}) {
     const bool left = setting == kLeftX;
     auto powers = [&](double x, double y) {
@@ -35,7 +35,7 @@ TEST(ResidualPatch, ItsLinearTermsFollowTheSheet) {
   EXPECT_NEAR(500 / (0.6 * 1072.6), addedBy({{kLeftY, 1.0}}, {0, 500}).left, 0.02);
 }
 
-TEST(ResidualPatch, ItsHigherTermsAreLegendresPolynomials) {
+TEST(ResidualPatch, HigherTermsAreLegendrePolynomials) {
   // P2(0) = -1/2, P2(0.48) = -0.154; P3(0.466) = -0.446.
   EXPECT_NEAR(-0.5, addedBy({{kLeftXX, 1.0}}, {0, 0}).left, 0.01);
   EXPECT_NEAR(-0.154, addedBy({{kLeftXX, 1.0}}, {600, 0}).left, 0.03);

@@ -20,7 +20,7 @@ double sweep(double dx, double dy, ArcCentre centre, bool clockwise) {
 
 }  // namespace
 
-TEST(ArcCentre, IsEquidistantAndTakesTheShortWayUnlessRIsNegative) {
+TEST(ArcCentre, IsEquidistantAndGivesTheShortArcUnlessRIsNegative) {
   std::mt19937 random(4);
   std::uniform_real_distribution<float> place(-900, 900), factor(0.501f, 20);
   for (int i = 0; i < 100000; ++i) {
@@ -37,14 +37,14 @@ TEST(ArcCentre, IsEquidistantAndTakesTheShortWayUnlessRIsNegative) {
   }
 }
 
-TEST(ArcCentre, OfAHalfCircleWithRoundedRadiusIsItsMiddle) {
+TEST(ArcCentre, OfAHalfCircleWithRoundedRadiusIsTheMidpoint) {
   const ArcCentre centre = centreByRadius(100, 0, 49.97f, true);
   ASSERT_TRUE(centre.found);
   EXPECT_NEAR(50, centre.x, 1e-4);
   EXPECT_TRUE(centreByRadius(2000, 0, 999.2f, true).found);
 }
 
-TEST(ArcCentre, OfAHalfCircleWithRadiusRoundedUpIsItsMiddle) {
+TEST(ArcCentre, OfAHalfCircleWithRadiusRoundedUpIsTheMidpoint) {
   EXPECT_NEAR(0, centreByRadius(100, 0, 50.001f, true).y, 1e-4);
   EXPECT_NEAR(std::sqrt(50.0015 * 50.0015 - 2500),
               -double(centreByRadius(100, 0, 50.0015f, true).y), 0.01);

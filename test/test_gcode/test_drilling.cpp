@@ -109,14 +109,14 @@ TEST(Drilling, PecksWithG83) {
   EXPECT_EQ("across 2 0, rapid 1, feed -0.5, rapid 5", tool.drill("X2 Z-0.5"));
 }
 
-TEST(Drilling, NeverGoesDownFastBelowTheLastPeck) {
+TEST(Drilling, NeverRapidsBelowTheLastPeck) {
   Driller tool(5);
   // A peck shorter than the clearance: the way back ends at R, not above it.
   EXPECT_EQ("across 1 0, rapid 1, feed 0.9, rapid 1, feed 0.8, rapid 5",
             tool.drill("G83 X1 Z0.8 R1 Q0.1"));
 }
 
-TEST(Drilling, RepeatsAlongTheWayInG91) {
+TEST(Drilling, RepeatsAlongTheMoveInG91) {
   Driller tool(5);
   EXPECT_EQ(
       "across 10 0, rapid 2, feed -1, rapid 5, across 20 0, rapid 2, feed -1, rapid 5, "
@@ -129,7 +129,7 @@ TEST(Drilling, RepeatsAlongTheWayInG91) {
   EXPECT_EQ("across 50 2, feed -1, rapid 2", tool.drill("X10"));
 }
 
-TEST(Drilling, CountsFromWhereCoordinatesBegin) {
+TEST(Drilling, AddsTheWorkOffset) {
   Driller tool(20);
   tool.offset[0] = 100;
   tool.offset[1] = 50;
@@ -169,7 +169,7 @@ TEST(Drilling, PecksToTheBottomInTheSmallestPecks) {
   EXPECT_EQ("feed -3", steps.substr(steps.rfind("feed"), 7));
 }
 
-TEST(Drilling, RepeatsNoHoleInOnePlace) {
+TEST(Drilling, DrillsARepeatedHoleInOnePlaceOnlyOnce) {
   Driller tool(2);
   ASSERT_EQ(DrillFault::kNone, tool.read("G81 X3 Z2 R2 L999"));
   std::string all;
@@ -177,14 +177,14 @@ TEST(Drilling, RepeatsNoHoleInOnePlace) {
   EXPECT_EQ(all, tool.allSteps());
 }
 
-TEST(Drilling, LeavesNothingOfAnInterruptedLine) {
+TEST(Drilling, DropsTheStepsOfARefusedLine) {
   Driller tool(5);
   ASSERT_EQ(DrillFault::kNone, tool.read("G81 X1 Z-1 R1"));
   ASSERT_NE(DrillFault::kNone, tool.read("X2 L0"));
   EXPECT_EQ("", tool.allSteps());
 }
 
-TEST(Drilling, MayHaveNoDepth) {
+TEST(Drilling, AcceptsAHoleWithoutDepth) {
   Driller tool(5);
   EXPECT_EQ("across 1 0, rapid 1, rapid 5", tool.drill("G81 X1 Z1 R1"));
 }

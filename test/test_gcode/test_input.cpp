@@ -30,7 +30,7 @@ std::string lines(Input& input) {
 
 }  // namespace
 
-TEST(Input, GivesLinesInOrderAndEmptyOnesToo) {
+TEST(Input, GivesLinesInOrderIncludingEmptyOnes) {
   Input input;
   EXPECT_EQ("", put(input, "G1 X5  \n\n  \nB05"));
   EXPECT_EQ("G1 X5  ||  |", lines(input));
@@ -79,7 +79,7 @@ TEST(Quick, AQuestionMarkAsksForTheStatusOutsideComments) {
   EXPECT_EQ("X1 (?) ;?||", lines(input)) << "its line feed ends a line";
 }
 
-TEST(Input, MakesAControlCharacterInALineAMistake) {
+TEST(Input, MarksALineWithAControlCharacterAsAMistake) {
   for (const char each : {'\x00', '\x01', '\x0b', '\x10', '\x1f', '\x7f'}) {
     Input input;
     put(input, std::string("G0\nX1") + each + "0\n");
@@ -92,7 +92,7 @@ TEST(Input, MakesAControlCharacterInALineAMistake) {
   EXPECT_EQ(Fault::kNone, faultOf(line));
 }
 
-TEST(Input, EndsALineAtAReturnOrALineFeedOrBothOnce) {
+TEST(Input, EndsALineOnceAtCrOrLfOrBoth) {
   Input input;
   put(input, "X5\r\nX6\rX7\nX8\r \n\r\n\nX\r7\n");
   EXPECT_EQ("X5|X6|X7|X8|||X|7|", lines(input)) << "a minus that became a return leaves no number";
@@ -137,7 +137,7 @@ TEST(Input, EndsAnInterruptedLineEvenAfterTheStop) {
   }
 }
 
-TEST(Quick, BytesOfALineThatWasCutOrIsTooLongStillHold) {
+TEST(Quick, BytesActInsideCutOrTooLongLines) {
   Input input;
   put(input, "(a");
   input.clear();
@@ -146,7 +146,7 @@ TEST(Quick, BytesOfALineThatWasCutOrIsTooLongStillHold) {
   EXPECT_EQ(Quick::kHold, input.put('\x84'));
 }
 
-TEST(Quick, BytesOfOtherMachinesAreDropped) {
+TEST(Quick, BytesForOtherMachinesAreDropped) {
   for (int byte = 0x80; byte < 0x100; ++byte) {
     if (byte == 0x84 || byte == 0x85 || (byte >= 0x90 && byte <= 0x9d)) continue;
     Input input;
@@ -165,7 +165,7 @@ TEST(Quick, BytesOfOtherMachinesAreDropped) {
   EXPECT_EQ("G1 X5|", lines(input));
 }
 
-TEST(Input, MakesADigitWithAWrongBitAMistake) {
+TEST(Input, MarksADigitWithAFlippedBitAsAMistake) {
   for (const char each : std::string("0123456789.-+")) {
     Input input;
     put(input, std::string("G1 X1") + char(each ^ 0x80) + "\n");
@@ -179,7 +179,7 @@ TEST(Input, TurnsATabIntoASpace) {
   EXPECT_EQ("X1 Y2|", lines(input));
 }
 
-TEST(Input, HoldsTheHundredAndTwentyEightCharactersOfGrblSenders) {
+TEST(Input, HoldsTheBufferThatGrblSendersCountOn) {
   Input input;
   const std::string line = "G1 X12345 Y1234";
   std::string all, expected;
@@ -208,7 +208,7 @@ TEST(Input, SkipsATooLongLineAndReportsItOnce) {
   EXPECT_EQ("(too long)|G1|", lines(input));
 }
 
-TEST(Resume, CountsForLinesThatEndedBeforeIt) {
+TEST(Resume, AppliesToLinesThatEndedBeforeIt) {
   Input input;
   char line[Input::kRoom + 1];
   EXPECT_FALSE(input.takeResume());
@@ -249,12 +249,12 @@ TEST(Quick, BytesAbove127HoldAndChangeTheFeed) {
   EXPECT_EQ(Quick::kHold, line.put('\x84'));
   put(line, "5\n");
   EXPECT_EQ("G1 X5|", lines(line));
-  // One behind the other.
+  // One after the other.
   EXPECT_EQ(Quick::kFeedDown, line.put('\x92'));
   EXPECT_EQ(Quick::kFeedDown, line.put('\x92'));
 }
 
-TEST(Quick, BytesOfATextAreNone) {
+TEST(Quick, BytesInsideUtf8CommentsAreIgnored) {
   Input input;
   EXPECT_EQ("", put(input, ";\xc3\x84\x92 (\xc2\x84\n(\x91 ; \xe2\x80\x93)\n"));
   lines(input);

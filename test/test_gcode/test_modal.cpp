@@ -20,7 +20,7 @@ TEST(Modal, LeavesMotionAndUnknownCodesAlone) {
   EXPECT_EQ(0, modal.motion);
 }
 
-TEST(Modal, EndsAProgramInTheCoordinatesOfTheClients) {
+TEST(Modal, EndOfProgramResetsPlaneAndOffsetsButKeepsUnits) {
   Modal modal;
   for (int tenths : {180, 200, 550, 910, 930}) modal.take(uint16_t(tenths));
   modal.motion = kPeck;
@@ -52,7 +52,7 @@ TEST(WorkOffsets, FollowG10L20) {
   }
 }
 
-TEST(WorkOffsets, TakeANewShiftAfterASuspendedOne) {
+TEST(WorkOffsets, SetANewShiftAfterASuspendedOne) {
   const float stored[18] = {};
   WorkOffsets offsets(stored);
   offsets.shiftTo(0, 0, 10, 0);

@@ -12,11 +12,11 @@ TEST(Pieces, KeepWordsBeforeTheFirstCode) {
   EXPECT_EQ("-", codesOf("X5 Y6"));
 }
 
-TEST(Pieces, OfAnEmptyLineAreNone) {
+TEST(Pieces, OfAnEmptyLineThereAreNone) {
   for (const char* line : {"", "  ", "%", "(c)", "; c", "N5"}) EXPECT_EQ("", codesOf(line)) << line;
 }
 
-TEST(Code, ThatIsUnknownIsNoMistake) {
+TEST(Code, ThatIsUnknownIsAccepted) {
   for (const char* line : {"G54", "G92", "G28", "G64", "G80", "G94", "G17", "M7", "M8", "M999"})
     EXPECT_EQ(Fault::kNone, faultOf(line)) << line;
 }
@@ -31,7 +31,7 @@ TEST(Mistake, IsFoundBeforeAnythingRuns) {
   EXPECT_EQ('M', findMistake("G0X5G1Y6M").letter);
 }
 
-TEST(Pieces, OfACodeThatNeedsAPlaceTakeItFromAnywhereInTheLine) {
+TEST(Pieces, TakeCoordinatesFromAnywhereInTheLine) {
   EXPECT_EQ("G91 G28", codesOf("G28 G91 Z0"));
   const std::vector<Piece> home = piecesOf("G28 G91 Z0 G90");
   ASSERT_EQ(3u, home.size());
@@ -46,26 +46,26 @@ TEST(Pieces, OfACodeThatNeedsAPlaceTakeItFromAnywhereInTheLine) {
   EXPECT_EQ("G21 G43.1", codesOf("G43.1 G21 Z2"));
 }
 
-TEST(Pieces, OfACodeWithItsPlaceStayInOrder) {
+TEST(Pieces, StayInOrderWhenACodeHasItsCoordinates) {
   EXPECT_EQ("G28 G0", codesOf("G28 Z0 G0 X5"));
   EXPECT_EQ("G91 G28 G90", codesOf("G91 G28 Z0 G90"));
   EXPECT_EQ("G10 G0", codesOf("G10 Z0 G0 Z5"));
 }
 
-TEST(Pieces, OfACodeWithoutItsPlaceComeLast) {
+TEST(Pieces, PutACodeWithoutCoordinatesLast) {
   EXPECT_EQ("G28", codesOf("G28"));
   EXPECT_EQ("G90 G28", codesOf("G28 G90"));
   EXPECT_FALSE(piecesOf("G28 G90").at(1).words.hasPlace());
 }
 
-TEST(Mistakes, CountJumpsToSubroutines) {
+TEST(Mistakes, IncludeSubroutineCalls) {
   EXPECT_EQ(Fault::kNone, faultOf("O1000 (part)"));
   EXPECT_EQ(Fault::kNoCode, faultOf("O100 CALL"));
   EXPECT_EQ(Fault::kNoCode, faultOf("O100 REPEAT 5"));
   EXPECT_NE(Fault::kNone, faultOf("O<hole> CALL"));
 }
 
-TEST(Mistakes, CountWordsOfCyclesWithoutNumber) {
+TEST(Mistakes, IncludeCycleLettersWithoutANumber) {
   for (const char* line : {"G83 Q", "G81 L", "G81 K", "G43 H"})
     EXPECT_EQ(Fault::kNoNumber, faultOf(line)) << line;
 }

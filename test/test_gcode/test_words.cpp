@@ -1,4 +1,4 @@
-// Words and numbers: what clients send is read as they mean it, and text that is no number is never
+// Words and numbers: clients' lines are read as intended, and text that is not a number is never
 // read as a number.
 #include <gtest/gtest.h>
 
@@ -74,7 +74,7 @@ TEST(Number, MayHaveAnyNumberOfDigits) {
   EXPECT_FLOAT_EQ(1e20f, valueIn("X1" + std::string(20, '0'), 'X'));
 }
 
-TEST(Number, IsReadBehindASpace) { EXPECT_EQ(10, valueIn("G1 X 10", 'X')); }
+TEST(Number, IsReadAfterASpace) { EXPECT_EQ(10, valueIn("G1 X 10", 'X')); }
 
 TEST(Number, MayHaveAnExponent) {
   EXPECT_FLOAT_EQ(1e-5f, valueIn("X1E-05", 'X'));
@@ -82,7 +82,7 @@ TEST(Number, MayHaveAnExponent) {
   EXPECT_FLOAT_EQ(1e5f, valueIn("X1E+5", 'X'));
 }
 
-TEST(Number, MayHaveAPlusOrBeginOrEndWithItsPoint) {
+TEST(Number, MayHaveAPlusOrBeginOrEndWithAPoint) {
   EXPECT_EQ(5, valueIn("X+5", 'X'));
   EXPECT_EQ(0.5f, valueIn("X.5", 'X'));
   EXPECT_EQ(5, valueIn("X5.", 'X'));
@@ -120,11 +120,11 @@ TEST(Word, OfAnUnknownLetterIsIgnoredWithOrWithoutNumber) {
   EXPECT_EQ(5, valueIn("G1 Q3 W X5", 'X'));
 }
 
-TEST(Word, BehindASpaceIsNoExponent) { EXPECT_EQ(10, valueIn("G1 X10 E5", 'X')); }
+TEST(Word, AfterASpaceIsNotAnExponent) { EXPECT_EQ(10, valueIn("G1 X10 E5", 'X')); }
 
-TEST(Word, OfALetterUsedTwiceTheFirstCounts) { EXPECT_EQ(5, valueIn("G1 X5 X6", 'X')); }
+TEST(Word, IsTheFirstOfTwoWithTheSameLetter) { EXPECT_EQ(5, valueIn("G1 X5 X6", 'X')); }
 
-TEST(Word, OfABCodeMayBeALetterAlone) {
+TEST(Word, MayBeALetterAloneInABCode) {
   EXPECT_EQ(Fault::kNone, findMistake("L", "LR").fault);
   EXPECT_EQ(Fault::kNone, findMistake("S255T3L", "LR").fault);
   EXPECT_EQ(Fault::kNoNumber, findMistake("LR", "").fault);
@@ -143,13 +143,13 @@ TEST(Clean, RemovesSpacesPercentAndSlashAndMakesLettersCapital) {
   EXPECT_EQ("", cleaned("   "));
 }
 
-TEST(Clean, KeepsTheSpaceBehindALetterWithoutNumber) {
+TEST(Clean, KeepsTheSpaceAfterALetterWithoutANumber) {
   EXPECT_EQ("G1X Y5", cleaned("G1 X  (c) Y5"));
   EXPECT_EQ("G1X-Y5", cleaned("G1 X - Y5"));
   EXPECT_EQ(Fault::kNoNumber, faultOf("G1 X Y5"));
 }
 
-TEST(Clean, TakesAwayARightChecksum) {
+TEST(Clean, RemovesACorrectChecksum) {
   EXPECT_EQ("N1G21", cleaned("N1 G21*27"));
   EXPECT_EQ("N1G21", cleaned("N1 G21*27 "));
   EXPECT_EQ("N1G21*28", cleaned("N1 G21*28"));
@@ -161,7 +161,7 @@ TEST(Clean, TakesAwayARightChecksum) {
   EXPECT_EQ("X5", cleaned("(2*3; no end) X5 ; *"));
 }
 
-TEST(Clean, NeverMakesOneNumberOfTwo) {
+TEST(Clean, NeverJoinsTwoNumbers) {
   EXPECT_EQ("X1 2", cleaned("X1 (c) 2"));
   EXPECT_EQ("X10 E5", cleaned("X10 E5"));
 }

@@ -52,7 +52,7 @@ TEST(BadInput, PlacesInsideASprocketOrItsRing) {
   EXPECT_EQ(Found::kOutOfReach, foundAt(-1400, 1000));  // nearer than the ring is wide
 }
 
-TEST(BadInput, NoRingStillKeepsTheBitOutOfTheSprocket) {
+TEST(BadInput, WithoutARingTheBitStaysOutOfTheSprocket) {
   Tried tried;
   tried.rotation_radius = 0;
   const Machine<float> bare = lawsOf<float>(tried);
@@ -74,7 +74,7 @@ TEST(BadInput, ANaNAsAGuessDoesNotSpoilTheSearch) {
   EXPECT_NEAR(-300, place.sled.y, 0.01);
 }
 
-TEST(BadInput, FoundPlacesAlwaysGiveTheirChainsBack) {
+TEST(BadInput, FoundPlacesGiveBackTheirChains) {
   // Any pair of lengths is either refused, or gives a place that needs exactly these lengths.
   const Machine<float> here = machine();
   int found = 0, refused = 0;

@@ -54,7 +54,7 @@ TEST_P(FromAnywhere, GuessInTwiceTheSheet) {
   }
 }
 
-TEST_P(FromAnywhere, FindsTheJudgesSled) {
+TEST_P(FromAnywhere, FindsThePlaceThatTheJudgeFinds) {
   const Machine<double> machine = lawsOf<double>(GetParam());
   const reference::Machine judge = judgeOf(GetParam());
   for (const Point<double>& target : sheetPlaces<double>(0, 9, 5)) {
@@ -66,7 +66,7 @@ TEST_P(FromAnywhere, FindsTheJudgesSled) {
   }
 }
 
-TEST(Forward, FollowsASmallStepInOneRound) {
+TEST(Forward, FollowsASmallStepInOneIteration) {
   const Machine<float> machine = lawsOf<float>(triedMachines()[0]);
   const Point<float> target = {250, -120}, guess = {250.05f, -120.03f};
   const Place<float> place = forward(machine, inverse(machine, target).chains, guess);

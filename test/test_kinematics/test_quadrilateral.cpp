@@ -139,7 +139,7 @@ TEST_P(EverySled, AnyGuessOfTheTiltGivesTheSameLengths) {
   }
 }
 
-TEST_P(EverySled, TheTiltOfAPlaceNearbySavesASecondRound) {
+TEST_P(EverySled, TheTiltOfANearbyPlaceSavesAnIteration) {
   const Quadrilateral<float> machine = lawsOf<float>(GetParam());
   for (const Point<float>& place : sheetPlaces<float>(10, 17, 9)) {
     const TiltedPaidOut<float> paid = inverse(machine, place);
@@ -176,7 +176,7 @@ TEST_P(EverySled, ForwardComesBackFromTwiceTheSheetAndAnyTilt) {
     }
 }
 
-TEST(Quadrilateral, ForwardFollowsASmallStepInOneRound) {
+TEST(Quadrilateral, ForwardFollowsASmallStepInOneIteration) {
   const Quadrilateral<float> machine = published();
   const Point<float> target = {850, -420}, guess = {850.05f, -420.03f};
   const TiltedPaidOut<float> paid = inverse(machine, target);
@@ -214,7 +214,7 @@ TEST(Quadrilateral, RefusesPlacesThatAreNaN) {
   EXPECT_EQ(Found::kOutOfReach, foundTilted(1e30f, -1e30f));
 }
 
-TEST(Quadrilateral, SearchesNoLongerForPlacesOutOfReach) {
+TEST(Quadrilateral, RefusesPlacesOutOfReachWithoutSearching) {
   for (const Point<float>& place :
        {Point<float>{0, 1500}, {1600, 0}, {-1480, -500}, {nanf(""), nanf("")}})
     EXPECT_EQ(1, inverse(published(), place).tries) << place.x << " " << place.y;
@@ -277,7 +277,7 @@ TEST(Quadrilateral, ANaNAsAGuessDoesNotSpoilTheSearch) {
   EXPECT_LT(miss(place, Point<float>{200, -300}), kCloseEnough);
 }
 
-TEST(Quadrilateral, FoundPlacesAlwaysGiveTheirChainsBack) {
+TEST(Quadrilateral, FoundPlacesGiveBackTheirChains) {
   const Quadrilateral<float> machine = published();
   int found = 0, refused = 0;
   for (float left = 0; left < 5000; left += 83)

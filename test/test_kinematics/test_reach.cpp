@@ -71,7 +71,7 @@ Reach verdictAt(double x, double y, const ReachLimits<double>& limits = ReachLim
 
 }  // namespace
 
-TEST_P(ReachOf, GiveIsThatOfTheJudgesSled) {
+TEST_P(ReachOf, GiveAgreesWithTheJudge) {
   EXPECT_LT(worstGive(lawsOf<double>(GetParam()), judgeOf(GetParam())), 0.018);
 }
 
@@ -111,7 +111,7 @@ TEST(Reach, ALeaningFrameIsSofter) {
   EXPECT_GT(worstGive(upright, judge), 0.03);
 }
 
-TEST_P(ReachOf, TensionsAreTheJudgesAtTheSprockets) {
+TEST_P(ReachOf, TensionsAtTheSprocketsAgreeWithTheJudge) {
   const Machine<double> machine = lawsOf<double>(GetParam());
   const reference::Machine judge = judgeOf(GetParam());
   for (const Point<double>& place : sheetPlaces<double>(0, 13, 7)) {
@@ -182,7 +182,7 @@ TEST(Reach, TheFirstReasonIsGiven) {
   EXPECT_EQ(Reach::kCannotHang, verdictAt(0, 0, strict));
 }
 
-TEST(Reach, OnTheDefaultMachineOnlyTheLowerEndsOfBothSidesAreNotUsable) {
+TEST(Reach, OnTheDefaultMachineOnlyTheLowerCornersAreUnusable) {
   const Machine<double> machine = lawsOf<double>(triedMachines()[0]);
   for (const Point<double>& place : sheetPlaces<double>(0, 49, 25)) {
     if (fabs(place.x) > 1190 && place.y < -400) continue;
@@ -192,14 +192,14 @@ TEST(Reach, OnTheDefaultMachineOnlyTheLowerEndsOfBothSidesAreNotUsable) {
   EXPECT_EQ(Reach::kTooVertical, verdictAt(-1200, -600));
 }
 
-TEST(Reach, MostGiveIsTheLargerRoot) {
+TEST(Reach, MostGiveIsTheLargerEigenvalue) {
   EXPECT_DOUBLE_EQ(4, mostGive(Give<double>{1, 0, 4}));
   EXPECT_DOUBLE_EQ(4, mostGive(Give<double>{4, 0, 1}));
   EXPECT_DOUBLE_EQ(3, mostGive(Give<double>{2, -1, 2}));
   EXPECT_FLOAT_EQ(6, mostGive(Give<float>{2, 2, 5}));
 }
 
-TEST(Reach, NothingIsSaidWhereNothingHangs) {
+TEST(Reach, GiveAndTensionAreZeroWhereNoSledCanHang) {
   const Machine<float> machine = lawsOf<float>(triedMachines()[0]);
   const float nan = std::numeric_limits<float>::quiet_NaN();
   const float inf = std::numeric_limits<float>::infinity();

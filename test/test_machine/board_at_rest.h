@@ -35,7 +35,7 @@ struct BoardAtRest : machine::Wire, machine::Drives, machine::Aux, machine::Cloc
   void holdTicks() override {}
   void releaseTicks() override {}
 
-  std::string input;                  ///< characters from the computer that nobody has read
+  std::string input;                  ///< unread characters from the computer
   std::string said;                   ///< all that was written to the wire
   std::array<int16_t, 3> duty{};      ///< of each motor
   std::array<bool, 3> shorted{};      ///< whether a motor's winding is

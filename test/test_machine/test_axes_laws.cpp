@@ -11,7 +11,7 @@ typedef PreparedAxes<BoardAtRest> Driven;
 
 }  // namespace
 
-TEST(AxesYield, ForAnyAxisThatIsFarOff) {
+TEST(AxesYield, ToAnyAxisThatIsFarBehind) {
   for (const Axis axis : {kLeftAxis, kRightAxis, kZAxis}) {
     Driven driven;
     driven.axes.follow();
@@ -24,7 +24,7 @@ TEST(AxesYield, ForAnyAxisThatIsFarOff) {
   }
 }
 
-TEST(AxesCounts, AreTakenOverWithoutPowerOrMotion) {
+TEST(AxesCounts, AreSetWithoutPowerOrMotion) {
   Driven driven;
   driven.axes.follow();
   driven.ticks(2);
@@ -37,14 +37,14 @@ TEST(AxesCounts, AreTakenOverWithoutPowerOrMotion) {
   }
 }
 
-TEST(AxesImagination, ADeclaredHeightIsNotThatOfTheRealZ) {
+TEST(AxesImagination, AHeightDeclaredInSimulationIsNotTheRealOne) {
   Driven driven;
   driven.axes.simulate(true);
   driven.axes.declareLifted(2);
   EXPECT_TRUE(driven.axes.isImagined());
 }
 
-TEST(AxesImagination, ChainsTurnedByHandDifferFromTheirRecord) {
+TEST(AxesImagination, ChainsTurnedByHandDifferFromTheRecord) {
   for (const int sign : {-1, 1}) {
     Driven driven;
     driven.axes.simulate(true);
@@ -58,7 +58,7 @@ TEST(AxesImagination, ChainsTurnedByHandDifferFromTheirRecord) {
   }
 }
 
-TEST(AxesLengths, AreWithinWhatAnyMachineTravels) {
+TEST(AxesLengths, AreLimitedToTheMostTravel) {
   Driven driven;
   for (const float sign : {-1.0f, 1.0f}) {
     driven.axes.declare(kLeftAxis, sign * 1e9f);
@@ -71,7 +71,7 @@ TEST(AxesLengths, AreWithinWhatAnyMachineTravels) {
   }
 }
 
-TEST(AxesLengths, StandingStillForgetsWhatWaits) {
+TEST(AxesLengths, StandingStillDropsWaitingSetPoints) {
   Driven driven;
   driven.axes.setPoints().vacant() = {{65536, 65536, 0}, 100, 10, 0};
   driven.axes.setPoints().push();

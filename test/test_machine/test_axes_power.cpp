@@ -34,7 +34,7 @@ TEST(AxesPower, AnAxisTurnsAtASpeedWithoutItsPositionLoop) {
   EXPECT_EQ(0, powered.axes.state(kLeftAxis).duty);
 }
 
-TEST(AxesPower, ADutyIsAtMostFull) {
+TEST(AxesPower, DutyIsLimitedToFull) {
   Powered powered;
   powered.axes.driveOpen(kLeftAxis, 300);
   powered.axes.driveOpen(kRightAxis, -300);
@@ -44,7 +44,7 @@ TEST(AxesPower, ADutyIsAtMostFull) {
   EXPECT_TRUE(powered.axes.isDriven());
 }
 
-TEST(AxesPower, AnAxisWithoutAGainIsNotWatchedAndYieldsNothing) {
+TEST(AxesPower, AnAxisWithoutAGainIsNotWatchedAndSlowsNothing) {
   Powered powered;
   powered.values.setRow(kZPositionP, 0);
   powered.axes.prepare(powered.values);
@@ -56,7 +56,7 @@ TEST(AxesPower, AnAxisWithoutAGainIsNotWatchedAndYieldsNothing) {
   EXPECT_FALSE(powered.axes.isDisproved(kZAxis));
 }
 
-TEST(AxesPower, EachAxisHasItsGainsOfSpeed) {
+TEST(AxesPower, EachAxisUsesItsOwnSpeedGains) {
   for (const Axis axis : {kLeftAxis, kRightAxis, kZAxis}) {
     Powered powered;
     powered.values.setRow(axis == kZAxis ? kMainSpeedP : kZSpeedP, 0);
@@ -67,7 +67,7 @@ TEST(AxesPower, EachAxisHasItsGainsOfSpeed) {
   }
 }
 
-TEST(AxesPower, ATurnBeginsAtRest) {
+TEST(AxesPower, TurningBeginsFromRest) {
   Powered powered;
   powered.axes.follow();
   powered.axes.jumpTo(kLeftAxis, 1);

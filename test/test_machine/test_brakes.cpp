@@ -36,13 +36,13 @@ TEST_P(Brakes, HoldForHalfASecond) {
   EXPECT_EQ(0, board.duty[kLeftAxis]);
 }
 
-TEST_P(Brakes, EndWhereAMotorIsLetGo) {
+TEST_P(Brakes, EndWhenAMotorIsReleased) {
   axes.brakeAll();
   axes.releaseAll();
   EXPECT_EQ(kNone, board.shorted);
 }
 
-TEST_P(Brakes, EndWhereMotorsFollowAgain) {
+TEST_P(Brakes, EndWhenMotorsFollowAgain) {
   axes.brakeAll();
   axes.follow();
   ticks(1);
@@ -52,7 +52,7 @@ TEST_P(Brakes, EndWhereMotorsFollowAgain) {
   EXPECT_NE(0, board.duty[kLeftAxis]);
 }
 
-TEST_P(Brakes, AreNotUsedWhereAMotorIsLetGoAtRest) {
+TEST_P(Brakes, AreNotUsedWhenAMotorIsReleasedAtRest) {
   axes.releaseAll();
   ticks(GetParam());
   EXPECT_EQ(kNone, board.shorted);

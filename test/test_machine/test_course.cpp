@@ -21,7 +21,7 @@ bool isHaltedIn(State state) { return state >= State::kHalted; }
 
 }  // namespace
 
-TEST(Course, IsStoppedAndFailsInEveryState) {
+TEST(Course, CanStopAndFailInEveryState) {
   for (const State state : all<State>()) {
     EXPECT_EQ(State::kStopping, Course::after(state, Event::kStop)) << int(state);
     const bool has_failed = state == State::kFalling || state == State::kAlarm;
@@ -30,7 +30,7 @@ TEST(Course, IsStoppedAndFailsInEveryState) {
   }
 }
 
-TEST(Course, HoldsWhateverMoves) {
+TEST(Course, CanHoldWheneverSomethingMoves) {
   for (const State state : all<State>()) {
     const State held = Course::after(state, Event::kHold);
     if (Course::pathGoesIn(state) || state == State::kLowering) {
@@ -41,7 +41,7 @@ TEST(Course, HoldsWhateverMoves) {
   }
 }
 
-TEST(Course, LetsThePathGoOnlyForLinesOrQueuedMoves) {
+TEST(Course, PathRunsOnlyWhileRunningJoggingOrHalted) {
   for (const State state : all<State>())
     EXPECT_EQ(state == State::kRunning || state == State::kJogging || state == State::kHalted,
               Course::pathGoesIn(state));
@@ -76,7 +76,7 @@ TEST(Course, EndsAPauseOnlyByResumeOrStopOrFault) {
   }
 }
 
-TEST(Course, DoesTheOperatorsLinesOnlyWhileThePathStands) {
+TEST(Course, RunsTheOperatorsLinesOnlyWhileThePathStands) {
   for (const State state : all<State>()) {
     const bool is_operators = Course::linesIn(state) == Lines::kOperator;
     EXPECT_EQ(state == State::kHeld || state == State::kPaused, is_operators) << int(state);
@@ -87,7 +87,7 @@ TEST(Course, DoesTheOperatorsLinesOnlyWhileThePathStands) {
   }
 }
 
-TEST(Course, AsksOneGateForEveryKindOfLine) {
+TEST(Course, AcceptsOnlyTheLinesThatFitItsState) {
   for (const State state : all<State>()) {
     const uint8_t lines = uint8_t(Course::linesIn(state));
     const bool runs = state == State::kRunning, jogs = state == State::kJogging;

@@ -68,7 +68,7 @@ TEST(Laser, ShowsTheBeamOrFullPower) {
   }
 }
 
-TEST(Spindle, IsPulsedByItsSpeed) {
+TEST(Spindle, PwmFollowsItsSpeed) {
   Bench bench({{17, 4}, {60, 6000}, {61, 24000}});
   bench.cutter.setSpindle(true);
   EXPECT_EQ(255, bench.spindle());
@@ -87,7 +87,7 @@ TEST(Spindle, IsPulsedByItsSpeed) {
   EXPECT_EQ(0, bench.spindle());
 }
 
-TEST(Spindle, AnOverrideSlowsAPulsedSpindle) {
+TEST(Spindle, AnOverrideSlowsASpindleWithPwm) {
   Bench bench({{17, 4}, {60, 6000}, {61, 24000}});
   bench.cutter.override(50);
   EXPECT_EQ(-1, bench.spindle()) << "it does not turn";
@@ -100,7 +100,7 @@ TEST(Spindle, AnOverrideSlowsAPulsedSpindle) {
   EXPECT_EQ(64, bench.spindle()) << "no slower than it may";
 }
 
-TEST(Spindle, ByRelayHasNoSpeed) {
+TEST(Spindle, OnARelayHasNoSpeed) {
   for (const float kind : {2.0f, 3.0f}) {
     Bench bench({{17, kind}});
     bench.cutter.setSpindle(true);
@@ -111,7 +111,7 @@ TEST(Spindle, ByRelayHasNoSpeed) {
   }
 }
 
-TEST(Laser, GoesOnWithItsMove) {
+TEST(Laser, IsOffForAMoveThatDoesNotAskForIt) {
   Bench bench({});
   bench.cutter.setFull();
   bench.cutter.arm(true);
@@ -123,7 +123,7 @@ TEST(Laser, GoesOnWithItsMove) {
   EXPECT_EQ(0, bench.cutter.takeBeam());
 }
 
-TEST(Spindle, ThatIsPulsedStopsAfterAChangeOfKind) {
+TEST(Spindle, WithPwmStopsAfterItsTypeIsChanged) {
   Bench bench({{17, 4}});
   bench.cutter.setSpindle(true);
   EXPECT_EQ(255, bench.spindle());

@@ -116,7 +116,7 @@ TEST(EdgeCut, FollowsAnyArcAsFarAsItIsOnTheSheet) {
   EXPECT_GT(left, 1000);
 }
 
-TEST(EdgeCut, AnArcThatOnlyTouchesTheEdgeIsWhole) {
+TEST(EdgeCut, AnArcThatOnlyTouchesTheEdgeIsCutWhole) {
   for (float more : {-0.001f, 0.0f, 0.001f}) {
     const Path<float> circle = motion::arc(Point<float>{1000, 0}, Point<float>{1000, 0},
                                            Point<float>{1100 + more, 0}, motion::Turn::kClockwise);
@@ -127,7 +127,7 @@ TEST(EdgeCut, AnArcThatOnlyTouchesTheEdgeIsWhole) {
   }
 }
 
-TEST(Area, GrowsToWhereTheSledHangs) {
+TEST(Area, GrowsToThePlaceOfTheSled) {
   const Area grown = kSheet.grownTo({0, -800});
   EXPECT_TRUE(grown.holds({1200, -800}));
   EXPECT_FALSE(grown.holds({0, -801}));

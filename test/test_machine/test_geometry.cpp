@@ -49,7 +49,7 @@ TEST(FrameSettings, MotorCenterMovesTheSprocketsToTheRight) {
   }
 }
 
-TEST(SledsWeight, TurnsTheSprocketsByTheLawOfSines) {
+TEST(SledsWeight, TorqueFollowsTheLawOfSines) {
   const double weight = 110, gap = 3000, radius = 63.5 / 6.283185307;
   const Shaped shaped({{7, 2}, {2, float(gap)}, {62, float(weight)}, {64, 50}});
   const motion::Sprockets<float>& sprockets = shaped.geometry.sprockets();
@@ -63,7 +63,7 @@ TEST(SledsWeight, TurnsTheSprocketsByTheLawOfSines) {
   }
 }
 
-TEST(FrameSettings, NoMoreChainIsPaidOutThanThereIs) {
+TEST(FrameSettings, NoMoreChainIsPaidOutThanItsLength) {
   const Shaped usual({{7, 2}, {8, 139}, {10, 5000}});
   const motion::Point<float> corner = {-1000, -500};
   const motion::Lengths<float> lengths = usual.geometry.inverse(corner);
@@ -75,7 +75,7 @@ TEST(FrameSettings, NoMoreChainIsPaidOutThanThereIs) {
   EXPECT_FALSE(tooShort.geometry.isReachable({1000, -500})) << "left, " << lengths.right;
 }
 
-TEST(FrameSettings, NoSledHangsAboveItsMotors) {
+TEST(FrameSettings, PlacesAboveTheMotorsAreOutOfReach) {
   const Shaped usual({{7, 2}, {8, 139}, {10, 5000}});
   EXPECT_FALSE(usual.geometry.isReachable({0, 1500}));
   EXPECT_FALSE(usual.geometry.isReachable({300, 1100}));

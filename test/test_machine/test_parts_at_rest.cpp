@@ -16,7 +16,7 @@ struct MotorPowerAlone : PartsAtRest {
   }
 };
 
-TEST_F(MotorPowerAlone, NeverComesAfterAStop) {
+TEST_F(MotorPowerAlone, IsNotSwitchedOnAfterAStop) {
   keepRecord();
   waiting.in_each_round = [&] { waiting.stop(); };
   EXPECT_FALSE(motors.wake());
@@ -68,7 +68,7 @@ TEST_F(MotorPowerAlone, WaitsUpToASecondForTheRecord) {
 
 struct OperatorAlone : PartsAtRest {};
 
-TEST_F(OperatorAlone, MayAskAndMoveZButNothingElse) {
+TEST_F(OperatorAlone, MayOnlyAskAndMoveZ) {
   for (const char* line :
        {"B05", "B10L", "B17", "B19", "B20", "B30", "$$", "G0Z5", "G91G0Z1", "G10Z0"})
     EXPECT_TRUE(operator_lines.isForOperator(line)) << line;
@@ -108,8 +108,8 @@ TEST_F(ReportsAlone, AreDueEveryFifthOfASecond) {
 
 struct KeeperAlone : PartsAtRest {};
 
-// Else a chain that is pulled while the EEPROM is written would move the start of a planned move.
-TEST_F(KeeperAlone, IsNotReleasedWhileMotorsAreAboutToGetPower) {
+// Otherwise pulling a chain while the EEPROM is written would shift the start of a planned move.
+TEST_F(KeeperAlone, KeepsMotorsWhileTheyAreAboutToGetPower) {
   EXPECT_TRUE(keeper.isReleased());
   keeper.beginMoving();
   EXPECT_FALSE(keeper.isReleased());

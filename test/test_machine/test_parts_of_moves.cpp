@@ -1,4 +1,4 @@
-// A stop while a line waits for room, and the errors that a test makes on purpose.
+// A stop while a line waits for room, and when a test of the loops counts as running.
 #include "parts.h"
 
 using namespace machine;
@@ -20,7 +20,7 @@ TEST_F(MovesAlone, WaitForRoomInTheQueueUntilAStop) {
 
 struct AxisTestsAlone : PartsAtRest {};
 
-TEST_F(AxisTestsAlone, MakeErrorsOnPurposeOnlyWhileTheyLast) {
+TEST_F(AxisTestsAlone, CountAsTestingOnlyWhileTheyRun) {
   bool was_testing = false;
   waiting.in_each_round = [&] {
     was_testing = axis_tests.isTesting();

@@ -91,14 +91,14 @@ struct Keeper : testing::Test {
 
 }  // namespace
 
-TEST_F(Keeper, KeepsOnceWhatRests) {
+TEST_F(Keeper, SavesOnceAtRest) {
   EXPECT_EQ(Known::kAtRest, machine.afterCut().known);
   machine.pass(5000);
   EXPECT_EQ(1, machine.kept);
   EXPECT_TRUE(machine.keeper.isSettled());
 }
 
-TEST_F(Keeper, MarksMotionThatNobodyAskedFor) {
+TEST_F(Keeper, MarksUncommandedMotion) {
   machine.axes.driveOpen(kZAxis, 1);
   machine.pass(30);
   EXPECT_EQ(Known::kMoving, machine.afterCut().known);
@@ -146,7 +146,7 @@ TEST_F(Keeper, InvalidatesARecordWhoseChainIsPulled) {
   EXPECT_EQ(Known::kMoving, machine.afterCut().known) << "back is as far";
 }
 
-TEST_F(Keeper, AnEdgeUnderTheSensorIsNoMotion) {
+TEST_F(Keeper, IgnoresAnEncoderFlickeringAtAnEdge) {
   machine.wake();
   machine.axes.releaseAll();
   for (int i = 0; i < 100; ++i) {
@@ -194,7 +194,7 @@ TEST_F(Keeper, AStopBeforeMotorsHavePowerComesBackToRest) {
   EXPECT_EQ(Known::kAtRest, machine.afterCut().known);
 }
 
-TEST_F(Keeper, ADoubtAboutZLeavesTheChains) {
+TEST_F(Keeper, ADoubtAboutZKeepsTheChainsTrusted) {
   machine.keeper.doubt(kZAxis, settings::Doubt::kCounts);
   machine.pass(1000);
   EXPECT_TRUE(machine.keeper.trustsChains());

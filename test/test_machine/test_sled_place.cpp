@@ -1,4 +1,4 @@
-// Where the sled is: looked for, said or not, lost, and followed at rest.
+// Where the sled is: found, reported, lost, and followed at rest.
 #include <cmath>
 #include <tuple>
 
@@ -26,7 +26,7 @@ TEST_F(PlaceAlone, IsUnknownIfTheChainsFitNoPlace) {
   EXPECT_FALSE(isPlaceKept());
 }
 
-TEST_F(PlaceAlone, IsSearchedAgainAfterAChainWasPulled) {
+TEST_F(PlaceAlone, IsSearchedAgainAfterAChainIsPulled) {
   axes.simulate(false);
   waiting.in_each_round = [&] { place.keepWhenAtRest(board.now_ms); };
   waiting.waitFor(1000);

@@ -1,4 +1,4 @@
-// Each row of the settings says what it touches: these things change with its value, and nothing
+// Each row of the settings lists what it touches: these things change with its value, and nothing
 // else does.
 #include <gtest/gtest.h>
 
@@ -188,23 +188,25 @@ Signature howItStarts(const Values& values, bool asks_drives) {
 
 }  // namespace
 
-TEST(Touches, GeometryIsWhereTheSledHangs) { expectExactly(settings::kGeometry, whereItHangs); }
+TEST(Touches, GeometryAffectsWhereTheSledHangs) {
+  expectExactly(settings::kGeometry, whereItHangs);
+}
 
-TEST(Touches, ScaleIsHowLongCountsAre) { expectExactly(settings::kScale, howLong); }
+TEST(Touches, ScaleAffectsTheLengthOfACount) { expectExactly(settings::kScale, howLong); }
 
-TEST(Touches, ScaleAndLoopsAreHowAxesAreDriven) {
+TEST(Touches, ScaleAndLoopsAffectHowAxesAreDriven) {
   expectExactly(settings::kScale | settings::kLoops, howDriven);
 }
 
-TEST(Touches, LimitsAreHowItMoves) { expectExactly(settings::kLimits, howItMoves); }
+TEST(Touches, LimitsAffectHowItMoves) { expectExactly(settings::kLimits, howItMoves); }
 
-TEST(Touches, TheCutterIsItsPins) { expectExactly(settings::kCutter, howItCuts); }
+TEST(Touches, CutterAffectsTheCuttersPins) { expectExactly(settings::kCutter, howItCuts); }
 
-TEST(Touches, DrivesAreSetUpAtTheStart) {
+TEST(Touches, DrivesAffectHowItStarts) {
   expectExactly(settings::kDrives, [](const Values& values) { return howItStarts(values, true); });
 }
 
-TEST(Touches, TheRateIsReadAtTheStart) {
+TEST(Touches, RestartAffectsTheTickRate) {
   expectExactly(settings::kRestart,
                 [](const Values& values) { return howItStarts(values, false); });
 }

@@ -37,7 +37,7 @@ TEST_F(WaitingAlone, EndsOnceAxesAreNearTheirSetPoints) {
   EXPECT_EQ(219, waiting.rounds) << "its encoder shows nothing";
 }
 
-TEST_F(WaitingAlone, GoesOnAfterTheLastSetPointUntilTheMotorsAreThere) {
+TEST_F(WaitingAlone, GoesOnAfterTheLastSetPointUntilTheMotorsArrive) {
   axes.simulate(false);
   EXPECT_TRUE(moves.move(0, words("G0 Z-0.1")));
   int rounds_still = 0;
@@ -46,7 +46,7 @@ TEST_F(WaitingAlone, GoesOnAfterTheLastSetPointUntilTheMotorsAreThere) {
   EXPECT_NEAR(500, rounds_still, 2);
 }
 
-TEST_F(WaitingAlone, DoesNotWaitForWhatDoesNotMove) {
+TEST_F(WaitingAlone, DoesNotWaitForAMotorWithoutPower) {
   axes.simulate(false);
   axes.jumpTo(kLeftAxis, axes.length(kLeftAxis) + 1);
   EXPECT_TRUE(waiting.drain());

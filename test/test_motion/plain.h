@@ -9,7 +9,7 @@
 
 const double kTick = 0.01;  // [s]
 
-/// As the firmware's defaults: 100 mm/s^2, 10 for z, chains 20 mm/s, z 0.66, corners within 0.05.
+/// The firmware's defaults: 100 mm/s^2, 10 for z, chains 20 mm/s, z 0.66, corners within 0.05.
 const motion::Limits kGentle = {100, 10, 20, 0.66f, 0.05f};
 
 /// Set-points of the axes at a tick [mm].

@@ -1,4 +1,4 @@
-// A laser's strength belongs to its move and to no other, and follows the speed.
+// A laser's strength applies to its own move only, and follows the speed.
 #include <gtest/gtest.h>
 
 #include "plain.h"
@@ -41,7 +41,7 @@ class Engraver : public Plain {
 
 }  // namespace
 
-TEST(Beam, IsNeverOnAMoveWithoutIt) {
+TEST(Beam, IsOffOnMovesWithoutPower) {
   for (const float length : {0.05f, 0.3f, 7.0f}) {
     Engraver engraver;
     for (int i = 1; i <= 60; ++i) engraver.burnTo(float(i) * length, i % 2 ? 0 : 200);
@@ -86,7 +86,7 @@ TEST(Beam, IsOffWhileSetPointsAreMissing) {
   EXPECT_EQ(0, engraver.playback.beam());
 }
 
-TEST(Beam, IsNoStrongerThanAskedWhenTheFeedIsBoosted) {
+TEST(Beam, IsNotStrongerWhenTheFeedIsBoosted) {
   Engraver engraver;
   engraver.mover.boost(2, 20);
   engraver.burnTo(60, 100, 8);

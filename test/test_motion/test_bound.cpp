@@ -48,7 +48,7 @@ Path<double> piece(Paths& paths, bool straight) {
 
 }  // namespace
 
-TEST(Bound, OfTheDistanceIsReachedAndNeverExceeded) {
+TEST(Bound, OnTheDistanceIsTightAndNeverExceeded) {
   const Tried tried = triedMachines()[0];
   const Distances distances = {sprocketOf(tried, 0), sprocketOf(tried, 1)};
   double straight = 0, turning = 0;
@@ -67,7 +67,7 @@ TEST(Bound, OfTheDistanceIsReachedAndNeverExceeded) {
   EXPECT_GT(turning, 0.8);
 }
 
-TEST(Bound, AddsTheMaximumOfEachTerm) {
+TEST(Bound, AddsTheMaximaOfAllTerms) {
   // By hand, a distance of 100 mm: 2 / sqrt 3 / 100^2 and 0.5e-4 of effects; then an arc of 50 mm.
   const Surroundings<double> around = {100, {0.1, 0.002, 0.5e-4}};
   EXPECT_NEAR(1.1547e-4 + 0.5e-4, thirdSlope(0.0, around), 1e-9);
@@ -76,7 +76,7 @@ TEST(Bound, AddsTheMaximumOfEachTerm) {
               thirdSlope(0.02, around), 1e-8);
 }
 
-TEST_P(BoundOf, TheExactInverseIsNeverExceeded) {
+TEST_P(BoundOf, IsNeverExceededByTheExactInverse) {
   const Tried tried = GetParam();
   const Exactly<double> exact = exactly<double>(tried);
   const Distances distances = {sprocketOf(tried, 0), sprocketOf(tried, 1)};
@@ -116,7 +116,7 @@ TEST(Bound, IsReachedByALengthThatCurvesUnderAcceleration) {
   EXPECT_NEAR(double(kMostMissed), fabs(length(at) - quadratic), 0.02 * double(kMostMissed));
 }
 
-TEST(Bound, SecondSlopeIsThatOfTheDistance) {
+TEST(Bound, OfTheSecondSlopeCoversDistanceAndEffects) {
   const Surroundings<double> around = {100, {0.1, 0.002, 0}};
   EXPECT_NEAR(0.01 + 0.002, secondSlope(0.0, around), 1e-12);
   EXPECT_NEAR(0.01 + 0.002 + 0.02 * 1.1, secondSlope(0.02, around), 1e-12);

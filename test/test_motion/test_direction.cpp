@@ -1,4 +1,4 @@
-// Which way a path leads at its ends, and what a corner makes of it.
+// The direction of a path at its ends, and the speed at a corner.
 #include <gtest/gtest.h>
 
 #include "plain.h"
@@ -46,7 +46,7 @@ TEST(Direction, OfAnArcIsThatOfASmallStep) {
         }
 }
 
-TEST(Direction, OfALineIsConstantAndOfNoPathNone) {
+TEST(Direction, IsConstantOnALineAndZeroWithoutAPath) {
   const Path<float> path = line(Point<float>{100, 50}, {103, 46});
   for (const bool at_end : {false, true}) {
     EXPECT_FLOAT_EQ(0.6f, directionOf(path, at_end).x);
@@ -57,7 +57,7 @@ TEST(Direction, OfALineIsConstantAndOfNoPathNone) {
   EXPECT_EQ(0, directionOf(none, false).y);
 }
 
-TEST(Corner, StraightOnHasNoLimitAtAnyDeviation) {
+TEST(Corner, GoingStraightHasNoLimitAtAnyDeviation) {
   const Direction along = {0.6f, 0.48f, 0.64f};
   for (const float deviation : {0.0f, 0.05f})
     EXPECT_EQ(kAnySpeedSquared, cornerSpeedSquared(along, along, 0.01f, deviation, 10))
@@ -78,7 +78,7 @@ TEST(Corner, DoesNotDependOnTheDirectionOfTheAxes) {
         << pair[1].x << " " << pair[1].y << " " << pair[1].z;
 }
 
-TEST(SagSlopes, AreThoseOfEachPowerAlone) {
+TEST(SagSlopes, AreRightForEachPowerAlone) {
   // Where the other three hardly change, u^p has the slopes p, p(p+1), p(p+1)(p+2) over u, u^2,
   // u^3.
   const double u = 700, far = 1e9;

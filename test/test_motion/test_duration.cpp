@@ -1,4 +1,4 @@
-// How long the queue says that its moves last, against the ticks that they then take.
+// The queue's estimate of its moves' duration, against the ticks they then take.
 #include <gtest/gtest.h>
 
 #include <random>
@@ -32,7 +32,7 @@ int taken(Plain plain) {
 
 }  // namespace
 
-TEST(Duration, IsThatOfAnyMovesTogether) {
+TEST(Duration, OfRandomMovesIsPredicted) {
   std::mt19937 random(7);
   std::uniform_real_distribution<float> any(0, 1);
   for (int round = 0; round < 200; ++round) {
@@ -46,7 +46,7 @@ TEST(Duration, IsThatOfAnyMovesTogether) {
   }
 }
 
-TEST(Duration, OfNothingIsNothing) {
+TEST(Duration, OfAnEmptyQueueIsZero) {
   Plain plain;
   EXPECT_FALSE(plain.mover.lastsLonger(0));
   plain.lineTo(0.01f, 0);

@@ -1,4 +1,4 @@
-// The invariants of mover_detail.h and stretch.h, asked after every step of random moves.
+// The invariants of mover_detail.h and stretch.h, checked after every step of random moves.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -12,7 +12,7 @@ namespace {
 
 const double kOnSheet = 0.01;  // [mm/tick^2] acceleration of moves without z
 
-/// Random moves one behind the other, and a mover that is asked after each set-point.
+/// Random moves in a row, and a mover that is checked after each set-point.
 class Asking {
  public:
   explicit Asking(unsigned seed) : random_(seed) {
@@ -126,14 +126,14 @@ TEST(Stretch, BrakesInTimeFromASlightlyTooHighSpeed) {
   EXPECT_EQ(40, stretch.ticks);
 }
 
-TEST(Invariants, OfTheMoverHoldAfterEachStepOfRandomMoves) {
+TEST(Invariants, HoldForTheMoverAfterEachStepOfRandomMoves) {
   for (unsigned seed = 0; seed < 60 && !testing::Test::HasFailure(); ++seed) {
     SCOPED_TRACE(seed);
     Asking(seed).go(60);
   }
 }
 
-TEST(Invariants, OfAStretchHoldForRandomBounds) {
+TEST(Invariants, HoldForAStretchWithRandomBounds) {
   std::mt19937 random(3);
   std::uniform_real_distribution<float> any(0, 1);
   for (int i = 0; i < 200000 && !testing::Test::HasFailure(); ++i) {

@@ -74,7 +74,7 @@ TEST(Lift, StaysAtADeclaredHeight) {
   EXPECT_TRUE(lift.isAtRest());
 }
 
-TEST(Lift, KeepsItsSumsFromOverflowing) {
+TEST(Lift, DoesNotOverflowWithAHugeGain) {
   Lift lift;
   lift.goTo(1000000000, 2000000000, 1);
   for (int i = 0; i < 2000; ++i) {

@@ -52,7 +52,7 @@ double steepestByHand(const Path<double>& path, const Sprockets<double>& sprocke
 
 }  // namespace
 
-TEST(ArcLimit, PullInwardsIsTheAcceleration) {
+TEST(ArcLimit, CentripetalAccelerationIsTheLimit) {
   for (const float radius : {1.0f, 4.0f, 25.0f}) {
     const double may = std::sqrt(100 * double(radius));
     EXPECT_NEAR(fastestRound(radius, 0), may, 0.02 * may) << "radius " << radius;
@@ -60,7 +60,7 @@ TEST(ArcLimit, PullInwardsIsTheAcceleration) {
   }
 }
 
-TEST(CornerLimit, OfShortMovesIsThatOfTheTurnSpreadOverThem) {
+TEST(CornerLimit, SpreadsTheTurnOverShortMoves) {
   const float acceleration = 0.01f, deviation = 0.05f;
   for (const double turn : {0.02, 0.1, 0.2})
     for (const float room : {0.0f, 0.02f, 0.2f}) {
@@ -72,7 +72,7 @@ TEST(CornerLimit, OfShortMovesIsThatOfTheTurnSpreadOverThem) {
     }
 }
 
-TEST(CornerLimit, OfLongMovesIsThatOfTheArcWithinTheDeviation) {
+TEST(CornerLimit, OfLongMovesIsTheArcWithinTheDeviation) {
   const float acceleration = 0.01f, deviation = 0.05f, room = 1000;
   for (const double turn : {0.1, 0.8, 1.6, 2.5, 3.0}) {
     // The arc touches both sides and passes the corner at the deviation.
@@ -88,7 +88,7 @@ TEST(CornerLimit, OfLongMovesIsThatOfTheArcWithinTheDeviation) {
       << "straight back";
 }
 
-TEST(Steepest, IsThatOfTheChainThatChangesMostAtEitherEnd) {
+TEST(Steepest, IsTheSlopeOfTheChainThatChangesMostAtEitherEnd) {
   const Sprockets<double> sprockets = {{-1289, 1073}, {1689, 973}, {0.002, 0, 0}};
   std::mt19937 random(7);
   std::uniform_real_distribution<double> x(-1200, 1200), y(-600, 600);
@@ -100,7 +100,7 @@ TEST(Steepest, IsThatOfTheChainThatChangesMostAtEitherEnd) {
   }
 }
 
-TEST(Steepest, OfAnArcAndThroughASprocketIsTheWholeWay) {
+TEST(Steepest, IsTheFullSlopeOnAnArcAndThroughASprocket) {
   const Sprockets<double> sprockets = {{-1000, 0}, {1000, 0}, {0.002, 0, 0}};
   const Path<double> round =
       arc(Point<double>{0, -500}, {10, -490}, {0, -490}, Turn::kCounterclockwise);
@@ -122,7 +122,7 @@ TEST(Surroundings, AreThoseOfTheNearerSprocket) {
   }
 }
 
-TEST(Steepest, OfEachEndAlone) {
+TEST(Steepest, IsRightAtEachEndOfEachChain) {
   const Sprockets<double> sprockets = {{-1000, 0}, {1000, 0}, {0, 0, 0}};
   // Each line runs to or from the foot under a sprocket, where that chain does not move.
   struct {

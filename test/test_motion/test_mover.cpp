@@ -64,7 +64,7 @@ TEST(Mover, FeedIsTrueOnALineOnAnArcAndOverThreeAxes) {
   }
 }
 
-TEST(Mover, NeverGainsOrLosesMoreThanItMay) {
+TEST(Mover, NeverExceedsItsAcceleration) {
   std::mt19937 random(4);
   for (const double seconds : {0.01, 0.005}) {
     Plain plain(kGentle, seconds);
@@ -161,7 +161,7 @@ TEST(Mover, ChainSpeedAndZSpeedSlowTheWholeMove) {
   EXPECT_EQ(toCounts(-5.0f), deep.now.z);
 }
 
-TEST(Mover, OneChainMovesByALengthAtASpeed) {
+TEST(Mover, MovesOneChainByALengthAtASpeed) {
   Plain plain;
   plain.mover.standAt({toCounts(1500.0f), toCounts(1700.0f), 0});
   const Point<float> from = {1500, 1700}, to = {1540, 1700};

@@ -45,7 +45,7 @@ TEST(Arc, IsAFullCircleIfItEndsWhereItBegins) {
   }
 }
 
-TEST(Arc, ShortOnesAreAsLongAsTheirChordInFloat) {
+TEST(Arc, ShortArcsAreAsLongAsTheirChordInFloat) {
   Paths paths(12);
   for (int i = 0; i < 2000; ++i) {
     const double angle = paths.between(0, 6.2831853), turned = angle + 0.00002;
@@ -77,7 +77,7 @@ TEST(Path, EndsAreExactToTheLastBit) {
   }
 }
 
-TEST(Path, WalksItsLengthAtOneSpeed) {
+TEST(Path, HasTheSameSpeedAllAlong) {
   Paths paths(2);
   for (int i = 0; i < 200; ++i) {
     const Path<double> path = i % 2 ? paths.line() : paths.arc();
@@ -89,7 +89,7 @@ TEST(Path, WalksItsLengthAtOneSpeed) {
   }
 }
 
-TEST(Path, InFloatIsWhereItIsInDouble) {
+TEST(Path, AgreesInFloatAndDouble) {
   Paths paths(3);
   double worst = 0;
   for (int i = 0; i < 4000; ++i) {
@@ -136,7 +136,7 @@ TEST(Arc, ClearanceAllowsForAGrowingRadius) {
   EXPECT_NEAR(29.96, clearance(path, Spot{0, 50}), 1e-9);
 }
 
-TEST(Arc, EndsOfRoundedTextAreJoinedEvenly) {
+TEST(Arc, JoinsEndsOfRoundedTextEvenly) {
   const Path<double> path = arc(Spot{20, 0}, Spot{0, 20.04}, Spot{0, 0}, Turn::kCounterclockwise);
   ASSERT_EQ(Drawn::kYes, path.drawn);
   for (int k = 0; k <= 100; ++k)
@@ -151,7 +151,7 @@ TEST(Arc, EndsOnAnotherCircleAreRefused) {
   EXPECT_EQ(Drawn::kEndOffArc, drawnArc({3, 4}, {3.1, 4}, {3, 4}));
 }
 
-TEST(Arc, IsAsLongAsItsWayRoundAndOut) {
+TEST(Arc, LengthIncludesAGrowingRadius) {
   const Path<double> path =
       arc(Spot{20, 0}, Spot{20.05, 0.03}, Spot{0, 0}, Turn::kCounterclockwise);
   EXPECT_NEAR(hypot(0.05, 0.03), path.length, 1e-4);
@@ -184,7 +184,7 @@ TEST(Arc, WithoutADefiniteCentreIsALine) {
   EXPECT_NE(0, arc(Spot{0, 0}, Spot{0.05, 0}, Spot{0.025, 0.01}, Turn::kClockwise).sweep);
 }
 
-TEST(Arc, WhoseEndsWereRoundedPastEachOtherIsNoFullTurn) {
+TEST(Arc, WithEndsRoundedPastEachOtherIsNotAFullTurn) {
   const auto past = [](double gap, float digit) {
     return arc(Spot{0, 0}, Spot{-gap, 0}, Spot{0, 50}, Turn::kCounterclockwise, digit);
   };
@@ -196,7 +196,7 @@ TEST(Arc, WhoseEndsWereRoundedPastEachOtherIsNoFullTurn) {
   EXPECT_NE(0, past(-0.013, kMillimetreDigit).sweep);
 }
 
-TEST(Arc, AFullCircleBelowTheRoundingOfItsTextIsAPoint) {
+TEST(Arc, IsAPointIfTheCircleIsSmallerThanTheRoundingOfItsText) {
   const auto circle = [](double radius, float digit) {
     return arc(Spot{1, 1}, Spot{1, 1}, Spot{1 + radius, 1}, Turn::kClockwise, digit).drawn;
   };
@@ -207,7 +207,7 @@ TEST(Arc, AFullCircleBelowTheRoundingOfItsTextIsAPoint) {
   EXPECT_EQ(Drawn::kYes, circle(0.0719, kInchDigit));
 }
 
-TEST(Path, WithoutLengthIsRefused) {
+TEST(Path, OfZeroLengthIsRefused) {
   EXPECT_EQ(Drawn::kNoLength, line(Spot{3, 4}, Spot{3, 4}).drawn);
 }
 

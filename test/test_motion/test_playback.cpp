@@ -29,7 +29,7 @@ double stepAhead(const Plain& plain) {
 
 }  // namespace
 
-TEST(Yielding, TakesItsShareOfTheAskedSpeed) {
+TEST(Yielding, MultipliesWithTheCommandedShare) {
   Plain plain = cruising();
   plain.playback.yieldTo(128);
   EXPECT_NEAR(7.5, speedAfter(plain, 60), 0.03);
@@ -41,7 +41,7 @@ TEST(Yielding, TakesItsShareOfTheAskedSpeed) {
   EXPECT_NEAR(15, speedAfter(plain, 60), 0.03);
 }
 
-TEST(StepAhead, IsNoneForASetOutThatIsHeld) {
+TEST(StepAhead, IsZeroWhenHeldBeforeTheStart) {
   Plain plain;
   plain.playback.hold();
   plain.lineTo(10, 0);
@@ -51,7 +51,7 @@ TEST(StepAhead, IsNoneForASetOutThatIsHeld) {
   EXPECT_TRUE(plain.playback.isDone()) << "nothing is taken";
 }
 
-TEST(Share, OfNothingIsRest) {
+TEST(Share, StaysAtRestWithoutSetPoints) {
   Plain plain;
   plain.playback.goAt(128);
   EXPECT_FALSE(plain.tickAlone());
@@ -62,7 +62,7 @@ TEST(Share, OfNothingIsRest) {
   EXPECT_TRUE(plain.playback.isDone());
 }
 
-TEST(Share, BringsEachPathToItsEndAtAnyShare) {
+TEST(Share, BringsEveryPathToItsEnd) {
   for (uint16_t share = 1; share <= Playback::kAllOfIt; ++share)
     for (int length = 1; length <= 21; ++length) {
       Plain plain;

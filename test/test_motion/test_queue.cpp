@@ -1,5 +1,5 @@
-// What the queue makes of a move: its length, acceleration and speed over three axes, and the speed
-// at which each corner is passed.
+// A move in the queue: its length, acceleration and speed over three axes, and the speed at which
+// each corner is passed.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -127,7 +127,7 @@ TEST(Queue, CornerAtAnArcIsThatOfItsEnd) {
   }
 }
 
-TEST(Queue, HelixPassesItsCornersAsSteeplyAsItRises) {
+TEST(Queue, HelixPassesIntoLinesOfTheSameSlope) {
   const Path<float> quarter = arc(Point<float>{0, 0}, {10, 10}, {0, 10}, Turn::kCounterclockwise);
   const float rise = 5;
   const float per = rise / quarter.length;
@@ -174,7 +174,7 @@ TEST(Queue, LooksBackAgainWhenTheFeedIsBoosted) {
   EXPECT_NEAR(double(queued.queue.exitSquared()), 4, 1e-3);
 }
 
-TEST(Queue, SlowsRapidsAlone) {
+TEST(Queue, SlowsRapidsWithoutSlowingFeeds) {
   Queued queued;
   queued.lineBy(10, 0, 0, 8);
   queued.add(line(queued.at, {queued.at.x + 10, queued.at.y}), 0, 8, true);

@@ -70,7 +70,7 @@ const double kMostDigits = 1.35, kFloat = 2e-4;
 
 }  // namespace
 
-TEST_P(RoundedArcs, AllAreDrawnWithinTheRoundingOfTheirText) {
+TEST_P(RoundedArcs, AreDrawnWithinTheRoundingOfTheirText) {
   for (unsigned seed = 1; seed <= 20; ++seed) {
     Curve curve(seed, M_PI);
     for (int i = 0; i < 100; ++i) {

@@ -100,7 +100,7 @@ TEST(Counts, RoundToTheNearest) {
   EXPECT_DOUBLE_EQ(6000.5, toMm<double>(toCounts(6000.5)));
 }
 
-TEST(Counts, RefuseWhatIsTooLongOrNaN) {
+TEST(Counts, RefuseLengthsThatAreTooLongOrNaN) {
   const Point<double> anywhere = {0, 0};
   for (double bad : {8191.5, -9000.0, 1e300, double(INFINITY), nan("")}) {
     const auto left = [bad](Point<double>) { return Lengths<double>{bad, 1, true}; };

@@ -36,7 +36,7 @@ void standStill(Plain& plain) {
   for (int i = 0; i < 6000 && (i == 0 || !plain.playback.isAtRest()); ++i) plain.tick();
 }
 
-TEST(Hold, StandsWithinTheBrakingDistanceAndATick) {
+TEST(Hold, StopsWithinTheBrakingDistanceAndATick) {
   for (const double seconds : {0.01, 0.005})
     for (const double feed : {1.0, 4.0, 15.0, 19.0}) {
       Plain plain(kGentle, seconds);
@@ -90,7 +90,7 @@ TEST(Hold, ResumedWhileBrakingGoesOnAtThatSpeed) {
   EXPECT_LE(hardestAlongX(plain), 105);
 }
 
-TEST(Boost, InARowOfShortMovesKeepsAccelerationAndEnd) {
+TEST(Boost, OfShortMovesKeepsAccelerationAndEnd) {
   for (const float times : {1.3f, 2.0f}) {
     Plain plain;
     for (int i = 1; i <= 400; ++i) {
@@ -105,7 +105,7 @@ TEST(Boost, InARowOfShortMovesKeepsAccelerationAndEnd) {
   }
 }
 
-TEST(LateMainProgram, SetPointsWaitAndStartFromRest) {
+TEST(LateMainProgram, StartsAgainFromRest) {
   Plain plain = cruisingToCorner();
   int taken = 0;
   for (int i = 0; i < 30; ++i) taken += plain.tickAlone();
@@ -135,7 +135,7 @@ TEST(OutOfReach, SetPointsEndBeforeTheRefusedPlace) {
   EXPECT_EQ(0, plain.now.left);
 }
 
-TEST(Refused, IsNamedAndChangesNothing) {
+TEST(Refused, GivesItsReasonAndChangesNothing) {
   Plain plain;
   plain.add(arc(Point<float>{0, 0}, Point<float>{1, 0}, Point<float>{9, 9}, Turn::kClockwise), 0,
             15);

@@ -1,4 +1,4 @@
-// Stretches of many ticks: they do what single ticks would do, and they are few.
+// Stretches of many ticks: they agree with single ticks, and they are few.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -55,7 +55,7 @@ std::vector<Case> cases() {
 
 }  // namespace
 
-TEST(Stretch, IsWhatSingleTicksWouldDo) {
+TEST(Stretch, AgreesWithSingleTicks) {
   for (const Case& each : cases()) {
     const Profile fine = walked(each.length, each.begin, each.top, each.exit, each.a, 1);
     const Profile coarse = walked(each.length, each.begin, each.top, each.exit, each.a, 181);
@@ -98,7 +98,7 @@ TEST(Stretch, TakesTheTimeOfATrapezoid) {
   }
 }
 
-TEST(Stretch, AreFew) {
+TEST(Stretch, UsesFewStretchesForAMove) {
   // 60 mm at 0.15 a tick: 385 ticks, of which 150 gain speed and 150 lose it.
   EXPECT_LE(walked(60, 0, 0.15f, 0, 0.001f, 181).stretches, 9);
   EXPECT_LE(walked(60, 0, 0.15f, 0, 0.01f, 181).stretches, 9);
@@ -107,7 +107,7 @@ TEST(Stretch, AreFew) {
   EXPECT_LE(walked(4, 0.05f, 1, 0, 0.001f, 181).stretches, 9);
 }
 
-TEST(Stretch, KeepsItsLimitOfTicks) {
+TEST(Stretch, IsNoLongerThanItsLimitOfTicks) {
   for (const uint8_t most : {1, 2, 40}) {
     const Stretch gains = nextStretch(0, {1000, 100, 0.01f, 0, 99, most});
     EXPECT_EQ(most, gains.ticks);

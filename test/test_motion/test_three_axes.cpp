@@ -65,7 +65,7 @@ TEST(ThreeAxes, EverySetPointLiesOnTheMoves) {
   }
 }
 
-TEST(ThreeAxes, LegsSayHowFarTheyLeadAndHowFastThatMayChange) {
+TEST(ThreeAxes, LegsCarryTheirLengthAndAcceleration) {
   for (const Asked& to : {Asked{30, 0, 0}, {0, 0, 9}, {20, 15, 6}, {0, 0, -9}}) {
     Plain plain(kQuick);
     plain.lineTo(float(to.x), float(to.y), float(to.z), 12);
@@ -119,7 +119,7 @@ TEST(ThreeAxes, AMoveAfterAForgottenOneKeepsTheAccelerationOfZ) {
   EXPECT_NEAR(leg.gain, 200 * 1e-4 * kCountsPerMm, 2) << "that of z alone";
 }
 
-TEST(ThreeAxes, LegsKeepWithinWhatTheTickCounts) {
+TEST(ThreeAxes, LegsStayWithinTheRangeOfTheirFields) {
   // A millimetre is 65536 counts; a way has 17 bits, a gain 16, and neither is zero.
   struct {
     float acceleration, feed;
@@ -141,7 +141,7 @@ TEST(ThreeAxes, LegsKeepWithinWhatTheTickCounts) {
   }
 }
 
-TEST(ThreeAxes, RunningDryCountsOnce) {
+TEST(ThreeAxes, EachRunningDryIsCountedOnce) {
   Plain plain;
   plain.lineTo(500, 0);
   for (int i = 0; i < 100; ++i) plain.tick();

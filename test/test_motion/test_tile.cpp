@@ -104,7 +104,7 @@ TEST_P(TileOf, LengthsAreWithinTwoMicrometresOfTheExactChains) {
   EXPECT_LT(worst, 0.002);
 }
 
-TEST(Tile, MissesACubicByWhatItsSizeAllows) {
+TEST(Tile, MissesACubicByNoMoreThanAllowed) {
   for (const double third : {1e-6, 1e-4, 4e-4}) {
     const auto cubic = [&](Point<float> place) -> Lengths<float> {
       const double x = place.x, y = place.y;

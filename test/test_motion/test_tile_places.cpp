@@ -80,7 +80,7 @@ TEST(TilePlaces, LieOnTheArea) {
   }
 }
 
-TEST(TilePlaces, AreNoneBeyondTheAreaOrWhereItIsTooSmall) {
+TEST(TilePlaces, AreNotUsedBeyondTheAreaOrInATinyOne) {
   EXPECT_EQ(1u, askedAt({281, 0}, {1, 0}).size());
   EXPECT_EQ(1u, askedAt({0, -271}, {1, 0}).size());
   EXPECT_EQ(1u, askedAt({0, 0}, {1, 0}, {15, 270}).size());

@@ -68,7 +68,7 @@ double leftAt(const std::vector<Leg>& legs, double time) {
 
 }  // namespace
 
-TEST(Walk, TakesEachSetPointAsItIsAtFullSpeed) {
+TEST(Walk, TakesEachSetPointExactlyAtFullSpeed) {
   Walker walker(evenLegs(20, 30));
   for (int i = 1; i <= 20; ++i) {
     EXPECT_TRUE(walker.tick()) << i;
@@ -215,7 +215,7 @@ TEST(WalkAhead, IsTheStepOfAllAxes) {
   EXPECT_NEAR(step.z, 0.09 * (500 - 30 - 90), 1);
 }
 
-TEST(WalkAhead, IsNoneBeforeItSetsOut) {
+TEST(WalkAhead, IsZeroBeforeTheStart) {
   Walker walker(evenLegs(30, 30));
   const SetPoint step = walker.playback.stepAhead(walker.ring, 3);
   EXPECT_EQ(0, step.left);

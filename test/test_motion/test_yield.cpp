@@ -4,7 +4,7 @@
 
 using namespace motion;
 
-TEST(Yield, IsFullUpToHalfTheLimitAndFallsEvenly) {
+TEST(Yield, IsFullSpeedUpToHalfTheLimitThenFallsEvenly) {
   Yield yield;
   yield.tune(2);
   EXPECT_EQ(256, yield.shareAt(0));

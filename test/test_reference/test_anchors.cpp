@@ -1,4 +1,4 @@
-// The judge against figures that others published for the default machine.
+// The judge against published figures for the default machine.
 #include <gtest/gtest.h>
 
 #include <algorithm>

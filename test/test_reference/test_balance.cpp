@@ -1,4 +1,4 @@
-// A sled at rest: forces add up to nothing, and no pull turns the arm it acts on.
+// A sled at rest: forces add up to zero, and no pull turns the arm it acts on.
 #include <gtest/gtest.h>
 
 #include "machines.h"

@@ -42,7 +42,7 @@ double missOfLeft(const Machine& machine, const reference::Hang& hang) {
   return (reached - Vector3d(hang.bit.x() + arm.x(), hang.bit.y() + arm.y(), 0)).norm();
 }
 
-TEST(Catenary, FollowedFromTheSprocketEndsOnTheRing) {
+TEST(Catenary, FromTheSprocketEndsOnTheRing) {
   Lottery lottery;
   for (int i = 0; i < 200; ++i) {
     const Machine machine = lottery.drawFullMachine();

@@ -12,7 +12,7 @@ namespace {
 
 const double kQuarterTurn = 63.5 / 4;  // [mm]
 
-TEST(Mounts, OneThatGivesEqualsOneThatStandsElsewhere) {
+TEST(Mounts, GivingWayEqualsStandingElsewhere) {
   Machine giving = defaultMachine();
   giving.left.inward = giving.right.inward = 0.01;
   giving.left.downward = giving.right.downward = 0.03;
@@ -28,7 +28,7 @@ TEST(Mounts, OneThatGivesEqualsOneThatStandsElsewhere) {
   EXPECT_GT((reference::hangAt(defaultMachine(), bit).paid_out - hang.paid_out).norm(), 0.5);
 }
 
-TEST(Mounts, SprocketTurnsTheWayItsChainRuns) {
+TEST(Mounts, SprocketTurnsWithItsChain) {
   Machine machine;
   machine.left.eccentricity = machine.right.eccentricity = {0.1, 0};
   const auto after = [&](Hand hand) -> Vector3d {
@@ -72,7 +72,7 @@ TEST(Mounts, StraightChainOffTheSheetIsAHypotenuse) {
   }
 }
 
-TEST(Mounts, RaisedMotorIsARaisedMotor) {
+TEST(Mounts, HeightDifferenceRaisesOneMotorAndLowersTheOther) {
   Machine machine;
   machine.height_difference = 8;
   machine.motor_center_x = 3;

@@ -7,7 +7,7 @@ namespace {
 
 using Vector = Eigen::Vector2d;
 
-TEST(Newton, HalvesStepsThatOvershoot) {
+TEST(Newton, HalvesAStepThatOvershoots) {
   // From 3, whole steps on an arc tangent grow without end.
   const auto defect = [](const Vector& at) -> Vector { return {std::atan(at[0]), at[1] - at[0]}; };
   const reference::Root<2> root = reference::findRoot<2>(defect, Vector(3, 1));
@@ -16,7 +16,7 @@ TEST(Newton, HalvesStepsThatOvershoot) {
   EXPECT_NEAR(0, root.at[1], 1e-12);
 }
 
-TEST(Newton, ReportsThatThereIsNoRoot) {
+TEST(Newton, ReportsAMissingRoot) {
   const auto defect = [](const Vector& at) -> Vector { return {at[0] * at[0] + 1, at[1]}; };
   EXPECT_FALSE(reference::findRoot<2>(defect, Vector(3, 1)).found);
 }

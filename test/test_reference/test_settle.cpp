@@ -10,7 +10,7 @@ using reference::Machine;
 
 namespace {
 
-TEST(Settle, FindsItOnAnyMachineFromAnywhere) {
+TEST(Settle, FindsTheBitOnAnyMachineFromAnyStart) {
   Lottery lottery;
   for (int i = 0; i < 1000; ++i) {
     const bool plane = i % 2 == 0;

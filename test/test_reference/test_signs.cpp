@@ -19,7 +19,7 @@ TEST(Signs, LongLinksReduceOnlyTheFreeChain) {
   }
 }
 
-TEST(Signs, ChainThatWasOutAlreadyIsNotCounted) {
+TEST(Signs, ChainThatIsOutAtZeroIsNotCounted) {
   Machine machine = defaultMachine();
   machine.right.zero = 6.35;
   const Vector2d bit(300, -100);

@@ -85,7 +85,7 @@ TEST(TwoBrackets, ForcesAndMomentsVanishOnAnyMachine) {
   }
 }
 
-TEST(TwoBrackets, ChainsAreTheTangentsOfRulerAndCompass) {
+TEST(TwoBrackets, ChainsAreTangentsAsDrawnWithRulerAndCompass) {
   Lottery lottery;
   for (int i = 0; i < 100; ++i) {
     const Machine machine = drawStraight(lottery);
@@ -119,7 +119,7 @@ TEST(TwoBrackets, NoOtherTiltOnTheSameChainsIsLower) {
   }
 }
 
-TEST(TwoBrackets, WithBothBracketsInOnePlaceItHangsLikeAPendulum) {
+TEST(TwoBrackets, HangLikeAPendulumWhenBothAreInOnePlace) {
   // There is no tilt then, and the chains are those of a sled without a ring at the bracket's
   // height.
   Machine machine = defaultMachine();

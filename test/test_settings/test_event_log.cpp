@@ -1,4 +1,4 @@
-// The log of what went wrong with the board: counts that survive a power cut in any byte.
+// The log of the board's faults: counts that survive a power cut in any byte.
 #include <algorithm>
 
 #include "boards.h"
@@ -81,7 +81,7 @@ TEST(EventLog, AcceptsAnEventWhileAnotherIsWritten) {
   }
 }
 
-TEST(EventLog, EndsBeforeItWearsACell) {
+TEST(EventLog, StopsBeforeItWearsOutACell) {
   Eeprom eeprom = usedEeprom();
   Board board(eeprom);
   eeprom.worn = {};
@@ -96,7 +96,7 @@ TEST(EventLog, EndsBeforeItWearsACell) {
   EXPECT_EQ(4 * 9999, Board(eeprom).memory.log().total());
 }
 
-TEST(EventLog, GivesUpAtAWornCellAndKeepsWhatTheOtherRecordSays) {
+TEST(EventLog, GivesUpAtAWornCellAndKeepsTheOtherRecord) {
   for (int cell = 0; cell < EventLog::kBytes; ++cell) {
     Eeprom eeprom = logged();
     for (const uint16_t at : {uint16_t(Memory::kFirstLog), uint16_t(Memory::kFirstLog + 800)}) {

@@ -30,7 +30,7 @@ int significantDigits(const std::string& text) {
 
 }  // namespace
 
-TEST(Format, WritesWhatAPersonWouldWrite) {
+TEST(Format, WritesNumbersAsAPersonWould) {
   EXPECT_EQ("2438.4", textOf(2438.4f));
   EXPECT_EQ("2978.4", textOf(2978.4f));
   EXPECT_EQ("8113.73", textOf(8113.73f));
@@ -68,7 +68,7 @@ TEST(Format, EveryFloatReadsBackAsItself) {
   }
 }
 
-TEST(Format, NoShorterTextWouldDo) {
+TEST(Format, WritesNoMoreDigitsThanNeeded) {
   // Against the printf of the host: never more digits than the shortest of 7 to 9 that reads back.
   std::mt19937 random(12);
   std::uniform_real_distribution<double> exponent(-14, 6);

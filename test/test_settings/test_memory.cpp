@@ -17,7 +17,7 @@ Eeprom used() {
 
 }  // namespace
 
-TEST(Memory, WritesOneByteAStepAndNeverWaits) {
+TEST(Memory, WritesOneByteAStepWithoutWaiting) {
   Eeprom eeprom;
   eeprom.busy_calls = 40;
   Board board(eeprom);
@@ -117,7 +117,7 @@ TEST(Reset, CutAnywhereNeverRevivesAForgottenPosition) {
   EXPECT_GT(cuts, 200);
 }
 
-TEST(Scale, ChangesAreSeen) {
+TEST(Scale, ChangesAreNoticed) {
   for (int number : {12, 13, 19, 20}) {
     Eeprom eeprom = used();
     {

@@ -93,7 +93,7 @@ TEST(Position, ADoubtKeepsItsFirstReason) {
   }
 }
 
-TEST(Position, ADoubtIsKeptInMotionAndInAHalfWrittenRecord) {
+TEST(Position, ADoubtSurvivesMotionAndAHalfWrittenRecord) {
   for (int steps = 0; steps < 40; ++steps) {
     Eeprom eeprom = travelled(3);
     Ring ring(eeprom);

@@ -125,7 +125,7 @@ TEST(PowerCut, DuringQuickChangesKeepsOneState) {
   }
 }
 
-TEST(Copies, EachHoldsEverything) {
+TEST(Copies, EachHoldsAllSettings) {
   Eeprom eeprom = usedEeprom();
   Board board(eeprom);
   board.memory.set(3, 468.4f);
@@ -205,7 +205,7 @@ class ShorterTable : public FlashTable {
 
 }  // namespace
 
-TEST(Copies, ANewSettingMovesNoOther) {
+TEST(Copies, ANewSettingInTheTableMovesNoOther) {
   Eeprom eeprom;
   {
     settings_host::Board<ShorterTable> board(eeprom);
@@ -236,7 +236,7 @@ class TableWithoutPlaces : public FlashTable {
 
 }  // namespace
 
-TEST(Copies, WithoutPlacesAreRead) {
+TEST(Copies, FromBeforePlacesAreRead) {
   Eeprom eeprom;
   {
     settings_host::Board<TableWithoutPlaces> board(eeprom);

@@ -30,7 +30,7 @@ void expectDefaults(const Board& board) {
 
 }  // namespace
 
-TEST(Published, BothLayoutsOfVersionFiveAreTakenOverWithTheirCounts) {
+TEST(Published, BothLayoutsOfVersionFiveAreImportedWithTheirCounts) {
   for (bool z_limits : {false, true}) {
     Eeprom eeprom = publishedImage(z_limits);
     {
@@ -74,7 +74,7 @@ TEST(Published, EveryCutDuringTheImportLeavesOneSideWhole) {
   EXPECT_GT(cuts, 4000);
 }
 
-TEST(Published, ItsCountsAreNeverValidOnceWeHaveMoved) {
+TEST(Published, CountsAreInvalidOnceWeHaveMoved) {
   // A cut at any write of start, motion and rest: its old counts never count as "at rest" there.
   const Position there = positionOf(5);
   const int cuts = cutEverywhere(
@@ -100,7 +100,7 @@ TEST(Published, ItsCountsAreNeverValidOnceWeHaveMoved) {
   EXPECT_EQ(Known::kMoving, Board(eeprom).started.known) << "power lost in the first motion";
 }
 
-TEST(Published, UsedAgainIsTakenOverAgain) {
+TEST(Published, IsImportedAgainAfterItWasUsedAgain) {
   Eeprom eeprom = publishedImage(true);
   {
     Board board(eeprom);
@@ -182,7 +182,7 @@ TEST(Published, OtherVersionsMakeOurPositionDoubtful) {
   EXPECT_EQ(Known::kMoving, board.started.known);
 }
 
-TEST(Published, PositionsFromBeforeOneAreRefused) {
+TEST(Published, PositionsBeforeVersionOneAreRefused) {
   Eeprom eeprom;
   for (uint16_t marker : {5, 105, 205}) eeprom[marker] = 56;
   Board board(eeprom);
@@ -191,7 +191,7 @@ TEST(Published, PositionsFromBeforeOneAreRefused) {
   EXPECT_EQ(Known::kNothing, board.started.known);
 }
 
-TEST(Published, WithAnImpossibleValueIsNotTakenOver) {
+TEST(Published, WithAnImpossibleValueIsNotImported) {
   for (auto [number, value] :
        {std::pair<int, float>{8, NAN}, {2, -5}, {13, 0}, {21, -1}, {12, INFINITY}}) {
     Eeprom eeprom = publishedImage(true);
@@ -205,7 +205,7 @@ TEST(Published, WithAnImpossibleValueIsNotTakenOver) {
   }
 }
 
-TEST(Published, NumbersItDidNotCheckAreReadAsItUsedThem) {
+TEST(Published, UncheckedValuesAreReadAsItUsedThem) {
   Eeprom eeprom = publishedImage(true);
   for (const InBlock& each : kBlock) {
     if (each.number == 7 || each.number == 38) storeSetting(eeprom, each, 0);

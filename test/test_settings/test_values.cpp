@@ -38,7 +38,7 @@ float valueOf(const Held& held, uint8_t number) {
 
 }  // namespace
 
-TEST(Table, NumbersRiseAndAvoidThoseOfOthers) {
+TEST(Table, NumbersRiseAndAvoidReservedOnes) {
   FlashTable table;
   int before = -1;
   for (uint8_t i = 0; i < table.count(); ++i) {
@@ -75,7 +75,7 @@ TEST(Table, EveryDefaultMayBeSet) {
   }
 }
 
-TEST(Table, HoldsEveryEffectParameterAndAllOfThemAreAbsent) {
+TEST(Table, HoldsEveryEffectParameterWithDefaultAbsent) {
   FlashTable table;
   int found = 0;
   for (int number = 100; number < kFirstPlaceNumber; ++number) {
@@ -105,7 +105,7 @@ TEST(Table, EffectLimitsAreTheirPlausibleRangeWidened) {
   }
 }
 
-TEST(Values, AreRefusedWithAClearSentenceAndStayTheSame) {
+TEST(Values, RefusedGiveAReasonAndStayTheSame) {
   Held held;
   EXPECT_EQ("$38 must be from 1 to 2, a whole number", refusalOf(held, 38, 1.5f));
   EXPECT_EQ("$38 must be from 1 to 2, a whole number", refusalOf(held, 38, 3));
@@ -127,7 +127,7 @@ TEST(Values, NegativeZeroIsZero) {
   EXPECT_FALSE(std::signbit(valueOf(held, 37)));
 }
 
-TEST(Values, ElasticityAndSledWeightOfWebControlMeanOurs) {
+TEST(Values, WebControlsElasticityAndSledWeightMapToOurs) {
   EXPECT_EQ(170, meantBy(45));
   EXPECT_EQ(62, meantBy(46));
   for (int number = 0; number < 256; ++number) {

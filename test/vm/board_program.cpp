@@ -1,5 +1,5 @@
-// A program that checks whether the Mega is simulated rightly: each line that it sends counts
-// interrupts. Not part of the firmware.
+// A program that checks the simulation of the Mega: each line that it sends counts interrupts. Not
+// part of the firmware.
 #include <avr/interrupt.h>
 #include <avr/io.h>
 #include <util/delay.h>

@@ -1,4 +1,4 @@
-// What a dialogue may ask of the simulated Mega alone.
+// Questions of a dialogue that only the simulated Mega answers.
 #include "mega_player.h"
 
 #include <cmath>
@@ -23,7 +23,7 @@ struct StatusQuestion {
   long longest_ms = 0;  ///< from the question to the end of its answer
 };
 
-/// Moves around a circle, in the words of a program for smooth curves, as fast as they are
+/// Moves around a circle, as a program for smooth curves writes them, as fast as they are
 /// acknowledged.
 class Stream {
  public:

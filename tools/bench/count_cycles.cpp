@@ -15,7 +15,7 @@ namespace {
 
 const avr_io_addr_t kMarkRegister = 0x3E;  // GPIOR0 in the data space
 
-// Only marks are noted, at their instruction.
+// Only marks are recorded, at their instruction.
 const avr_cycle_count_t kMostAtOnce = 1000000;
 
 struct Clock {

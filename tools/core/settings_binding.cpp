@@ -26,7 +26,7 @@ using Room = std::array<float, kSettingCount>;
 const char* const kKinds[] = {"bool", "u8", "u16", "float"};
 const char* const kAccesses[] = {"listed", "hidden", "kept"};
 
-/// Texts about a row for people.
+/// Texts about a row.
 struct RowText {
   const char* label;  ///< "name, unit"
   const char* key;    ///< section and key of the published programs, or ""
@@ -80,7 +80,7 @@ nb::dict placeTexts(uint8_t index) {
   return textsOf("g" + code + "_" + axis, "mm", "", sentence, "new");
 }
 
-/// Parts that a new value touches, in words.
+/// Names of the parts that a new value touches.
 nb::list touchesOf(const Entry& entry) {
   const char* const kWords[] = {"scale",  "geometry", "loops",  "limits",
                                 "drives", "cutter",   "restart"};
@@ -113,7 +113,7 @@ nb::list table() {
   return result;
 }
 
-/// Sets values from {number: value}. A refusal throws with the firmware's words.
+/// Sets values from {number: value}. A refusal throws with the firmware's message.
 void setAll(Values& values, const std::map<int, double>& given) {
   for (const auto& [number, value] : given) {
     if (number < 0 || number > 255)

@@ -71,7 +71,7 @@ void Stage::take(const std::string& line) {
   }
   if (line != "ok") said_.push_back({answered_, line});
   if (line == "Maslow Paused") {
-    // The operator is there, and has nothing to do.
+    // The operator has nothing to do here.
     arrived_.push_front('\n');
     arrived_.push_front('~');
     ++spare_;

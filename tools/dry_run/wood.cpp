@@ -1,4 +1,4 @@
-// A cell is cut where the bit covers its middle. So what a later way covers again is cut exactly.
+// A cell is cut if the bit covers its middle, so cutting the same path again changes nothing.
 #include "wood.h"
 
 #include <algorithm>

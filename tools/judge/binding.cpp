@@ -1,5 +1,5 @@
 // The judge for Python: where a sled with hidden faults comes to rest. It knows nothing of lib/, so
-// it makes the data that hide an effect.
+// it generates test data with hidden effects.
 #include <nanobind/nanobind.h>
 #include <nanobind/ndarray.h>
 #include <nanobind/stl/map.h>

@@ -1,4 +1,4 @@
-// Front door: from characters on the wire to pieces of G-code with their numbers. It moves nothing.
+// The library's front door: turns characters on the wire into G-code words. It moves nothing.
 #pragma once
 
 #include "arc_centre.h"

@@ -8,7 +8,7 @@
 
 namespace gcode {
 
-/// Why a line drills no hole.
+/// Why a line is refused.
 enum class DrillFault : uint8_t {
   kNone,
   kNoDepth,    ///< no Z or no R, in this line or before

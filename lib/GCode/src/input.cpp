@@ -14,11 +14,11 @@ const char kUnreadable = '?';
 
 bool isControl(char character) { return uint8_t(character) < ' ' && character != '\t'; }
 
-/// Whether senders of Grbl command with that byte, or with what UTF-8 puts in front of it. No digit
-/// becomes such a byte by a single wrong bit.
+/// Whether Grbl senders use that byte, or its UTF-8 lead byte, as a command. No digit turns into
+/// one of these by a single flipped bit.
 bool isOfGrbl(uint8_t byte) { return (byte >= 0x80 && byte <= 0xa1) || byte == 0xc2; }
 
-/// The character that is stored for a character.
+/// The character to store for an incoming character.
 char kept(char character) {
   if (character == '\t') return ' ';
   return isControl(character) || uint8_t(character) > 126 ? kUnreadable : character;
@@ -89,7 +89,7 @@ Quick Input::take(char character) {
     case Line::kRemark:
       return keep(kept(character));
     case Line::kBegins:
-      // There may be noise, from the moment when the port was opened.
+      // There may be noise from opening the port.
       if (isControl(character) || uint8_t(character) > 126) return Quick::kNone;
       break;
     default:

@@ -31,7 +31,7 @@ enum class Quick : uint8_t {
   kSpindleDownOne,  ///< 0x9D: 1 percent less
 };
 
-/// Room for 129 characters that wait. Maslow clients rely on 126, senders of Grbl on 128.
+/// Room for 129 waiting characters. Maslow clients rely on 126, Grbl senders on 128.
 ///
 /// Only the main program uses it. The line that comes in is in one of the states of Line.
 /// A line of more than 126 characters is dropped to its end; a mark waits in its place, and
@@ -46,7 +46,7 @@ class Input {
   /// Free characters in the report for Maslow clients: at most 127.
   uint8_t room() const { return used_ > kTold ? 0 : uint8_t(kTold - used_); }
 
-  /// Whether something of a line came whose end has not come.
+  /// Whether a line has begun and not yet ended.
   bool isInLine() const { return line_ != Line::kBegins; }
 
   /// How many complete lines wait.
@@ -55,15 +55,15 @@ class Input {
   /// Takes the oldest line, without its end; false if none is complete.
   bool takeLine(char (&line)[kRoom + 1]);
 
-  /// Whether the line taken last had been too long to keep.
+  /// Whether the last line taken was too long to keep.
   bool wasTooLong() const { return was_too_long_; }
 
   /// Whether a `~` came after the line taken last, perhaps long before that line was taken. A `~`
   /// counts once, and never for a line that ended after it.
   bool takeResume();
 
-  /// Forgets all that waits. What is still to come of a line that has begun is dropped to its end:
-  /// the rest of a line may be another line.
+  /// Forgets everything that waits. A line that has begun is dropped up to its end: its rest alone
+  /// could be read as another line.
   void clear();
 
  private:
@@ -75,7 +75,7 @@ class Input {
     kWords,    ///< words are coming
     kComment,  ///< in a comment that `)` ends
     kRemark,   ///< behind a `;`, which ends with the line
-    kTooLong,  ///< it has no room and is skipped to its end
+    kTooLong,  ///< it does not fit and is skipped to its end
     kCut,      ///< clear() came inside it: it is dropped to its end
   };
 
@@ -94,7 +94,7 @@ class Input {
   uint8_t resumable_ = 0;  ///< lines before the last `~`: the line taken last, and waiting lines
   Line line_ = Line::kBegins;
   bool after_quick_ = false, was_too_long_ = false;
-  bool after_return_ = false;  ///< a CR ended a line: a LF behind it is the same end
+  bool after_return_ = false;  ///< a CR ended a line: an LF right after it belongs to it
 };
 
 }  // namespace gcode

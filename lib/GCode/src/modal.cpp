@@ -1,4 +1,4 @@
-// Which codes change a mode, and which only state what always holds.
+// Which codes change a mode, and which only confirm what is always so.
 #include "modal.h"
 
 namespace gcode {
@@ -56,8 +56,8 @@ bool Modal::take(uint16_t tenths) {
     case 990:
       retracts_to_r = tenths == 990;
       return true;
-    // What always holds: cutter compensation, scaling, rotation and polar words are off, spindle
-    // speed is in turns a minute, corners are passed within a fixed distance.
+    // Always so: cutter compensation, scaling, rotation and polar words are off, spindle speed is
+    // in turns a minute, corners are passed within a fixed distance.
     case 150:
     case 400:
     case 500:

@@ -36,13 +36,13 @@ struct Modal {
     return relative ? from + toMm(value) : offset + toMm(value);
   }
 
-  /// Ends what counts for a single line only.
+  /// Ends what applies to a single line only.
   void beginLine();
   /// M2 and M30: coordinates of G54, the plane of G17, feed a minute, and no cycle.
   void endProgram();
 
-  /// Takes a code that changes only how words are read, or that states what always holds; `tenths`
-  /// is ten times the code. False for any other code.
+  /// Takes a code that only changes how words are read, or confirms what is always so; `tenths` is
+  /// ten times the code. False for any other code.
   bool take(uint16_t tenths);
 };
 

@@ -55,7 +55,7 @@ struct Word {
 /// Reads the word at `text` and moves on; false at the end of the line.
 bool readWord(const char*& text, Word& word);
 
-/// The same for whoever looks for mistakes: only a G and an M get their value.
+/// The same when only looking for mistakes: just G and M get their values.
 bool checkWord(const char*& text, Word& word);
 
 /// Whether a letter begins a command of a line.

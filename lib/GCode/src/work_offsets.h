@@ -7,8 +7,8 @@ namespace gcode {
 
 /// Added to a program's coordinate they give the machine's. Axes are 0, 1, 2 for x, y, z.
 ///
-/// The maker of this object stores the six systems of G54 to G59. The shift of G92 and the tool's
-/// length are stored here, and are lost with power.
+/// The caller stores the six systems of G54 to G59. The shift of G92 and the tool's length are
+/// stored here, and are lost with power.
 class WorkOffsets {
  public:
   enum : uint8_t { kAxes = 3, kSystems = 6, kZ = 2 };

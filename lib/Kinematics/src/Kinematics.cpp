@@ -145,7 +145,7 @@ void shareLoad(const Machine<Real>& machine, Push push, Hanging<Real>& hanging) 
   right.bend = right.cosine * right.slack;
   left.deep = right.deep = machine.deep;
   if (!machine.deep) return;
-  // The second order of sag needs these too: see deep.h.
+  // Second-order sag needs these too: see deep.h.
   left.lean = left.sine * left.slack;
   right.lean = right.sine * right.slack;
   left.ease = right.ease =
@@ -159,7 +159,7 @@ Point<Real> insideReach(const Machine<Real>& machine, Point<Real> place) {
           clamp(place.y, machine.lowest, machine.highest)};
 }
 
-/// Adds a step to a place, cut where it leaves the neighbourhood in which slopes mean anything.
+/// Adds a step to a place, cut short where the slopes no longer apply.
 template <class Real>
 Point<Real> stepFrom(const Machine<Real>& machine, Point<Real> place, Point<Real> step) {
   const Real most = Real(kLongestStep);
@@ -354,7 +354,7 @@ template PaidOut<float> inverse(const Machine<float>&, Point<float>);
 template Place<float> forward(const Machine<float>&, Chains<float>);
 template Place<float> forward(const Machine<float>&, Chains<float>, Point<float>);
 
-// The lab's instance; the linker drops it from the board, where nobody calls it.
+// For the lab; the linker drops it from the firmware, which never calls it.
 template Machine<double> prepare(const Frame<double>&, const EffectParams<double>&);
 template Hanging<double> hang(const Machine<double>&, Point<double>, bool);
 template PaidOut<double> inverse(const Machine<double>&, Point<double>);

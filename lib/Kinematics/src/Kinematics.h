@@ -1,4 +1,4 @@
-// Front door of the kinematics: where the sled hangs, and how much chain holds it there.
+// The library's front door: where the sled hangs, and how much chain holds it there.
 #pragma once
 
 #include "machine.h"
@@ -25,7 +25,7 @@ template <class Real>
 struct Place {
   Point<Real> sled;  ///< [mm] where the bit is
   Found found;
-  uint8_t tries;  ///< rounds it took
+  uint8_t tries;  ///< iterations it took
 };
 
 /// Both strands of a hanging sled.

@@ -1,4 +1,4 @@
-// A physical effect: parameters, words for people, and the hooks it may act through.
+// A physical effect: its parameters, its texts, and the hooks through which it acts.
 #pragma once
 
 #include <math.h>
@@ -20,16 +20,16 @@ namespace kinematics {
 inline int16_t nearest(float value) { return int16_t(lround(value)); }
 inline int16_t nearest(double value) { return int16_t(lround(value)); }
 
-/// Words for people about an effect. Only host tools ask; no such text reaches the board.
+/// Texts about an effect, for host tools only; the firmware has none of them.
 struct EffectInfo {
-  const char* name;         ///< snake_case, the word used in files and on screen
+  const char* name;         ///< snake_case, as used in files and on screen
   const char* summary;      ///< the cause, in one sentence
   const char* pattern;      ///< what it does to marks on the sheet
   const char* look_alikes;  ///< effects with a similar pattern, separated by ", "
   const char* remedy;       ///< how to tell it apart or cure it
 };
 
-/// Words for people about a parameter.
+/// Texts about a parameter.
 struct ParamInfo {
   const char* name;
   const char* unit;
@@ -46,10 +46,10 @@ enum Shown {
   kAngle,  ///< the parameter is the square of a tangent; shown in degrees
 };
 
-/// The size of a parameter in a maker's words: # in the words is the size with its unit.
+/// A parameter's size in plain words, where # stands for the size with its unit.
 struct PlainInfo {
-  const char* more;  ///< above zero, like "left chain # too long"; empty: no such words
-  const char* less;  ///< below zero; empty: the words above, and a minus
+  const char* more;  ///< above zero, like "left chain # too long"; may be empty
+  const char* less;  ///< below zero; if empty, `more` with a minus sign
   const char* unit;
   double times;  ///< the size shown is this times the parameter, before its root or angle
   Shown shown;
@@ -77,7 +77,7 @@ enum Curve {
 /// Reading on a rule or a scale for a parameter, which is
 /// factor * curve(read - zero) * (the sled's weight [N] to the power of kWeightPower).
 struct ReadingInfo {
-  const char* title;  ///< what is read; empty: nobody reads it
+  const char* title;  ///< what is read; empty if it cannot be read
   const char* unit;
   double usual;  ///< how far a careful reading may be off
   double factor;
@@ -103,7 +103,7 @@ struct Example {
   double most;  ///< [mm] RMS of marks that the effect causes on the worst of real machines, roughly
 };
 
-/// The setting of the published programs that says the same as a parameter.
+/// The published programs' setting for the same quantity.
 struct PublishedInfo {
   int number;     ///< its $-number; 0: there is none
   double factor;  ///< its value is factor * parameter
@@ -117,11 +117,11 @@ struct PublishedChains {
   Real sheet_width, sheet_height;  ///< [mm]
 };
 
-/// With what a parameter moves when chains change sides.
+/// What a parameter belongs to when the chains change sides.
 enum BelongsTo {
-  kToMachine,  ///< it stays where it is, whichever chains hang there
+  kToMachine,  ///< it stays on its side, whichever chain hangs there
   kToChain,    ///< it goes with its chain to the other sprocket
-  kToZeroing,  ///< it is new each time the chains are set to zero
+  kToZeroing,  ///< it changes each time the chains are set to zero
 };
 
 /// Base of all effects. Its hooks do nothing; an effect hides those that it needs.
@@ -137,7 +137,7 @@ enum BelongsTo {
 /// length changes, and every parameter has a slope at zero.
 template <class Real>
 struct Effect {
-  // What the firmware asks, answered at compile time.
+  // For the firmware, at compile time.
   enum { kNeedsForces = 0 };   ///< 1 where a hook reads pull or bend
   enum { kMovesEnds = 0 };     ///< 1 where moveEnds does anything
   enum { kPushesSled = 0 };    ///< 1 where pushSled does anything
@@ -145,7 +145,7 @@ struct Effect {
   enum { kWaves = 0 };         ///< 1 where parameters are amplitudes of a wave per sprocket turn
   enum { kClientNumber = 0 };  ///< number by which a published client means the first parameter
 
-  // What only the lab asks.
+  // For the lab only.
   enum { kEmpirical = 0 };           ///< 1 where it is a fit without a cause: never a suspect
   enum { kBelongsTo = kToMachine };  ///< of BelongsTo
   enum { kInFrame = 0 };      ///< 1 where a refitted frame or a turned sheet draws nearly the same
@@ -175,13 +175,13 @@ struct Effect {
   /// The size to expect on a machine with this frame; 0: many machines are without the effect.
   static double usual(const Frame<Real>&, uint8_t) { return 0; }
 
-  /// The setting of the published programs that says the same as parameter i.
+  /// The published programs' setting for parameter i.
   static PublishedInfo published(uint8_t) { return {0, 0}; }
 
-  /// The effect in a maker's words, as a noun; empty: screens show its name.
+  /// The effect's name in plain words, a noun; if empty, screens show `name`.
   static const char* noun() { return ""; }
 
-  /// Parameter i in a maker's words.
+  /// Parameter i in plain words.
   static PlainInfo plain(uint8_t) { return {"", "", ""}; }
 
   // Every effect must hide these two and setJudge (see judged.h); a test checks that.

@@ -1,11 +1,11 @@
-// The frame's numbers by name, for people and host tools; the board never asks.
+// The frame's numbers by name, for host tools only.
 #pragma once
 
 #include "strand.h"
 
 namespace kinematics {
 
-/// A number of the frame: its field, and what people read about it.
+/// A number of the frame: its field and its texts.
 template <class Real>
 struct FrameField {
   const char* name;
@@ -14,7 +14,7 @@ struct FrameField {
   double usual;      ///< the published default
   double low, high;  ///< a value outside these is refused as a mistake
   const char* summary;
-  const char* noun;  ///< in a maker's words
+  const char* noun;  ///< in plain words
 };
 
 enum { kFrameFieldCount = 7 };

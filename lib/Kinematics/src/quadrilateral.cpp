@@ -356,7 +356,7 @@ template TiltedPlace<float> forward(const Quadrilateral<float>&, Chains<float>);
 template TiltedPlace<float> forward(const Quadrilateral<float>&, Chains<float>, Point<float>,
                                     float);
 
-// The lab's instance; the linker drops it from the board, where nobody calls it.
+// For the lab; the linker drops it from the firmware, which never calls it.
 template Quadrilateral<double> prepare(const Frame<double>&, const BracketSled<double>&,
                                        const PitchStrain<double>&);
 template TiltedPaidOut<double> inverse(const Quadrilateral<double>&, Point<double>);

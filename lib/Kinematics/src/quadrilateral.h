@@ -52,13 +52,13 @@ struct Quadrilateral {
 /// Chain lengths for a place of the bit; lengths are zero unless `found` is kYes.
 ///
 /// A tilt is given by its sine, counterclockwise. The tilt of a place is a good guess for the next
-/// place. It means nothing unless `found` is kYes.
+/// place. Use it only if `found` is kYes.
 template <class Real>
 struct TiltedPaidOut {
   Chains<Real> chains;  ///< [mm] from 12 o'clock
   Real tilt_sine;       ///< [1]
   Found found;
-  uint8_t tries;  ///< rounds it took
+  uint8_t tries;  ///< iterations it took
 };
 
 /// The sled's place and tilt. Use them only if `found` is kYes.
@@ -67,7 +67,7 @@ struct TiltedPlace {
   Point<Real> sled;  ///< [mm] where the bit is
   Real tilt_sine;    ///< [1]
   Found found;
-  uint8_t tries;  ///< rounds it took
+  uint8_t tries;  ///< iterations it took
 };
 
 /// Works out the constants of a machine. The frame's ring and weights play no part: on chains
@@ -81,7 +81,7 @@ template <class Real>
 TiltedPaidOut<Real> inverse(const Quadrilateral<Real>& machine, Point<Real> bit);
 
 /// Chain to pay out, with the tilt of a place nearby as guess: half the work. A bad guess costs
-/// only rounds.
+/// only iterations.
 template <class Real>
 TiltedPaidOut<Real> inverse(const Quadrilateral<Real>& machine, Point<Real> bit, Real tilt_sine);
 

@@ -8,8 +8,8 @@
 
 namespace kinematics {
 
-/// A line of the registry: an effect and the number of its first $-setting.
-/// A number keeps its meaning for ever once it was released.
+/// A line of the registry: an effect and the number of its first $-setting. Once released, a number
+/// never changes its meaning.
 template <int FirstSetting, template <class> class EffectTemplate>
 struct At {
   enum { kFirstSetting = FirstSetting };

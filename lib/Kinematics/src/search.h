@@ -9,7 +9,7 @@ namespace kinematics {
 
 const uint8_t kMostTries = 20;
 // A step as short as kLastStep ends the search: as slopes change along it, it misses an encoder
-// count at most. Slopes say nothing farther away than kLongestStep.
+// count at most. Beyond kLongestStep the slopes are no guide.
 const float kLastStep = 0.15f;      // [mm]
 const float kLongestStep = 400.0f;  // [mm]
 

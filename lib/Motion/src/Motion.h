@@ -1,5 +1,5 @@
-// Front door of motion: from moves and feeds to set-points of all axes, and from a set-point to the
-// duty of its motor.
+// The library's front door: from moves and feeds to set-points, and from a set-point to the duty of
+// its motor.
 #pragma once
 
 #include "axis_loop.h"

@@ -114,7 +114,7 @@ class Mover {
   Segment segment_;      ///< both chains
   Steps z_steps_;
   bool has_z_ = false;                 ///< the first move also moves z
-  bool awaits_z_ = false;              ///< z alone has moved, and whatever comes waits for it
+  bool awaits_z_ = false;              ///< z alone has moved, and the next move waits for it
   bool is_taken_up_ = false;           ///< the two numbers below belong to the first move
   uint8_t even_ticks_, uneven_ticks_;  ///< most ticks of a segment
   float z_from_ = 0;                   ///< [mm] where the first move begins

@@ -67,11 +67,11 @@ Real sweepOf(Point<Real> from, Point<Real> to, Point<Real> centre, Turn turn) {
   return angle < Real(0) ? angle : angle - kFullTurn;
 }
 
-/// Whether an arc is so short that text with this last digit [mm] hides all but its ends.
+/// Whether an arc is too short to be told from its chord in text with this last digit [mm].
 ///
 /// A full circle may be a short arc whose ends were rounded to the same place. An arc of nearly a
 /// full turn may be a short arc whose ends were rounded past each other. If the radii differ by
-/// that much, nobody can say where the centre was.
+/// that much, the centre is unknown.
 template <class Real>
 bool isHidden(Real chord, Real radius, Real off, Real sweep, Real digit) {
   const Real kHalfTurn = Real(3.141592653589793), kDiagonal = Real(1.41421356);

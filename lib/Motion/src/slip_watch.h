@@ -1,5 +1,5 @@
-// Watches the duty of a chain's motor: did the chain let go for a moment, as over a sprocket's
-// tooth?
+// Watches the duty of a chain's motor for a chain that lets go for a moment, as over a sprocket's
+// tooth.
 #pragma once
 
 #include <stdint.h>
@@ -76,7 +76,7 @@ class Pace {
     return change <= kMostChange && change >= -kMostChange;
   }
 
-  /// Whether an axis that goes such a way in a tick is well away from rest, where friction turns
+  /// Whether an axis that goes this far in a tick is well away from rest, where friction turns
   /// round.
   static bool moves(int32_t asked) { return asked >= kLeast || asked <= -kLeast; }
 

@@ -1,4 +1,4 @@
-// Front door of the settings: values in RAM, their table, and everything that survives a power cut.
+// The library's front door: setting values, their table, and all that survives a power cut.
 #pragma once
 
 #include "format.h"

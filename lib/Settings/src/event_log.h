@@ -1,4 +1,4 @@
-// Faults of the board in all its life: how often each event came, and which came last.
+// The board's faults over its whole life: how often each happened, and which was last.
 #pragma once
 
 #include "bytes.h"
@@ -33,9 +33,9 @@ class EventLog {
   void note(Event event);
 
   uint16_t count(Event event) const { return record_.count[uint8_t(event)]; }
-  /// How many events came in all; 0: none. It numbers the last event.
+  /// How many events there were in all, which is also the number of the last one.
   uint16_t total() const { return record_.total; }
-  /// The event that came last; meaningful if total() is not 0.
+  /// The last event; meaningful if total() is not 0.
   Event last() const { return Event(record_.last); }
 
   bool isBusy() const { return is_writing_; }

@@ -12,7 +12,7 @@ struct ValueText {
 
 /// `value` with 7 to 9 significant digits: the fewest that give the same float back (always within
 /// 1e-7 of it), without trailing zeros; "0" for zero. Plain decimals from 0.0001 to 999,999,999,
-/// otherwise an exponent, as 5.2e-6. `value` is finite, as every setting is.
+/// otherwise with an exponent, like 5.2e-6. `value` is finite, as every setting is.
 ValueText formatValue(float value);
 
 }  // namespace settings

@@ -1,4 +1,4 @@
-// Everything that survives a power cut: what the start reads, and who writes next.
+// Everything that survives a power cut: reading it at the start, and writing it in turns.
 #pragma once
 
 #include "copies.h"
@@ -12,7 +12,7 @@ namespace settings {
 enum class Source : uint8_t {
   kStored,        ///< a copy of ours
   kStoredInPart,  ///< a copy of ours, but a value beyond today's limits became its default
-  kImported,      ///< the published firmware's, taken over whole
+  kImported,      ///< imported from the published firmware
   kDefaults,      ///< nothing readable is stored
   kOtherVersion,  ///< defaults (or a copy of ours): other firmware left data that is not read
   kBadValue,      ///< defaults (or a copy of ours): a published setting cannot be right

@@ -22,8 +22,8 @@ enum class Known : uint8_t {
   kDoubted,  ///< the place is where the machine believed to be; doubted() says why it is wrong
 };
 
-/// Why a position is not believed: the byte that marks its record. A number keeps its meaning for
-/// ever.
+/// Why a position is doubted: the byte that marks its record. These numbers never change their
+/// meaning.
 enum class Doubt : uint8_t {
   kMoving = 0x81,     ///< power went in motion
   kScale = 0x82,      ///< $12, $13, $19 or $20 had changed
@@ -76,7 +76,7 @@ class PositionSlots {
   /// that mark, endDoubt() and keep() end it.
   void doubt(Doubt why);
 
-  /// The reason holds no longer: what was doubted is declared, and not yet kept.
+  /// The doubt is settled: the lengths have been declared, but are not yet stored.
   void endDoubt() { want(kMoved); }
 
   /// Why the position of a record that says kDoubted is wrong.

@@ -35,7 +35,7 @@ uint8_t sizeOf(uint8_t number) {
   }
 }
 
-/// The value that the published firmware acted by when it did not expect the stored value.
+/// The value that the published firmware used in place of a stored value it did not expect.
 float asItMeant(const Entry& entry, float value) {
   switch (entry.number) {
     case 7:   // triangular, unless the value is 1

@@ -43,7 +43,7 @@ struct Entry {
   float low, high;
 };
 
-/// Texts of a table, by their use.
+/// Texts that belong to a table.
 enum class Word : uint8_t {
   // Follow "$n ": why a value is refused.
   kUnknown,   ///< it is not a setting
@@ -57,15 +57,15 @@ enum class Word : uint8_t {
   kCount
 };
 
-/// The settings, their comments for the dump, and the words of refusals. Numbers rise from row to
-/// row. The board has all of it in flash; this interface hides how flash is read.
+/// The settings, their comments for the dump, and texts for refusals. Numbers rise from row to row.
+/// The board has all of it in flash; this interface hides how flash is read.
 class Table {
  public:
   virtual uint8_t count() const = 0;
   virtual Entry at(uint8_t index) const = 0;
   /// A letter of the row's comment; 0 after the last.
   virtual char comment(uint8_t index, uint8_t letter) const = 0;
-  /// A letter of a word; 0 after the last.
+  /// A letter of a text; 0 after the last.
   virtual char word(Word which, uint8_t letter) const = 0;
 
  protected:

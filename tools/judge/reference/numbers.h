@@ -1,4 +1,4 @@
-// The numbers of a machine by name, so that tests and programs can say what is wrong with it.
+// The numbers of a machine by name, so that tests and programs can give it faults.
 #pragma once
 
 #include <map>

@@ -1,4 +1,4 @@
-// Mounts the lab into the page, or a report that was saved.
+// Mounts the lab, or a saved report.
 import { render } from "preact";
 import "./shell/look.css";
 import { answers } from "./api/answers";

@@ -25,7 +25,7 @@ class Brain {
   virtual void stop() = 0;
   virtual bool isRunning() const = 0;
 
-  /// Has the board on another motor shield from the next start on: 2 for v1.2, 3 for v1.3.
+  /// Puts the board on another motor shield from the next start on: 2 for v1.2, 3 for v1.3.
   virtual void setShield(int version) = 0;
 
   /// Sends characters to the firmware; they arrive at 57,600 baud.
@@ -37,18 +37,19 @@ class Brain {
   /// Only while the firmware does not run.
   virtual void setEeprom(const std::vector<uint8_t>& bytes) = 0;
 
-  // What may go wrong.
+  // Faults.
   /// As stop(), but a byte of the EEPROM that is being written is left half written. `draw` picks
   /// the bits that change.
   virtual void cutPower(unsigned draw) = 0;
-  /// The next edges of an encoder come in pairs, so often, and nobody can tell which way.
+  /// The next edges of an encoder come in pairs, this many times, so that their direction is
+  /// unknown.
   virtual void missEdges(int axis, int pairs) = 0;
-  /// The main program does nothing for so long; interrupts go on.
+  /// The main program hangs for this long; interrupts go on.
   virtual void delayProgram(int milliseconds) = 0;
   /// [V] The processor's supply, 5 if all is well.
   virtual void setSupply(double volts) = 0;
 
-  // What its pins show.
+  // Outputs.
   /// How much of the time, in 255ths, the spindle's pin and the laser's are high.
   virtual int spindle() = 0;
   virtual int laser() = 0;

@@ -120,7 +120,7 @@ void HostBrain::idle() {
 }
 
 void HostBrain::noteAlive() {
-  // Back from a hang the machine looks round once before ticks may drive again.
+  // After a hang the main program runs one round before ticks may drive again.
   has_hung_ = silent_ticks_ * tick_every_ms_ >= kMostSilent && !has_hung_;
   if (!has_hung_) silent_ticks_ = 0;
 }

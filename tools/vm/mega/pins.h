@@ -12,8 +12,8 @@ const int kMotors = 3;  // left, right, z
 /// Bridge inputs in the order for "wind in", and a third pin.
 struct DriverPins {
   int input1, input2;
-  int third;      ///< the PWM, or where the driver complains
-  bool has_flag;  ///< the third pin is the driver's: low where it complains, and the inputs pulse
+  int third;      ///< the PWM, or the driver's error flag
+  bool has_flag;  ///< the third pin is the driver's error flag, low on an error; the inputs pulse
 
   /// The duty that the pins show, -255 to 255; positive winds in.
   int duty(const VirtualBoard& board) const {
@@ -28,7 +28,7 @@ struct DriverPins {
     const int level1 = board.pin(input1), level2 = board.pin(input2);
     return level1 == level2 && (has_flag || board.pin(third) == 255);
   }
-  /// Shows whether the driver complains, where it can.
+  /// Shows whether the driver reports an error, if it can.
   void complain(VirtualBoard& board, bool complains) const {
     if (has_flag) board.setPin(third, !complains);
   }
@@ -44,7 +44,7 @@ struct ShieldPins {
 /// v1.2 with L298 bridges, as most machines have it.
 const ShieldPins kShield2 = {
     63, {{12, 11, 10, false}, {4, 6, 5, false}, {7, 9, 8, false}}, 17, 16, 14};
-/// v1.3 with TLE5206 bridges, which complain of heat and of too much current.
+/// v1.3 with TLE5206 bridges, which report heat and too much current.
 const ShieldPins kShield3 = {
     52, {{11, 10, 12, true}, {6, 4, 5, true}, {7, 9, 8, true}}, 40, 41, 43};
 

@@ -255,7 +255,7 @@ void VirtualBoard::step(avr_cycle_count_t most_cycles) {
   if (is_stack_followed_) noteStack();
   watchWatchdog();
   if (avr_->pc == avr_->reset_pc) restoreOutside();
-  // Who reads the flash back by the bootloader finds no marks in it.
+  // When the bootloader reads the flash back, there are no marks in it.
   if (!are_skips_marked_ && avr_->pc < program_end_) markWideSkips();
   if (state == cpu_Done || state == cpu_Crashed) throw std::runtime_error("the board crashed");
 }

@@ -22,7 +22,7 @@
 namespace vm {
 
 const uint32_t kClock = 16000000;      // [Hz]
-const uint32_t kBootloader = 0x3e000;  // as the fuses of an Arduino say
+const uint32_t kBootloader = 0x3e000;  // by an Arduino's fuses
 const uint16_t kRamBegin = 0x200, kRamEnd = 0x2200;
 
 /// A Mega 2560 with a program in its flash.

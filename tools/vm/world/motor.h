@@ -38,7 +38,7 @@ struct Wires {
   bool motor_unplugged = false, encoder_unplugged = false;
   bool channel_lost = false;  ///< of the encoder: the count goes to and fro by 1
   bool blocked = false;
-  bool driver_complains = false;  ///< and gives no current
+  bool driver_complains = false;  ///< it reports an error and gives no current
 };
 
 /// A motor. A positive duty lengthens the chain.
@@ -47,9 +47,9 @@ class Motor {
   Motor(const MotorConstants& constants, unsigned seed) : c_(constants), source_(seed) {}
 
   Wires wires;
-  double weaker = 0;   ///< [V] by which the supply is low
-  double pull = 0;     ///< [Nm] pull of the cut, in addition to the load
-  double by_hand = 0;  ///< [rad/s] at which somebody turns the sprocket of a motor without power
+  double weaker = 0;       ///< [V] by which the supply is low
+  double pull = 0;         ///< [Nm] pull of the cut, in addition to the load
+  double by_hand = 0;      ///< [rad/s] at which the sprocket of a motor without power is turned
   bool is_powered = true;  ///< without power no current flows: only friction brakes
   /// Without power, the bridge joins both ends of the winding: what the motor generates beyond the
   /// bridge's drop brakes it.

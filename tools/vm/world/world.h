@@ -77,11 +77,11 @@ class World {
   /// Gives a number of the judge's machine a new value.
   void set(const std::string& number, double value) { sled_.set(number, value); }
   Wires& wires(Axis axis) { return motors_[axis].wires; }
-  /// Somebody pays out so much of a chain while its motor has no power.
+  /// Pays out this much of a chain by hand while its motor has no power.
   void pull(Axis axis, double mm_per_second) {
     motors_[axis].by_hand = mm_per_second / per_turn_[axis] * kTurn;
   }
-  /// Lets the motors' supply be so much lower than 12 V.
+  /// Lowers the motors' supply by this much below 12 V.
   void weakenSupply(double volts) { lacking_ = volts; }
   void setProbeHeight(double z) { probe_height_ = z; }
 

@@ -7,7 +7,7 @@ namespace kinematics {
 
 /// Moves the right sprocket up and the left sprocket down, each by half the difference.
 ///
-/// This turns everything about the middle of the motors by difference / gap. Marks on a single
+/// This rotates everything about the middle of the motors by difference / gap. Marks on a single
 /// sheet hardly tell that from a sheet that lies askew: only the direction of gravity differs, and
 /// its effect is small.
 template <class Real>

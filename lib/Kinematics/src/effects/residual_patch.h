@@ -12,7 +12,7 @@ namespace kinematics {
 /// counted from the middle between the motors in units of 0.42 motor_gap, its y in units of 0.6
 /// motor_height: each unit is about half a sheet. The terms are products of Legendre polynomials,
 /// so no term exceeds its parameter. Beyond half a sheet they keep the value at its edge, so they
-/// do not grow where nobody measured.
+/// do not grow where nothing was measured.
 template <class Real>
 struct ResidualPatch : Effect<Real> {
   enum { kX, kY, kXX, kXY, kYY, kXXX, kXXY, kXYY, kYYY, kTerms };

@@ -64,7 +64,7 @@ struct SprocketRunout : Effect<Real> {
     return kPlain[i];
   }
 
-  /// None: hardly anybody reads the phase of a runout right from a dial gauge.
+  /// None: the phase of a runout is too easily misread from a dial gauge.
   static CheckInfo check() { return {"", "", "", 0}; }
   static Example example(uint8_t i) {
     static const Example kExamples[] = {{"both", {0, -0.1, -0.1, 0}, 1},

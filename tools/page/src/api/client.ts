@@ -1,4 +1,4 @@
-// Asks the server, with the types of its schema. A refusal becomes an error whose message is its line.
+// Requests to the server, typed by its schema. A refusal becomes an error with the server's message.
 import { answers } from "./answers";
 import { inTime, READ_MS, SAVE_MS, WORK_MS } from "./patience";
 import { begin } from "./rest";
@@ -10,7 +10,7 @@ export type Schemas = components["schemas"];
 export type Project = Schemas["ProjectAnswer"];
 export type Choices = Schemas["Choices"];
 
-/** What the server refused: `status` 409 says that somebody else saved in the meantime. */
+/** The server refused. Status 409: another tab or program has saved in the meantime. */
 export class Refusal extends Error {
   constructor(
     message: string,
@@ -20,7 +20,7 @@ export class Refusal extends Error {
   }
 }
 
-/** What nobody answered; the next try may be answered. */
+/** The server did not answer; trying again may help. */
 export function isSilence(error: unknown): boolean {
   return error instanceof Refusal && error.status === 0;
 }
@@ -58,7 +58,7 @@ async function answered(path: string, { patienceMs, ...request }: Asking): Promi
   throw new Refusal(reason ?? `The lab answered ${response.status}.`, response.status);
 }
 
-/** The line of a refusal, if there is any. */
+/** The message of a refusal, if there is one. */
 function reasonIn(text: string): string | undefined {
   try {
     return (JSON.parse(text) as { error?: string }).error;
@@ -67,14 +67,14 @@ function reasonIn(text: string): string | undefined {
   }
 }
 
-/** Reads something; in a saved report, from what it brings along. */
+/** Reads something; in a saved report, from its stored answers. */
 export async function get<Answer>(path: string, patienceMs = READ_MS): Promise<Answer> {
   if (!answers) return asked(path, { patienceMs });
   if (!Object.hasOwn(answers, path)) throw new Refusal("This report does not hold it.", 404);
   return answers[path] as Answer;
 }
 
-/** Sends something to be kept or done. */
+/** Sends a value to store or an action to run. */
 export function send<Answer>(
   method: "POST" | "PUT" | "DELETE",
   path: string,
@@ -89,19 +89,19 @@ export function send<Answer>(
   });
 }
 
-/** Sends a file that somebody picked. */
+/** Uploads a file. */
 export function sendFile<Answer>(path: string, file: File): Promise<Answer> {
   const form = new FormData();
   form.set("file", file);
   return asked(path, { patienceMs: WORK_MS, method: "POST", body: form });
 }
 
-/** Has the browser save a file that the server makes. */
+/** Downloads a file that the server makes. */
 export async function takeAlong(name: string): Promise<void> {
   saved(await answered(`papers/${name}`, { patienceMs: WORK_MS }), name);
 }
 
-/** Has the browser save a file. */
+/** Downloads a file. */
 export function saved(content: Blob, name: string): void {
   const link = document.createElement("a");
   link.href = URL.createObjectURL(content);

@@ -1,16 +1,16 @@
-// How long the page waits for an answer: a question that never ends would stop what waits for it, and keep its
-// connection from others.
+// How long the page waits for an answer. A request that never ends would block what waits for it and hold a connection
+// that others need.
 
-/** Answers that the page asks for again and again [ms]. */
+/** Polling [ms]. */
 export const LOOK_MS = 10_000;
-/** Answers that are read once [ms]. */
+/** Single reads [ms]. */
 export const READ_MS = 60_000;
-/** Answers to what was typed or chosen [ms]. */
+/** Saving what was typed or chosen [ms]. */
 export const SAVE_MS = 30_000;
-/** Answers that are worked out, or that the machine gives [ms]. */
+/** Computations, and answers from the machine [ms]. */
 export const WORK_MS = 180_000;
 
-/** What the work brings, if it comes in time; else the work has to give up, and this fails. */
+/** The result of the work if it comes in time; otherwise aborts the work and fails. */
 export async function inTime<Answer>(
   patienceMs: number,
   work: (signal: AbortSignal) => Promise<Answer>,

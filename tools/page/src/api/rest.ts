@@ -1,5 +1,5 @@
-// Whether the page is at rest: nothing is asked of the server, nothing waits for its turn and nothing is left to draw.
-// <html data-rest> says so, for whoever looks at the page from outside: a test, or a screenshot.
+// Whether the page is at rest: no request is open, no timer is pending and nothing is left to draw. <html data-rest>
+// says so to tests and screenshots.
 import { options } from "preact";
 
 const PRESSES = [
@@ -17,7 +17,7 @@ let works = 0; // under way
 let stirs = 0; // so far
 let looks = false;
 
-/** Something begins; it returns what ends it. */
+/** Marks the beginning of some work; returns a function that marks its end. */
 export function begin(): () => void {
   let isOver = false;
   works += 1;
@@ -30,7 +30,7 @@ export function begin(): () => void {
   };
 }
 
-/** Does something after a pause [ms]; what it returns takes that back. */
+/** Runs something after a pause [ms]; returns a function that cancels it. */
 export function later(work: () => void, ms: number): () => void {
   const end = begin();
   const timer = setTimeout(() => {
@@ -43,7 +43,7 @@ export function later(work: () => void, ms: number): () => void {
   };
 }
 
-/** Begins to watch: whatever is drawn or pressed ends the rest. */
+/** Begins to watch: any drawing or press ends the rest. */
 export function watchRest(): void {
   const { diffed } = options;
   options.diffed = (node) => {
@@ -60,7 +60,7 @@ function stir(): void {
   if (!looks) void look();
 }
 
-/** Says that the page is at rest once two pictures in a row have brought nothing new. */
+/** Marks the page as at rest once two frames in a row have changed nothing. */
 async function look(): Promise<void> {
   looks = true;
   let before: number;
@@ -73,7 +73,7 @@ async function look(): Promise<void> {
   if (works === 0) page.dataset.rest = "";
 }
 
-/** After the next picture, and after what it has set off. */
+/** After the next frame and everything that it triggers. */
 function picture(): Promise<void> {
   return new Promise((done) => requestAnimationFrame(() => setTimeout(done)));
 }

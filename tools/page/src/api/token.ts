@@ -1,7 +1,7 @@
-// The key to the server: it comes in the address that `plumb lab` printed, and stays in this browser.
+// The token for the server: it comes in the address that `plumb lab` prints, and stays in this browser.
 const NAME = "plumb-token";
 
-/** Keeps the token of the address and takes it out of the address line, so nobody reads it there. */
+/** Stores the token and removes it from the address bar, where others could read it. */
 export function takeToken(): void {
   const address = new URL(location.href);
   const token = address.searchParams.get("token");
@@ -12,7 +12,7 @@ export function takeToken(): void {
   history.replaceState(null, "", address);
 }
 
-/** The token; empty if this browser was never at the printed address. */
+/** The token; empty if this browser never opened the printed address. */
 export function token(): string {
   return sessionStorage.getItem(NAME) ?? localStorage.getItem(NAME) ?? "";
 }

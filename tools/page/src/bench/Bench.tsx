@@ -1,4 +1,4 @@
-// The bench for effects: add and take away, and see at once what is left of the errors.
+// The bench for effects: add and remove them, and see at once how much error is left.
 import { useMemo, useRef, useState } from "preact/hooks";
 import { Trouble } from "../controls/Trouble";
 import { useUnits } from "../controls/units";
@@ -32,7 +32,7 @@ function OpenBench({ bench }: { bench: Board }) {
   const live = useLive(choice, kept, bench.board);
   const stairs = useStairs(kept, bench.board);
   const gains = useGains(kept, bench.board);
-  // By what each would leave at first: a row does not move away from the hand that ticks it.
+  // Sorted once, by what each would leave: a row must not move away while it is being ticked.
   const first = useRef(gains);
   first.current ??= gains;
   const rank = ({ name }: { name: string }) => first.current?.[name] ?? 0;
@@ -45,7 +45,7 @@ function OpenBench({ bench }: { bench: Board }) {
   const hasMarks = bench.marks.length > 0;
   const [laid, lay] = useState("");
   const drawn = useDrawn(laid ? [laid] : [], bench.board);
-  // A slider moves more often than a fit comes: what has not changed is not drawn again.
+  // A slider moves more often than fits arrive: what has not changed is not drawn again.
   const stage = useMemo(() => {
     const states = [bench.as_set, ...(frame ? [frame] : [])];
     const hasEffects = frame && !!now && now.choice.effects.length > 0;

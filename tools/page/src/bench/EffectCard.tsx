@@ -8,11 +8,11 @@ interface EffectCardParts {
   effect: Effect;
   choice: Choice;
   fit: Fit | undefined;
-  /** What would be left with it [mm], where it is not added. */
+  /** The error that adding it would leave [mm]. */
   left: number | undefined;
-  /** Shows a choice; `keep` says that the hand is off the slider. */
+  /** Shows a choice; `keep`: the slider was released. */
   change: (choice: Choice, keep: boolean) => void;
-  /** Whether what it draws lies over the marks. */
+  /** Whether its pattern is shown over the marks. */
   isLaid: boolean;
   lay: (() => void) | undefined; // undefined: there is no mark
 }
@@ -73,7 +73,7 @@ export function EffectCard({ effect, choice, fit, left, change, isLaid, lay }: E
   );
 }
 
-/** The sizes that belong to these effects. */
+/** The sizes of these effects. */
 function ofEffects(held: Choice["held"], effects: string[]): Choice["held"] {
   const mine = ([name]: [string, number]) =>
     effects.some((effect) => name.startsWith(`${effect}.`));

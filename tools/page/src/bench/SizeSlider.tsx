@@ -1,4 +1,4 @@
-// The size of an effect: fitted, until somebody takes the slider; then it is held.
+// The size of an effect: fitted until the slider is moved, then held.
 import type { Schemas } from "../api/client";
 
 const STEPS = 200;

@@ -1,4 +1,4 @@
-// How the error falls: what is left now in large figures, and each stair down to it with its bar.
+// How the error falls: what is left now in large figures, and each step down to it with its bar.
 import { namedLength, shownLength, type Unit } from "../controls/lengths";
 import { Table } from "../controls/Table";
 import { useUnits } from "../controls/units";
@@ -9,7 +9,7 @@ interface FallParts {
   stairs: Stairs | undefined;
 }
 
-/** The error that is left, which follows a slider at once; the stairs follow when it rests. */
+/** The error that is left follows a slider at once; the steps follow when it stops. */
 export function Fall({ live, stairs }: FallParts) {
   const units = useUnits();
   const fit = live.now?.fit;

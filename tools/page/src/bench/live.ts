@@ -9,15 +9,15 @@ export type Fit = Schemas["BenchFit"];
 export type Stairs = Schemas["BenchStairs"];
 export type Choice = { effects: string[]; held: Record<string, number> };
 
-const REST_MS = 250; // the stairs are climbed when nobody moves a slider
+const REST_MS = 250; // the steps are worked out once the slider has stopped
 
-/** A fit and the choice that it is of. */
+/** A fit and the choice it belongs to. */
 export interface Fitted {
   choice: Choice;
   fit: Fit;
 }
 
-/** What the bench has to show. */
+/** What the bench shows. */
 export interface Live {
   now: Fitted | undefined;
   previous: Fitted | undefined; // before the last choice that was kept
@@ -25,7 +25,7 @@ export interface Live {
   refusal: string;
 }
 
-/** Fits a choice again whenever it changes: never two at once, and the newest last. */
+/** Fits again whenever the choice changes: one fit at a time, the newest last. */
 export function useLive(choice: Choice, kept: Choice, board: string): Live {
   const [now, setNow] = useState<Fitted>();
   const alone = () => send<Fit>("POST", "bench/fit", { effects: [], held: {} });
@@ -64,7 +64,7 @@ async function fitNewest(
   }
 }
 
-/** The fit of the choice before the last: a slider that is still being moved does not count. */
+/** The fit before the last change; a slider still being moved does not count. */
 function usePrevious(now: Fitted | undefined, kept: Choice): Fitted | undefined {
   const [previous, setPrevious] = useState<Fitted>();
   const settled = useRef<Fitted | undefined>(undefined);
@@ -79,13 +79,13 @@ function usePrevious(now: Fitted | undefined, kept: Choice): Fitted | undefined 
   return previous;
 }
 
-/** The stairs to a choice, once it rests; the fit of the same choice says why there are none. */
+/** The steps to a choice, once it is settled; its fit says why there are none. */
 export function useStairs(kept: Choice, board: string): Stairs | undefined {
   const climb = () => send<Stairs>("POST", "bench/stairs", kept);
   return useAsked(climb, JSON.stringify([kept, board]), REST_MS).answer;
 }
 
-/** What each effect more would leave of the errors [mm], once the choice rests. */
+/** The error that each further effect would leave [mm], once the choice is settled. */
 export function useGains(kept: Choice, board: string): Record<string, number> | undefined {
   const gain = () => send<Record<string, number>>("POST", "bench/gains", kept);
   return useAsked(gain, JSON.stringify([kept, board]), REST_MS).answer;

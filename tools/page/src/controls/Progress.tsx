@@ -1,4 +1,4 @@
-// How far a piece of work is.
+// How far some work has come.
 
 export function Progress({ share, label }: { share: number; label: string }) {
   return (

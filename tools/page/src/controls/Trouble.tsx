@@ -1,4 +1,4 @@
-// Something that went wrong, said at once to those who hear the page too; nothing if there is nothing to say.
+// An error message, announced to screen readers at once; nothing if there is none.
 import type { ComponentChildren } from "preact";
 
 export function Trouble({ children }: { children?: ComponentChildren }) {

@@ -22,23 +22,23 @@ export function typedLength(text: string, chosen: Unit): number | undefined {
   return (minus ? -size : size) * (unit === "inch" ? INCH : 1);
 }
 
-/** Why a text is not a length, and how one is typed; empty for a length and where nothing is typed. */
+/** Why a text is not a length, and how to type one; empty for a length or no text. */
 export function noLength(text: string, unit: Unit): string {
   if (!text.trim() || typedLength(text, unit) !== undefined) return "";
   return `“${text.trim()}” is not a length: type it like ${unit === "mm" ? "11.9" : "4 13/32"}`;
 }
 
-/** A length [mm] in the unit that was chosen, without its name. An inch gets a decimal more. */
+/** A length [mm] in the chosen unit, without the unit's name. Inches get one more decimal. */
 export function shownLength(mm: number, unit: Unit, digits = 1): string {
   return unit === "inch" ? (mm / INCH).toFixed(digits + 1) : mm.toFixed(digits);
 }
 
-/** The same with its unit. */
+/** The same with the unit. */
 export function namedLength(mm: number, unit: Unit, digits = 1): string {
   return `${shownLength(mm, unit, digits)} ${unit}`;
 }
 
-/** A length [mm] as somebody would type it: a fraction where the inch has it, no needless zeros. */
+/** A length [mm] as a person would type it: inches as a fraction where possible, no needless zeros. */
 export function lengthText(mm: number, unit: Unit): string {
   if (unit === "mm") return String(Number(mm.toFixed(2)));
   const sixtyFourths = Math.round((Math.abs(mm) / INCH) * 64);

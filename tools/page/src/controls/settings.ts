@@ -1,4 +1,4 @@
-// A number of the machine as its lines have it: `$170 = 0.00000517 1/N`.
+// A number of the machine, written like its settings: `$170 = 0.00000517 1/N`.
 
 /** The number without an exponent, as exact as the machine says it. */
 export function settingText(value: number): string {

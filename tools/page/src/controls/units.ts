@@ -1,4 +1,4 @@
-// The unit in which lengths are shown and typed: chosen once for all that is inside.
+// The unit in which lengths are shown and typed, for all components inside.
 import { createContext } from "preact";
 import { useContext } from "preact/hooks";
 import type { Unit } from "./lengths";

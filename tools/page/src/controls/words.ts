@@ -1,4 +1,4 @@
-/** A text as a sentence begins. */
+/** A text with a capital first letter. */
 export function capital(text: string): string {
   return text.charAt(0).toUpperCase() + text.slice(1);
 }

@@ -87,7 +87,7 @@ function VirtualStart() {
   );
 }
 
-/** Waits until the machine takes work. */
+/** Waits until the machine is ready for work. */
 async function ready(): Promise<void> {
   for (;;) {
     const machine = await get<Machine>("machine", LOOK_MS);
@@ -132,7 +132,7 @@ function connectionWords(machine: Machine): string {
   return `${nameOf(machine)} is connected`;
 }
 
-/** With its port: the only place where that is said. */
+/** With its port, which is shown only here. */
 function nameOf(machine: Machine): string {
   return machine.kind === "board" ? `The machine at ${machine.name}` : subject(machine);
 }

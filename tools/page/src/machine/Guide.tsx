@@ -1,4 +1,4 @@
-// A machine's first day, step by step; each can be left and taken up again.
+// A machine's first day, step by step; each step can be left and resumed.
 import { useEffect } from "preact/hooks";
 import type { Schemas } from "../api/client";
 import { Trouble } from "../controls/Trouble";
@@ -13,7 +13,7 @@ type Answer = Schemas["GuideAnswer"];
 
 const LOOK_MS = 300; // while a step is under way
 
-/** The guide as the server has it, and how to do something with it. */
+/** The server's state of the guide, and its actions. */
 export interface Guide {
   guide: Answer | undefined;
   press: (path: string, body?: unknown) => void;
@@ -36,7 +36,7 @@ function isUnderWay(guide: Answer): boolean {
   return guide.here !== "";
 }
 
-/** The button that begins the step which is open. */
+/** The button that begins the open step. */
 export function BeginStep({ guide, press, busy }: Guide) {
   const ready = isReady(useMachine());
   const step = guide?.steps.find(({ name }) => name === guide.open);
@@ -53,7 +53,7 @@ export function BeginStep({ guide, press, busy }: Guide) {
   );
 }
 
-/** `isNext`: the open step is begun by the button of the screen. */
+/** `isNext`: the screen's button begins the open step. */
 export function FirstDay({ isNext, ...all }: Guide & { isNext: boolean }) {
   const { guide, press, busy, silent, refused } = all;
   const ready = isReady(useMachine());

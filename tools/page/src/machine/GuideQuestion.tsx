@@ -1,4 +1,4 @@
-// A question of the guide: what moves and how far is on the button that moves it.
+// A question of the guide. A button that moves something says what and how far.
 import type { ComponentChildren } from "preact";
 import { useState } from "preact/hooks";
 import type { Schemas } from "../api/client";
@@ -115,7 +115,7 @@ interface TypedParts {
   children: ComponentChildren;
 }
 
-/** A question that is answered by typing a number; Enter keeps it if it fits. */
+/** A question answered with a number; Enter accepts it if it is valid. */
 function Typed({ say, label, text, type, fits, keep, children }: TypedParts) {
   return (
     <form

@@ -14,9 +14,9 @@ export type Distance =
 
 interface PictureParts {
   machine: Machine;
-  /** The distance that is marked. */
+  /** The distance to mark. */
   marked?: Distance | undefined;
-  /** What stands at it. */
+  /** Its label. */
   words?: string;
 }
 

@@ -1,4 +1,4 @@
-// The phones of this lab, on the computer: how the next is paired, and what each may do.
+// The phones of this lab, shown on the computer: how to pair another, and what each may do.
 import type { Schemas } from "../api/client";
 import { Refusal } from "../shell/doing";
 import { useWatched } from "../shell/watched";

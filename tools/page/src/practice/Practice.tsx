@@ -1,4 +1,4 @@
-// Practice: what a virtual machine hid, once you have calibrated it like a real machine.
+// Practice: reveals the errors of a virtual machine once you have calibrated it.
 import { useState } from "preact/hooks";
 import { type Schemas, send } from "../api/client";
 import { namedLength, shownLength } from "../controls/lengths";

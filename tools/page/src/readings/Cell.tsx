@@ -1,4 +1,4 @@
-// Where a mark is, from the two edges. What is typed stays as it was typed; half a reading waits in this browser.
+// The reading of a mark, from two edges. Text stays as it was typed; half a reading is kept in this browser.
 import { useState } from "preact/hooks";
 import type { Schemas } from "../api/client";
 import { lengthText, namedLength, noLength, typedLength, type Unit } from "../controls/lengths";
@@ -11,19 +11,19 @@ interface CellParts {
   units: Unit;
   /** Names of the two edges, like "left". */
   from: readonly [string, string];
-  /** From which it is typed. */
+  /** The edges that it is typed from. */
   edges: string;
-  /** Its place among the halves that wait. */
+  /** Its key among the half readings. */
   place: HalfPlace;
   doubted: boolean;
   /** A phone shows the cell that is open, where there are many. */
   isOpen: boolean;
-  /** Another mark of this name comes before it. */
+  /** An earlier mark has the same name. */
   again: boolean;
   /** Goes on to the mark after it. */
   next: () => void;
   change: (value: Place | undefined) => void;
-  /** Takes columns of a spreadsheet; whether the text was such. */
+  /** Takes pasted spreadsheet columns; returns whether the text was some. */
   paste: (text: string) => boolean;
 }
 
@@ -41,7 +41,7 @@ export function Cell(parts: CellParts) {
     setTexts(typed);
     const read = complete(typed, units);
     const isHalf = !read && typed.some((each) => each.trim() !== "");
-    // Half a reading is none: the number before it does not count any more.
+    // Half a reading does not count, and the number before it no longer does either.
     if (read || value) change(read);
     keepHalf(place, isHalf ? { edges, texts: typed } : undefined);
   };
@@ -95,7 +95,7 @@ function offBy({ place, target: [x, y] }: CellParts["mark"], units: Unit): strin
   return place ? namedLength(Math.hypot(place[0] - x, place[1] - y), units) : "";
 }
 
-/** Why a field keeps its mark from being read; empty if it does not. */
+/** Why a field is not accepted; empty if it is. */
 function lacks(texts: Texts, axis: 0 | 1, from: readonly [string, string], units: Unit): string {
   const isMissing = texts[axis].trim() === "" && texts[1 - axis]?.trim() !== "";
   return isMissing ? `not read: from the ${from[axis]}?` : noLength(texts[axis], units);
@@ -107,7 +107,7 @@ function complete(texts: Texts, units: Unit): Place | undefined {
   return x === undefined || y === undefined ? undefined : [x, y];
 }
 
-/** Whether the texts say this reading. */
+/** Whether the texts show this reading. */
 function means(texts: Texts, value: Place | undefined, units: Unit): boolean {
   const read = complete(texts, units);
   return !!read && !!value && read.every((mm, axis) => Math.abs(mm - (value[axis] ?? 0)) < 1e-3);

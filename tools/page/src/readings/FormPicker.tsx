@@ -1,4 +1,4 @@
-// Which form is typed into, and a file of marks from elsewhere.
+// Chooses the form to type into, or imports a file of readings.
 import { sendFile } from "../api/client";
 import { PickFile } from "../shell/PickFile";
 import { useProject } from "../shell/project";
@@ -33,7 +33,7 @@ export function FormPicker({ form, choose }: FormPickerParts) {
   );
 }
 
-/** A file of readings from elsewhere; folded away where a form is open. */
+/** Imports a file of readings; folded away when a form is open. */
 export function FileOfReadings({ form, choose }: FormPickerParts) {
   const { reload } = useProject();
   const picker = (

@@ -1,4 +1,4 @@
-// The cells of the marks, row by row as they lie on the sheet; on a phone that of the open mark, and the sheet opens others.
+// The cells of the marks, in rows as on the sheet; on a phone only the open mark's, and the sheet opens others.
 import { Fragment } from "preact";
 import { Trouble } from "../controls/Trouble";
 import { useUnits } from "../controls/units";
@@ -25,7 +25,7 @@ export function Grid({ form, readings, doubts }: GridParts) {
   const [upright, across] = edges.split("-") as [string, string];
   const units = useUnits();
   const order = [...marks].sort(
-    ({ target: [x, y] }, { target: [x2, y2] }) => y2 - y || x - x2, // a repeat stays behind
+    ({ target: [x, y] }, { target: [x2, y2] }) => y2 - y || x - x2, // a repeat comes after its first
   );
   const next = (index: number) => {
     const after = order[order.findIndex((mark) => mark.index === index) + 1];

@@ -1,4 +1,4 @@
-// Marks that are only to be read again: nothing is cut, and the tape of a virtual machine reads them at once.
+// Marks to read again without cutting; on a virtual machine they are read at once.
 import { Do } from "../shell/doing";
 import { useMachine } from "../shell/machine";
 import { useTell } from "../shell/project";

@@ -1,4 +1,4 @@
-// Distances between marks: those that a form asks for, in the order in which they are measured, then all others.
+// Distances between marks: those of the form in measuring order, then all others.
 import type { ComponentChildren } from "preact";
 import { lengthText, noLength, typedLength } from "../controls/lengths";
 import { useUnits } from "../controls/units";
@@ -51,7 +51,7 @@ export function Spans({ form, readings, doubts }: SpansParts) {
 
 interface SpanParts {
   name: string;
-  /** Its place among the distances of the form; -1 if it is not measured. */
+  /** Its index among the form's distances; -1 if it is not measured. */
   index: number;
   length: number | undefined;
   doubt: ComponentChildren;

@@ -1,4 +1,4 @@
-// From which edges the tape measures, and how fine its lines are.
+// The edges that the tape measures from, and how fine its lines are.
 import type { Choices } from "../api/client";
 import { useProject } from "../shell/project";
 import { type Form, useSave } from "./saves";
@@ -9,7 +9,7 @@ const EDGES = [
   ["bottom-left", "left and bottom edge"],
   ["bottom-right", "right and bottom edge"],
 ] as const;
-// Finest lines [mm], by how people say them.
+// Finest lines [mm], by their usual names.
 const LINES = [
   [1, "1 mm"],
   [0.5, "0.5 mm"],
@@ -29,7 +29,7 @@ export function Tape({ form, take }: TapeParts) {
   const { project, choose } = useProject();
   const save = useSave(form, take);
   const stated = form.tape_sigma !== null;
-  // Where distances alone are asked, no edge counts.
+  // If only distances are asked for, edges do not matter.
   const fromEdges = form.spans.length === 0 || form.marks.some((mark) => mark.read);
   const finest = project.choices.fineness ?? 0.5;
   const state = (value: string) =>

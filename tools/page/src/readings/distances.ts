@@ -1,11 +1,11 @@
-// Changes of a list of distances, each said so that it holds however the list has grown.
+// Changes to a list of distances that still apply after the list has grown.
 
 interface Distance {
   between: [string, string];
   length: number;
 }
 
-/** The list with something else at the place of a distance; without anything it is taken out. */
+/** The list with a distance replaced; or removed, without a replacement. */
 export function withInstead<Each extends Distance>(
   distances: readonly Each[],
   old: Each,
@@ -23,7 +23,7 @@ export function lengthBetween<Each extends Distance>(
   return distances.find((each) => isBetween(each, span));
 }
 
-/** Distances that nobody asked for, or that were measured once more. */
+/** Distances that were not asked for, or were measured once more. */
 export function beyond<Each extends Distance>(
   distances: readonly Each[],
   spans: readonly (readonly string[])[],
@@ -32,7 +32,7 @@ export function beyond<Each extends Distance>(
   return distances.filter((each) => !asked.has(each));
 }
 
-/** The list with this length between two marks instead of what it says of them; without any it is taken out. */
+/** The list with this length between two marks in place of the old; or without them, if there is no length. */
 export function withLength(
   distances: readonly Distance[],
   span: [string, string],

@@ -1,4 +1,4 @@
-// Half a reading, or a text that is not yet a length: kept in this browser until it is whole. It does not count.
+// Half readings, and texts that are not yet lengths: kept in this browser until complete. They do not count.
 const PREFIX = "plumb-half:";
 export type Texts = readonly [string, string];
 
@@ -14,24 +14,24 @@ interface Half {
   texts: Texts;
 }
 
-/** What is typed of a mark from these edges. */
+/** What was typed for a mark, from these edges. */
 export function halfOf({ key, file, index }: HalfPlace, edges: string): Texts | undefined {
   const half = stored(key)[`${file}:${index}`];
   return half?.edges === edges ? half.texts : undefined;
 }
 
-/** Keeps half a reading; without one it is forgotten. */
+/** Stores half a reading, or removes it if there is none. */
 export function keepHalf({ key, file, index }: HalfPlace, half: Half | undefined): void {
   const { [`${file}:${index}`]: _, ...others } = stored(key);
   const all = half ? { ...others, [`${file}:${index}`]: half } : others;
   try {
     localStorage.setItem(PREFIX + key, JSON.stringify(all));
   } catch {
-    // A browser without room keeps it as long as the tab is open.
+    // Without storage it is kept as long as the tab is open.
   }
 }
 
-/** The marks of a folder of which half a reading waits here. */
+/** The marks of a folder with half a reading here. */
 export function allHalves(key: string): { file: string; index: number }[] {
   return Object.keys(stored(key)).map((name) => {
     const [file = "", index = ""] = name.split(":");

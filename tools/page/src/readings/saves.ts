@@ -1,4 +1,4 @@
-// Saves of a form: its readings, its distances, and how fine the tape is. They wait for each other.
+// Saves of a form: its readings, distances and tape. Each waits for the one before.
 import { type Schemas, send } from "../api/client";
 import { useProject } from "../shell/project";
 import { Succession } from "../shell/succession";
@@ -13,7 +13,7 @@ export function savesOf(file: string): Succession<Form> {
   return saves;
 }
 
-/** Saves a part of a form, made from the form as the saves before it left it; says whether it was taken. */
+/** Saves a part of a form, based on the form after the previous saves; returns whether it was accepted. */
 export function useSave(
   form: Form,
   take: (form: Form) => void,
@@ -29,7 +29,7 @@ export function useSave(
       await reload();
       return true;
     } catch (error) {
-      await reload(); // so that what somebody else saved comes into view
+      await reload(); // to show what was saved elsewhere
       setTrouble(error instanceof Error ? error.message : String(error));
       return false;
     }

@@ -1,9 +1,9 @@
-// Saves the distances of a form; says whether the server took them.
+// Saves the distances of a form; returns whether the server accepted them.
 import type { Schemas } from "../api/client";
 import { type Form, useSave } from "./saves";
 
 export type Distance = Schemas["AskedDistance"];
-/** What becomes of the distances, whatever they are by then. */
+/** The change, applied to the distances as they are by then. */
 export type Change = (distances: Distance[]) => Distance[];
 
 export function useDistances(

@@ -6,7 +6,7 @@ import type { Form } from "./useReadings";
 export type Doubt = Schemas["Doubted"];
 const PAUSE_MS = 500;
 
-/** An answer about the readings before stays in view, so that rings do not flicker. */
+/** The previous answer stays visible, so that rings do not flicker. */
 export function useDoubts(
   form: Form | undefined,
 ): Omit<Asked<unknown>, "answer"> & { doubts: Doubt[] } {

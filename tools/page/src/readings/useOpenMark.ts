@@ -1,4 +1,4 @@
-// The mark that is typed now: at first a mark that waits. Who picks another can type at once.
+// The mark being typed: at first one without a reading. After choosing another you can type at once.
 import { useLayoutEffect, useRef, useState } from "preact/hooks";
 import type { Form } from "./saves";
 

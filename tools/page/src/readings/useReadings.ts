@@ -1,4 +1,4 @@
-// The form of readings: loaded, kept while it is typed, and saved reading by reading.
+// The form of readings: loaded, edited, and saved reading by reading.
 import { useCallback, useEffect, useRef, useState } from "preact/hooks";
 import { get, isSilence, type Schemas, send } from "../api/client";
 import { type Kept, useKept } from "../shell/kept";
@@ -16,7 +16,7 @@ export type Typed = Record<string, Place>;
 export interface TypedForm extends OpenMark {
   form: Form | undefined;
   kept: Kept<Typed>;
-  /** Shows what a save left, unless another form is open by now. */
+  /** Shows the result of a save, unless another form is open by now. */
   take: (form: Form) => void;
   chooseFile: (name: string) => void;
 }
@@ -32,7 +32,7 @@ export function useReadings(first = ""): TypedForm {
   const [silences, setSilences] = useState(0);
   const newest = useRef<Form | undefined>(undefined);
   const turns = useRef(new Turns()).current;
-  const refused = useRef(""); // what this said of a load
+  const refused = useRef(""); // the error of a load
   const show = useCallback((answer: Form) => {
     newest.current = answer;
     savesOf(answer.file).learn(answer);
@@ -41,7 +41,7 @@ export function useReadings(first = ""): TypedForm {
   const take = useCallback(
     (answer: Form) => {
       if (newest.current?.file !== answer.file) return;
-      // An answer that a save has overtaken is old.
+      // A save has finished since: this answer is out of date.
       turns.overtake();
       show(answer);
     },
@@ -52,7 +52,7 @@ export function useReadings(first = ""): TypedForm {
     try {
       const answer = await get<Form>(`readings?file=${encodeURIComponent(file)}`);
       if (turns.counts(question)) show(answer);
-      // Why a save was refused stays in view.
+      // The reason for a refused save stays visible.
       setTrouble((line) => (line === refused.current ? "" : line));
     } catch (error) {
       refused.current = error instanceof Error ? error.message : String(error);
@@ -60,7 +60,7 @@ export function useReadings(first = ""): TypedForm {
       if (isSilence(error)) setSilences((count) => count + 1);
     }
   }, [file, turns, show, setTrouble]);
-  // What nobody answered is asked again.
+  // Without an answer, ask again.
   useEffect(() => {
     if (silences === 0) return;
     const timer = setTimeout(() => void load(), AGAIN_MS);
@@ -91,7 +91,7 @@ export function useReadings(first = ""): TypedForm {
       );
       take(answer);
       void reloadProject();
-      // From other edges its numbers are others.
+      // From other edges its numbers differ.
       return answer.edges === edges ? typedIn(answer) : value;
     },
     reload: load,
@@ -107,7 +107,7 @@ function typedIn(form: Form): Typed {
   return typed;
 }
 
-/** The readings that became others. */
+/** The readings that changed. */
 function changes(was: Typed, is: Typed): Schemas["TypedReading"][] {
   const indices = [...new Set([...Object.keys(was), ...Object.keys(is)])];
   return indices

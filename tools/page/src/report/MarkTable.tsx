@@ -1,4 +1,4 @@
-// Each mark with its error, for who holds the report as paper and cannot point at a mark.
+// Each mark with its error, for the printed report, where you cannot point at a mark.
 import { shownLength, type Unit } from "../controls/lengths";
 import { Table } from "../controls/Table";
 import type { VerdictParts } from "../steps/verdict/words";

@@ -1,4 +1,4 @@
-// A saved report: the verdict as the lab shows it, the numbers, and where all of it is from. It asks nobody.
+// A saved report: the verdict as the lab shows it, the numbers, and their sources. It needs no server.
 import type { Project, Schemas } from "../api/client";
 import { Table } from "../controls/Table";
 import { Shares } from "../shell/Shares";
@@ -11,7 +11,7 @@ import type { VerdictAnswer } from "../steps/verdict/words";
 import { MarkTable } from "./MarkTable";
 import "./report.css";
 
-/** What a report says besides the answers of the lab. */
+/** What a report holds besides the lab's answers. */
 interface About {
   title: string;
   said: string;

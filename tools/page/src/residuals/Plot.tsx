@@ -5,13 +5,13 @@ import { nearest, type Pair, pointIn, ticks, tickText } from "../sheet/view";
 const WIDTH = 190;
 const HEIGHT = 136;
 const EDGE = { left: 34, right: 8, top: 8, bottom: 34 };
-const REACH = 44; // [px of the drawing] a finger is no needle
+const REACH = 44; // [px of the drawing] for a fingertip
 const MIDDLE_X = (EDGE.left + WIDTH - EDGE.right) / 2;
 
 /** A number on an axis as a place of the drawing. */
 export type Along = (value: number) => number;
 
-/** Dots of a kind; each belongs to a mark. */
+/** Dots of one style; each belongs to a mark. */
 export interface Dots {
   kind: string; // of its style
   places: readonly (Pair | null)[]; // as on the axes
@@ -99,7 +99,7 @@ function along([least, most]: Pair, [from, to]: Pair): Along {
   return (value) => from + ((value - least) * (to - from)) / (most - least);
 }
 
-/** A path of points: each is a line of no length to speak of, so its round or square ends are the dot. */
+/** A path of points: each is a line of almost no length, drawn as a dot by its round or square ends. */
 function dotted(places: readonly (Pair | null)[]): string {
   return places
     .map((place) => place && `M${place[0].toFixed(1)} ${place[1].toFixed(1)}h0.01`)

@@ -1,4 +1,4 @@
-// What is left against all that it may depend on, with what an effect draws below it; and against noise.
+// Remaining errors against what they may depend on, with an effect's curve below them; and against noise.
 import type { Schemas } from "../api/client";
 import { shownLength, type Unit } from "../controls/lengths";
 import type { Ends, State } from "../sheet/marks";
@@ -166,7 +166,7 @@ function CurvePath({ curve, kind, x, y, ends }: CurveParts) {
   );
 }
 
-/** Both coordinates of all errors, the smallest first, against what noise alone would make of each. */
+/** Both coordinates of all errors, smallest first, against what noise alone would give. */
 function AgainstNoise({ state, doubted, units, selected, select }: PlotsParts) {
   const unit = units === "inch" ? INCH : 1;
   const { order, at, low, high, beyond } = state.ranked;
@@ -217,7 +217,7 @@ function extremes({ values }: Covariate): readonly [number, number] {
   return [Math.min(...known), Math.max(...known)];
 }
 
-/** Nothing can depend on what is the same for all marks. */
+/** Errors cannot depend on what is the same for all marks. */
 function isSame(covariate: Covariate): boolean {
   const [least, most] = extremes(covariate);
   return !(most - least > 1e-3);

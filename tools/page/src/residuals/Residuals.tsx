@@ -1,4 +1,4 @@
-// Where it fails: the marks of a board in each state, on the sheet and against all that errors may depend on.
+// Where the model fails: the marks in each state, on the sheet and against what errors may depend on.
 import { useMemo, useState } from "preact/hooks";
 import type { Schemas } from "../api/client";
 import { useUnits } from "../controls/units";
@@ -14,16 +14,16 @@ interface ResidualsParts {
   spans: readonly Span[];
   /** As set, with the frame fitted, and with effects. */
   states: readonly Left[];
-  /** The state below that which is shown. */
+  /** The state drawn below the one shown. */
   ghosts?: Left | undefined;
   sigma: number; // [mm] of a reading
   covariates: readonly Covariate[] | undefined;
-  /** What effects draw, over what the frame leaves. */
+  /** The effects' patterns, over the errors that the frame leaves. */
   drawn: Drawn | undefined;
-  /** Marks whose readings disagree: they scale nothing. */
+  /** Marks whose readings disagree: they do not affect the scale. */
   doubted: readonly number[];
   doubtedSpans: readonly number[];
-  /** What is shown until somebody chooses another state: where the model fails, or what is left of it. */
+  /** The state shown at first: where the model fails, or what is left. */
   opensOn?: "frame" | "last";
 }
 

@@ -1,4 +1,4 @@
-// Measured distances: a line for each, the thicker the farther it is off, and the same as a table.
+// Measured distances: a line for each, thicker for a larger error, and a table.
 import type { Schemas } from "../api/client";
 import { shownLength, type Unit } from "../controls/lengths";
 import { Table } from "../controls/Table";
@@ -55,7 +55,7 @@ export function SpanLines({ spans, state, doubted, sigma, scale }: LineParts) {
   );
 }
 
-/** The ends of distances that are no marks with an error. */
+/** Ends of distances that have no error of their own. */
 export function endsOf(spans: readonly Span[], known: ReadonlySet<string>): Mark[] {
   const places = new Map<string, Pair>();
   for (const { between, ends } of spans) {

@@ -1,10 +1,10 @@
-// A value that changes many times a second, taken over now and then: for what is slow to draw.
+// A value that changes many times a second, throttled for slow drawings.
 import { useEffect, useRef, useState } from "preact/hooks";
 import { later } from "../api/rest";
 
 const PAUSE_MS = 200;
 
-/** The value as it was at most a pause ago; at once where it had rested for that long. */
+/** The value, at most one pause old; updated at once if it had not changed for that long. */
 export function useRested<Value>(value: Value): Value {
   const [shown, setShown] = useState(value);
   const last = useRef(0);

@@ -1,4 +1,4 @@
-// The axes of the sheet with their lines, how long something is on it, and how long its arrows are.
+// The sheet's axes and grid lines, and a legend with the scales of the sheet and its arrows.
 import { lengthText, type Unit } from "../controls/lengths";
 import { useScale } from "./scale";
 import { type Pair, rounded, ticks, tickText } from "./view";
@@ -9,7 +9,7 @@ const LINE = 22; // [px] of a line of the legend
 const ROW = 34; // [px] of a legend with buttons beside it
 const TICKS = 24; // [px] below the sheet
 
-/** From where the axes count, and which way: from the middle, or from the edges of the tape. */
+/** Origin and direction of the axes: the middle of the sheet, or the edges that the tape measures from. */
 export interface Origin {
   zero: Pair; // [mm] machine frame
   way: Pair; // 1 or -1
@@ -68,11 +68,11 @@ interface LegendParts {
   units: Unit;
   /** How many times longer than life arrows are; undefined without arrows. */
   factor: number | undefined;
-  /** What a circle around a mark holds; undefined without circles. */
+  /** What a circle around a mark means; undefined without circles. */
   circle: "noise" | "promised" | 0 | undefined;
 }
 
-/** What an arrow, a circle and a line of the drawing mean, below it. */
+/** The legend below the drawing: arrows, circles and lines. */
 export function Legend({ units, factor, circle }: LegendParts) {
   const { plot, px } = useScale();
   const unit = units === "inch" ? INCH : 1;

@@ -1,4 +1,4 @@
-// What is known of the mark that somebody points at.
+// Details of the mark that is pointed at.
 import { Fragment } from "preact";
 import { namedLength, shownLength, type Unit } from "../controls/lengths";
 import type { Ends, Mark } from "./marks";

@@ -1,4 +1,4 @@
-// The marks of a state: their noise, what an effect draws, their arrows, and their names.
+// The marks of a state: their noise circles, an effect's pattern, arrows, and names.
 import { arrowPath } from "./Axes";
 import type { Mark, State } from "./marks";
 import { useScale } from "./scale";
@@ -12,7 +12,7 @@ interface MarksParts {
   marks: readonly Mark[];
   state: State | undefined;
   ghosts: readonly (Pair | null)[] | undefined;
-  /** What an effect draws, below the errors. */
+  /** An effect's pattern, below the errors. */
   print: readonly (Pair | null)[] | undefined;
   factor: number;
   sigma: number | undefined;
@@ -69,7 +69,7 @@ export function Spot({ look, at: [x, y] }: { look: NonNullable<Mark["look"]>; at
   return <circle class={`spot ${look}`} cx={x} cy={y} r={look === "faint" ? 3 : 6} />;
 }
 
-/** All have their names where there is room; else the chosen, the doubted and those in the corners. */
+/** All marks are named if there is room; otherwise the chosen, the doubted and those in the corners. */
 function Names({ marks, selected }: { marks: readonly Mark[]; selected: number | undefined }) {
   const { plot, at } = useScale();
   const isRoomy = plot.right - plot.left > ROOMY && marks.length <= FEW;

@@ -42,7 +42,7 @@ function titleWith(stamp: string): string {
 /** The drawing as text, with a title. */
 function textOf(drawing: SVGSVGElement, title: string): string {
   const copy = drawing.cloneNode(true) as SVGSVGElement;
-  // Next to the drawing the styles of the page reach it too.
+  // Placed next to the drawing, so that the page's styles apply.
   copy.style.cssText = "position: absolute; visibility: hidden; background: var(--paper)";
   copy.classList.add("on-light-paper");
   drawing.after(copy);

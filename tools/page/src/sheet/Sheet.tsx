@@ -1,5 +1,5 @@
-// The sheet from the front: its marks and their errors, with axes, the same on every screen.
-// Places are mm in the machine frame: the origin is the middle of the sheet, y runs up.
+// The sheet from the front: its marks and their errors, with axes; used by every screen. Places are mm in the machine
+// frame: the origin is the middle of the sheet, y runs up.
 import type { ComponentChildren } from "preact";
 import { useContext, useId, useLayoutEffect, useMemo, useRef, useState } from "preact/hooks";
 import { useUnits } from "../controls/units";
@@ -25,15 +25,15 @@ const KEYS = {
 };
 
 export interface SheetParts {
-  /** Width, height [mm], where they are not those of the machine. */
+  /** Width and height [mm], if they differ from the machine's. */
   size?: Pair;
-  /** What the picture shows, for those who cannot see it. */
+  /** A description of the picture for screen readers. */
   label: string;
   marks: readonly Mark[];
   states?: readonly State[];
   shown?: number;
   show?: (index: number) => void;
-  /** Whether the first state is drawn on the left of a slider, and the one that is shown on its right. */
+  /** Whether a slider divides the first state, on its left, from the shown one, on its right. */
   slides?: boolean;
   /** Drawn pale, below the state that is shown. */
   ghosts?: State | undefined;
@@ -164,7 +164,7 @@ function Wood({ size }: { size: Pair }) {
   return <rect class="wood" x={x} y={y} width={size[0] * px} height={size[1] * px} />;
 }
 
-/** The width of a drawing [px]: measured before it is seen, so that nobody sees text in a wrong size. */
+/** The width of a drawing [px], measured before it is shown, so that text never appears in a wrong size. */
 function useWidth(drawing: { current: SVGSVGElement | null }): number {
   const [wide, setWide] = useState(WIDE);
   useLayoutEffect(() => {
@@ -187,7 +187,7 @@ function cornerOf({ at, plot }: Scale, mark: Mark | undefined): string {
   return `${across} ${y > (plot.top + plot.bottom) / 2 ? "at-top" : "at-bottom"}`;
 }
 
-/** As set has its scale; all that is fitted has that of the fitted frame. */
+/** The state as set has its own scale; all fitted states share the fitted frame's. */
 function usualFactor(
   { marks, states = NONE, sigma = 0 }: SheetParts,
   [width]: Pair,

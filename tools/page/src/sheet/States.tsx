@@ -1,4 +1,4 @@
-// The states that are compared, each with what it leaves and a small sheet of its arrows: a press shows it.
+// The states to compare, each with its error and a small sheet of its arrows; a press shows it.
 import { useId } from "preact/hooks";
 import { namedLength, shownLength, type Unit } from "../controls/lengths";
 import type { Mark, State } from "./marks";

@@ -1,4 +1,4 @@
-// Marks and their errors, as every drawing of the sheet has them.
+// Marks and their errors, for every drawing of the sheet.
 import type { Pair } from "./view";
 
 export type Ends = readonly [number | null, number | null]; // left and right chain [mm]
@@ -8,11 +8,11 @@ export interface Mark {
   name: string;
   target: Pair;
   measured?: Pair | null | undefined;
-  /** How its place is drawn where it has no arrow. */
+  /** How to draw it if it has no arrow. */
   look?: "waits" | "planned" | "done" | "next" | "faint";
-  /** Has a ring, and its arrow does not count for the scale. */
+  /** It gets a ring, and its arrow does not affect the scale. */
   isDoubted?: boolean;
-  /** What else is said of it. */
+  /** Further text about it. */
   also?: string;
 }
 
@@ -23,6 +23,6 @@ export interface State {
   chains?: readonly Ends[];
   fit_rms?: number;
   noise_rms?: number | null;
-  /** How far off each mark may be [mm], where that is promised; else it is as far as noise alone makes it. */
+  /** How far off each mark may be [mm], if that is promised; otherwise noise alone decides. */
   promised?: readonly number[];
 }

@@ -26,7 +26,7 @@ export interface View {
 export const WHOLE: View = { times: 1, middle: [0, 0] };
 const MOST = 40; // times
 
-/** The scale of a drawing that is so wide [px]. */
+/** The scale of a drawing of this width [px]. */
 export function scaleOf(size: Pair, wide: number, { times, middle: [mx, my] } = WHOLE): Scale {
   const [width, height] = [(1 + 2 * ROOM) * size[0], size[1] + 2 * ROOM * size[0]];
   const fit = Math.max(1, wide - EDGE.left - EDGE.right) / width;
@@ -75,5 +75,5 @@ export const useScale = () => useContext(ScaleContext);
 
 /** Width and height of the machine's sheet [mm]. */
 export const SheetSize = createContext<Pair>([2440, 1220]);
-/** From which settings a drawing is: their name and digest. */
+/** The settings that a drawing was made from: name and digest. */
 export const Stamp = createContext("");

@@ -1,10 +1,10 @@
-// Which mark is meant: by a mouse that points at it, a finger that touches it, keys that go to it.
+// Which mark is pointed at: by mouse, finger or keys.
 import { useRef, useState } from "preact/hooks";
 import type { SheetParts } from "./Sheet";
 import type { Zoom } from "./useZoom";
 import { markAt, nearest, pointIn } from "./view";
 
-const [MOUSE, FINGER] = [24, 32]; // [px] as far as a mark is meant
+const [MOUSE, FINGER] = [24, 32]; // [px] how near a mark has to be
 
 export function usePointing(parts: SheetParts, zoom: Zoom, factor: number) {
   const { marks, states, shown = 0, press } = parts;
@@ -16,7 +16,7 @@ export function usePointing(parts: SheetParts, zoom: Zoom, factor: number) {
     isPinned.current = mark !== undefined;
     select(mark);
   };
-  /** The mark whose place or arrow is near to where somebody points. */
+  /** The mark whose place or arrow is near the pointer. */
   const meant = (event: MouseEvent, reach: number) => {
     const errors = states?.[shown]?.errors;
     const targets = marks.map(({ target }) => scale.at(target));
@@ -27,7 +27,7 @@ export function usePointing(parts: SheetParts, zoom: Zoom, factor: number) {
     const which = nearest(pointIn(event), [...targets, ...tips], reach);
     return which === undefined ? undefined : which % marks.length;
   };
-  /** What a key does; false for another key. */
+  /** Handles a key; false if it is not one of its keys. */
   const pressed = (key: string): boolean => {
     const places = marks.map(({ target }) => target);
     const mark = markAt(key, places, selected);

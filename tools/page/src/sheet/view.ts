@@ -5,7 +5,7 @@ const FACTORS = [1, 2, 5, 10, 20, 50, 100, 200, 500];
 const LONGEST = 0.16; // of the sheet's width, for the longest arrow
 const WIDEST = 0.06; // of the sheet's width, for the radius of a circle of noise
 
-/** How many times longer than life arrows are drawn: a round number at which the longest is easy to see. */
+/** How much arrows are enlarged: a round number at which the longest is easy to see. */
 export function factorFor(
   errors: readonly (Pair | null)[],
   width: number,
@@ -16,7 +16,7 @@ export function factorFor(
   return FACTORS.filter((factor) => factor <= most).at(-1) ?? 1;
 }
 
-/** The largest of 1, 2, 5, 10, ... that is no more than this. */
+/** The largest of 1, 2, 5, 10, ... up to this number. */
 export function rounded(most: number): number {
   const ten = 10 ** Math.floor(Math.log10(most) + 1e-9);
   return [5, 2].map((digit) => digit * ten).find((each) => each <= most * (1 + 1e-9)) ?? ten;
@@ -49,7 +49,7 @@ const WAYS: Record<string, Pair> = {
   ArrowDown: [0, -1],
 };
 
-/** The mark to which a key goes from another: the nearest in that direction; undefined for another key. */
+/** The mark that an arrow key leads to: the nearest in that direction; undefined for other keys. */
 export function markAt(
   key: string,
   places: readonly Pair[],
@@ -85,7 +85,7 @@ export function nearest(
   return best;
 }
 
-/** Where somebody points in the drawing that hears of it [px]. */
+/** The pointer's place in the drawing [px]. */
 export function pointIn(event: MouseEvent): Pair {
   const box = (event.currentTarget as SVGElement).getBoundingClientRect();
   return [event.clientX - box.left, event.clientY - box.top];

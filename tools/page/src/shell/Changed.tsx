@@ -1,4 +1,4 @@
-// Says that a file changed on disk while somebody typed, and asks what holds.
+// Says that a file changed on disk while you were typing, and asks which version to keep.
 import { Trouble } from "../controls/Trouble";
 import type { Kept } from "./kept";
 

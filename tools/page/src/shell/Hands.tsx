@@ -1,4 +1,4 @@
-// On a phone: what it may do, where that is not all.
+// On a phone: what it may do, if not everything.
 import type { Schemas } from "../api/client";
 import { useWatched } from "./watched";
 

@@ -1,4 +1,4 @@
-// The line on top: the folder, what waits to be saved, and the unit in which lengths are shown and typed.
+// The header: the folder, unsaved changes, and the unit of lengths.
 import { useOutbox } from "./kept";
 import { waitingPlaces } from "./outbox";
 import { SILENT, useProject } from "./project";
@@ -41,7 +41,7 @@ export function Header() {
   );
 }
 
-/** Past the list of steps. */
+/** Skips the list of steps. */
 function toScreen() {
   document.getElementById("screen")?.focus();
 }

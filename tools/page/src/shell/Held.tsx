@@ -1,5 +1,5 @@
-// What the connected machine and the open file say otherwise, and the question which of the two holds: nothing is cut
-// before it is answered.
+// Differences between the connected machine and the open file, and the question which of them is right. Nothing is cut
+// before that is answered.
 
 import { send } from "../api/client";
 import { setting } from "../controls/settings";

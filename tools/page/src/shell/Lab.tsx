@@ -1,4 +1,4 @@
-// The lab: the way at the side, the screen in the middle, trouble on top.
+// The lab: the steps at the side, the screen in the middle, errors on top.
 import { useEffect, useRef, useState } from "preact/hooks";
 import { isPhone } from "../api/here";
 import { Trouble } from "../controls/Trouble";
@@ -14,7 +14,7 @@ import { Shares } from "./Shares";
 import { ROOMS, STEPS, type Step } from "./steps";
 import { Way, WayOn } from "./Way";
 
-/** What an address shows that no screen has. */
+/** Shown for an unknown address. */
 const NOWHERE: Step = {
   id: "nowhere",
   title: "No such screen",
@@ -28,7 +28,7 @@ const NOWHERE: Step = {
   needs: () => "",
 };
 
-/** The id of the screen behind # in the address; behind a further / a screen may have a place. */
+/** The screen's id after # in the address; after a further / comes a place on that screen. */
 function useAddress(): string {
   const [id, setId] = useState(idInAddress);
   useEffect(() => {
@@ -74,7 +74,7 @@ function Main({ step, shared, loaded }: { step: Step; shared: Shared; loaded: Lo
   const first = useRef(true);
   useEffect(() => {
     document.title = `${step.title} · ${project.folder} · Plumb`;
-    // Who follows a link with the keyboard or hears the page goes on at the new screen.
+    // Keyboard and screen reader users go on at the new screen.
     if (!first.current) place.current?.focus({ preventScroll: true });
     if (!first.current) {
       scrollTo(0, 0);

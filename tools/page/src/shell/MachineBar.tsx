@@ -95,7 +95,7 @@ export function MachineBar({ live }: { live: LiveMachine }) {
   );
 }
 
-/** Tells the screen how high the bar is, so that nothing lies below it. */
+/** Sets the bar's height as a style, so that it covers nothing. */
 function useHeight() {
   const [bar, place] = useState<HTMLElement | null>(null);
   useEffect(() => {
@@ -124,7 +124,7 @@ function tone(machine: Machine): string {
   return machine.moves || machine.phase === "busy" ? "moves" : "";
 }
 
-/** How far it is, which changes many times a second: shown, and not spoken. */
+/** The progress, which changes many times a second: shown, but not read aloud. */
 function countWords({ unseen, holds, phase, program }: Machine): string {
   if (unseen > 0) return ` ${unseen} s ago`;
   if (holds || phase !== "busy" || program?.outcome !== "running") return "";

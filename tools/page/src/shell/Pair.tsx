@@ -1,4 +1,4 @@
-// The first sight of the lab on a phone: with the PIN of the computer it is paired, by itself if it scanned the code.
+// The first screen on a phone: pairs it by the computer's PIN, automatically after a scan of the code.
 import { useEffect, useState } from "preact/hooks";
 import { type Schemas, send } from "../api/client";
 import { kindOfPhone } from "../api/here";

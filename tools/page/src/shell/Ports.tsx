@@ -1,5 +1,5 @@
-// The serial ports of this computer, looked at again and again, so that a board that is plugged in appears; and the
-// buttons that connect a machine at them.
+// The serial ports of this computer, polled so that a newly plugged board appears; and the buttons that connect a
+// machine at them.
 import { useState } from "preact/hooks";
 import { type Schemas, send } from "../api/client";
 import { useDo } from "./doing";
@@ -7,7 +7,7 @@ import { useWatched } from "./watched";
 
 type Port = Schemas["Port"];
 
-/** What is on USB, and folded away any other port. A machine whose line was lost may come back at any of them. */
+/** USB ports, with all others folded away. A machine that lost its connection may come back at any of them. */
 export function Ports({ lost }: { lost?: string }) {
   const { state, silent } = useWatched<Port[]>("machine/ports");
   const ports = silent ? [] : (state ?? []).filter(({ path }) => path !== lost);

@@ -1,22 +1,22 @@
-// The frame of each screen: a title, at most forty words, what one looks at, what one does, and the why folded away.
-// On a wide page what one looks at stays in view, and what one does scrolls next to it.
+// The frame of each screen: a title, at most forty words, a picture, the fields, and the reasons folded away. On a wide
+// page the picture stays in view, and the fields scroll next to it.
 import type { ComponentChildren } from "preact";
 
 interface ScreenParts {
   title: string;
   /** At most forty words. */
   say: ComponentChildren;
-  /** Folded away: the reasons, for those who ask. */
+  /** The reasons, folded away. */
   why?: ComponentChildren;
   /** The command that does the same in a terminal. */
   command?: string;
-  /** What it shows is still on its way. */
+  /** Its content is still loading. */
   busy?: boolean;
-  /** What one looks at: the sheet, the machine, plots. */
+  /** The picture: the sheet, the machine, plots. */
   stage?: ComponentChildren;
   /** Whether the fields come before the stage on a narrow page. */
   fieldsFirst?: boolean;
-  /** The button of the screen: in view all the time. */
+  /** The screen's main button, always in view. */
   act?: ComponentChildren;
   children?: ComponentChildren;
 }

@@ -1,4 +1,4 @@
-// What all that is inside knows: the project, the unit that is chosen, and the size of the machine's sheet.
+// Provides the project, the chosen unit and the sheet's size to everything inside.
 import type { ComponentChildren } from "preact";
 import { Units } from "../controls/units";
 import { SheetSize, Stamp } from "../sheet/scale";

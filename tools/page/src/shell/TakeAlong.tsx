@@ -1,4 +1,4 @@
-// A button that has the browser save a file which the lab makes: a report, a sheet to print, a table, the folder.
+// A button that downloads a file from the lab: a report, a sheet to print, a table, the folder.
 import type { ComponentChildren } from "preact";
 import { takeAlong } from "../api/client";
 import { Do } from "./doing";

@@ -1,4 +1,4 @@
-// The steps as links; those that cannot open yet say what they wait for. On a narrow page they fold.
+// The steps as links; those that cannot open yet say what is missing. On a narrow page they fold.
 import { useEffect, useState } from "preact/hooks";
 import { get, type Project } from "../api/client";
 import { useAsked } from "./asked";
@@ -20,11 +20,11 @@ interface PlaceParts extends WayParts {
 export function Way({ project, here }: WayParts) {
   const [open, setOpen] = useState(false);
   const fold = () => setOpen(false);
-  // Each new screen folds the list; so does the screen that is shown, when it is chosen again.
+  // Opening a screen folds the list, even if it is the current one.
   useEffect(fold, [here]);
   const number = STEPS.findIndex((step) => step.id === here) + 1;
   const title = [...STEPS, ...ROOMS].find((step) => step.id === here)?.title;
-  // The newest form, for how much of it is read.
+  // The newest form, to show how much of it has been read.
   const { answer: form } = useAsked(
     project.machine ? () => get<Form>("readings?file=") : undefined,
     JSON.stringify(project.files),

@@ -1,4 +1,4 @@
-// An answer that takes seconds: asked again until it is whole, and again when the folder has changed.
+// An answer that takes seconds: polled until complete, and asked again when the folder has changed.
 import { useEffect, useReducer, useRef } from "preact/hooks";
 import { get } from "../api/client";
 import { later } from "../api/rest";
@@ -18,7 +18,7 @@ export function useAnswer<Answer extends { share: number }>(
   const { project } = useProject();
   const whole = useRef<{ files: string; answer: Answer } | undefined>(undefined);
   const { "lab.json": _, ...files } = project.files;
-  // Choices count once they are saved: the server answers by what it has.
+  // Choices count once they are saved, as the server uses its own copy.
   const held = JSON.stringify(files);
   const [looks, look] = useReducer((count: number, _: undefined) => count + 1, 0);
   const ask = async () => {

@@ -1,12 +1,12 @@
-// A question that is asked again whenever what it depends on has changed: only the answer to the newest counts.
+// A question that is asked again whenever its input has changed; only the newest answer counts.
 import { useEffect, useState } from "preact/hooks";
 import { isSilence } from "../api/client";
 import { later } from "../api/rest";
 
-const AGAIN_MS = 3000; // after a question that nobody answered
+const AGAIN_MS = 3000; // after a question without an answer
 
 export interface Asked<Answer> {
-  /** The last answer; it stays in view until the next is there. */
+  /** The last answer, kept until the next arrives. */
   answer: Answer | undefined;
   /** Why the newest question was refused; empty if it was not. */
   refused: string;

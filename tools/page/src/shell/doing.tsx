@@ -1,15 +1,15 @@
-// One thing at a time, asked for by a control; what is refused stands at that control.
+// One action at a time, started by a control; a refusal is shown at that control.
 import type { ComponentChild, ComponentChildren } from "preact";
 import { useEffect, useState } from "preact/hooks";
 
-/** Whether something is being done, what does it, and why the last was refused: to be shown at the control. */
+/** Whether an action is running, which control started it, and why the last was refused. */
 export type Doing = [
   busy: boolean,
   run: (work: () => Promise<unknown>) => Promise<void>,
   refusal: ComponentChild,
 ];
 
-/** Takes each refusal away: what one control did may have mended what another was refused for. */
+/** Clears all refusals: one control's action may have fixed the reason for another's. */
 const clearings = new Set<() => void>();
 
 export function useDo(): Doing {
@@ -46,16 +46,16 @@ export function Refusal({ line }: { line: string }) {
 interface DoParts {
   work: () => Promise<unknown>;
   children: ComponentChildren;
-  /** Whether the screen wants it next. */
+  /** Whether it is the next thing to do on the screen. */
   isNext?: boolean | undefined;
   disabled?: boolean;
-  /** What is heard, where the words alone say too little. */
+  /** A label for screen readers, if the text alone says too little. */
   label?: string;
-  /** What the button says while it works. */
+  /** The button's text while it works. */
   meanwhile?: string;
 }
 
-/** A button that does something: never twice at once, and why it was refused stands beside it. */
+/** A button for an action, which cannot be started twice; a refusal is shown beside it. */
 export function Do({ work, children, isNext, disabled, label, meanwhile }: DoParts) {
   const [busy, run, refusal] = useDo();
   return (

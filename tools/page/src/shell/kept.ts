@@ -1,17 +1,17 @@
-// A value that somebody edits and the server keeps: shown at once, kept in this browser until the server has it, sent
-// again when the server was away, and laid on what the file holds by now.
+// An edited value that the server stores: shown at once, kept in this browser until the server has it, sent again after
+// the server was away, and merged into what the file holds by then.
 import { useEffect, useReducer, useRef, useState } from "preact/hooks";
 import { editOf, forget, isUnderWay, keep, listen } from "./outbox";
 import { collides, type Edited, rebased, same } from "./rebase";
 import { type Sending, useSending } from "./sending";
 
-/** Where a value stands between the person and the disk. */
+/** The state of a value between the editor and the disk. */
 export interface Kept<Value> {
   value: Value; // what to show
   put: (next: Value | ((value: Value) => Value)) => void;
   waiting: boolean; // the server does not have it yet
-  refused: string; // why the server does not take it; the value stays for mending
-  changed: boolean; // the file is another by now; nothing is sent before that is settled
+  refused: string; // why the server does not accept it; the value stays to be corrected
+  changed: boolean; // the file has changed; nothing is sent before that is settled
   settle: (mine: boolean) => void;
 }
 
@@ -22,7 +22,7 @@ export interface KeptParts<Value> {
   save: (value: Value) => Promise<Value>;
   /** Asks for what is on disk now, so that `saved` becomes that. */
   reload: () => Promise<unknown>;
-  /** Whether somebody is asked when the file holds something else where he types; else what he typed holds. */
+  /** Whether to ask when the file has changed in the same place; otherwise what was typed wins. */
   asks?: boolean;
   /** How long to wait after the last change [ms]; a quarter of a second for what is typed. */
   pause?: number;
@@ -50,7 +50,7 @@ export function useKept<Value>(parts: KeptParts<Value>): Kept<Value> {
     refuse: (value, line) => setRefusal({ value, line }),
   };
   useSending(sending);
-  // Somebody may type twice before the next picture, so the second edit builds on the first.
+  // Two edits may come before the next frame, so the second builds on the first.
   const newest = useRef({ value, saved, changed });
   newest.current = { value, saved, changed };
   return {
@@ -72,13 +72,13 @@ export function useKept<Value>(parts: KeptParts<Value>): Kept<Value> {
   };
 }
 
-/** What to show: while a save is on its way nobody knows what is saved. */
+/** What to show: during a save it is not known what is stored. */
 function shownValue<Value>(edit: Edited<Value> | undefined, saved: Value, underWay: boolean) {
   if (!edit) return saved;
   return underWay ? edit.value : rebased(edit, saved);
 }
 
-/** Whether choices are on their way: what goes by them has to wait. */
+/** Whether choices are being saved: what depends on them has to wait. */
 export function useChoosing(): boolean {
   useOutbox();
   return editOf("choices") !== undefined;

@@ -1,4 +1,4 @@
-// The live line to the lab: it says how the machine is, each second at least, and takes Stop and Hold.
+// The live connection to the lab: it reports the machine at least once a second, and takes Stop and Hold.
 import { Refusal, type Schemas, send } from "../api/client";
 import { begin } from "../api/rest";
 import { token } from "../api/token";
@@ -6,7 +6,7 @@ import type { Way } from "./presses";
 
 type Answer = Schemas["MachineAnswer"];
 const TRY_AGAIN_MS = 1000;
-const SILENT_MS = 3500; // the lab speaks each second; a busy computer may be late
+const SILENT_MS = 3500; // the lab reports each second; a busy computer may be late
 const PRESS_MS = 2000; // for the answer to a press
 
 export class Live {
@@ -42,13 +42,13 @@ export class Live {
     this.socket?.close();
   }
 
-  /** How long nobody has spoken [s]; 0 while the line is alive. */
+  /** How long it has been silent [s]; 0 while it is alive. */
   silence(): number {
     const passed = Date.now() - this.heardAt;
     return passed < SILENT_MS ? 0 : Math.round(passed / 1000);
   }
 
-  /** Presses over the line and by a request; the first answer counts. Fails if there is none. */
+  /** Sends a press over the live connection and as a request; the first answer counts. Fails without one. */
   async press(way: Way): Promise<void> {
     const request = send("POST", `machine/${way}`, undefined, PRESS_MS);
     const answers = [request.then(() => undefined)];

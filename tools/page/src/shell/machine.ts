@@ -1,11 +1,11 @@
-// The machine as it is now: the server says so over a websocket, each time that something changes.
+// The machine's current state, which the server sends over a websocket at each change.
 import { createContext } from "preact";
 import { useContext, useEffect, useMemo, useState } from "preact/hooks";
 import { isSilence, type Schemas } from "../api/client";
 import { Live } from "./live";
 import { type Press, Presses } from "./presses";
 
-/** How it is; `unseen` seconds ago, 0 while it is heard of all the time. */
+/** Its state, `unseen` seconds ago; 0 while reports keep coming. */
 export type Machine = Schemas["MachineAnswer"] & { unseen: number };
 
 const NONE: Machine = {
@@ -35,17 +35,17 @@ export function useMachine(): Machine {
   return useContext(MachineContext);
 }
 
-/** Whether it can take work now. */
+/** Whether it is ready for work now. */
 export function isReady(machine: Machine): boolean {
   return machine.phase === "ready" && !machine.moves && !machine.holds && machine.unseen === 0;
 }
 
-/** Whether there is a line to it. */
+/** Whether it is connected. */
 export function isConnected({ kind, phase }: Machine): boolean {
   return kind !== "none" && phase !== "lost";
 }
 
-/** Its name at the beginning of a sentence. */
+/** Its name with a capital letter. */
 export function subject(machine: Machine): string {
   return machine.kind === "virtual" ? "The virtual machine" : "The machine";
 }

@@ -1,4 +1,4 @@
-// What a path answers for the folder as it is now; why it does not is said on top of the page.
+// A path's answer for the folder as it is now; errors are shown on top of the page.
 import { useEffect, useRef } from "preact/hooks";
 import { get } from "../api/client";
 import { useAsked } from "./asked";

@@ -1,7 +1,7 @@
-// Edits that the server has not confirmed yet. They lie in this browser, by folder, so that no crash, reload or dead
-// server loses what somebody typed.
+// Edits that the server has not confirmed yet, stored in this browser by folder, so that no crash, reload or dead
+// server loses what was typed.
 
-/** What somebody wants a place to hold, and what it held when the editing began. */
+/** The edited value of a place, and its value before the edit. */
 export interface Edit {
   value: unknown;
   was: unknown;
@@ -37,7 +37,7 @@ export function keep(place: string, edit: Edit): void {
   try {
     localStorage.setItem(storedAs(place), JSON.stringify(edit));
   } catch {
-    // A browser without room keeps the edit as long as the tab is open.
+    // Without storage the edit is kept as long as the tab is open.
   }
   tell();
 }
@@ -53,12 +53,12 @@ export function forget(place: string): void {
   tell();
 }
 
-/** Whether a value of this place is on its way to the server, so that nobody knows what is saved. */
+/** Whether a value of this place is being sent, so that it is not known what is stored. */
 export function isUnderWay(place: string): boolean {
   return underWay.has(place);
 }
 
-/** Says that a value of this place is on its way, or that the answer is here. */
+/** Notes that a value of this place is being sent, or was answered. */
 export function setUnderWay(place: string, is: boolean): void {
   if (is) underWay.add(place);
   else underWay.delete(place);
@@ -70,7 +70,7 @@ export function waitingPlaces(): string[] {
   return [...edits.keys()];
 }
 
-/** Calls back after each change; returns what ends that. */
+/** Calls back after each change; returns a function that stops it. */
 export function listen(callback: () => void): () => void {
   listeners.add(callback);
   return () => listeners.delete(callback);

@@ -1,7 +1,7 @@
-// Stop and Hold: sent until they are answered, over the live line and as a request, whichever comes through.
+// Stop and Hold: sent until answered, both over the live connection and as a request.
 
 export type Way = "stop" | "hold";
-/** What became of the last press. */
+/** The state of the last press. */
 export interface Press {
   way: Way;
   state: "sent" | "unanswered" | "done" | "refused";
@@ -12,7 +12,7 @@ export interface Press {
 export interface Channel {
   /** Sends a press and waits for its answer for a moment. */
   press: (way: Way) => Promise<void>;
-  /** Whether nobody answered, so that the press is to be sent again. */
+  /** Whether there was no answer, so that the press has to be sent again. */
   isSilence: (error: unknown) => boolean;
   /** Waits before the next try. */
   rest: () => Promise<void>;
@@ -49,7 +49,7 @@ export class Presses {
     }
   }
 
-  /** Nothing is sent again: something else was pressed. */
+  /** Stops sending: something else was pressed. */
   giveUp(): void {
     this.newest += 1;
   }

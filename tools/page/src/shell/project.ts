@@ -15,7 +15,7 @@ export interface Shared {
   take: (project: Project) => void;
   /** Changes choices: shown at once, kept in the browser until they are saved. Ends when they are. */
   choose: (change: Partial<Choices>) => Promise<void>;
-  /** Asks what is on disk now. */
+  /** Reads again what is on disk. */
   reload: () => Promise<void>;
   /** What went wrong last; empty if nothing. */
   trouble: string;
@@ -49,7 +49,7 @@ export const SILENT = "The lab does not answer";
 export interface Loaded {
   shared: Shared | undefined;
   trouble: string;
-  /** This phone is not paired, or was sent away: the server answers it nothing. */
+  /** This phone is not paired, or no longer: the server does not answer it. */
   isStranger: boolean;
   reload: () => Promise<void>;
 }
@@ -92,12 +92,12 @@ function useLoadedProject(setTrouble: (change: (line: string) => string) => void
   const show = useCallback((answer: Project) => {
     openOutbox(answer.key);
     setStranger(false);
-    // What is as before stays the same object, so that no screen asks again for what it shows.
+    // Unchanged parts stay the same objects, so that no screen asks again for what it shows.
     setProject((before) => (same(before, answer) ? before : answer));
   }, []);
   const take = useCallback(
     (answer: Project) => {
-      // An answer that a save has overtaken is old.
+      // A save has finished since: this answer is out of date.
       turns.overtake();
       show(answer);
     },
@@ -117,7 +117,7 @@ function useLoadedProject(setTrouble: (change: (line: string) => string) => void
   }, [turns, show, setTrouble]);
   useEffect(() => {
     let looks = false;
-    // Looks that nobody answers would take all the connections that a browser has.
+    // Unanswered requests would use up all the browser's connections.
     const look = async () => {
       if (looks) return;
       looks = true;

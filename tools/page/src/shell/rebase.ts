@@ -1,6 +1,6 @@
-// What somebody typed, laid on what is on disk by now.
+// Merges an edit into what is on disk by now.
 
-/** What somebody made of a record, and what it was when he began. */
+/** An edited record, and the record before the edit. */
 export interface Edited<Value> {
   value: Value;
   was: Value;
@@ -16,7 +16,7 @@ export function same(first: unknown, second: unknown): boolean {
   return names(first, second).every((name) => same(first[name], second[name]));
 }
 
-/** The saved record with the names that were changed here as they are here. */
+/** The saved record with the fields that were changed here. */
 export function rebased<Value>({ value, was }: Edited<Value>, saved: Value): Value {
   if (!isRecord(value) || !isRecord(was) || !isRecord(saved) || same(was, saved)) return value;
   const together: Record<string, unknown> = { ...saved };
@@ -28,7 +28,7 @@ export function rebased<Value>({ value, was }: Edited<Value>, saved: Value): Val
   return together as Value;
 }
 
-/** Whether a name holds something else by now than both what it held and what was typed there. */
+/** Whether a field on disk differs by now both from its value before the edit and from what was typed. */
 export function collides<Value>({ value, was }: Edited<Value>, saved: Value): boolean {
   if (!isRecord(value) || !isRecord(was) || !isRecord(saved)) return !same(was, saved);
   return names(was, value).some(

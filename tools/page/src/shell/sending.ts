@@ -1,5 +1,5 @@
-// Sends an edited value to the server: soon after the last key, again while nobody answers, and once more when the
-// screen closes. What the server refuses is not sent again before somebody changes it.
+// Sends an edited value to the server: soon after the last key, again without an answer, and once more when the screen
+// closes. A refused value is not sent again before it is changed.
 import { useEffect, useReducer, useRef } from "preact/hooks";
 import { Refusal } from "../api/client";
 import { later } from "../api/rest";
@@ -64,7 +64,7 @@ function sent<Value>(sending: Sending<Value>): Promise<boolean> {
   return way;
 }
 
-/** Sends the value; false if nobody answered, so that it is to be sent again. */
+/** Sends the value; false without an answer, so that it has to be sent again. */
 async function answered<Value>(sending: Sending<Value>): Promise<boolean> {
   const { place, value, saved: before, save, reload, refuse } = sending;
   setUnderWay(place, true);
@@ -72,10 +72,10 @@ async function answered<Value>(sending: Sending<Value>): Promise<boolean> {
   keep(place, { value, was: before });
   try {
     const saved = await save(value);
-    // In the same breath as what follows, so that no picture is drawn of half of it.
+    // Together with what follows, so that no half-updated frame is drawn.
     setUnderWay(place, false);
     const now = editOf(place);
-    // Who typed on in the meantime goes on from what is saved now, which may be more than what was sent.
+    // If typing went on meanwhile, it continues from what is saved now, which may be more than was sent.
     if (now && !same(now.value, value))
       keep(place, { value: rebased({ was: value, value: now.value as Value }, saved), was: saved });
     else forget(place);

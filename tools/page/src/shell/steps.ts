@@ -1,4 +1,4 @@
-// The way through a calibration: its steps in order, and what each needs before it opens.
+// The steps of a calibration in order, and what each needs before it opens.
 import type { ComponentType } from "preact";
 import type { Project, Schemas } from "../api/client";
 import { Bench } from "../bench/Bench";
@@ -21,7 +21,7 @@ export interface Step {
   id: string; // in the address, behind #
   title: string;
   Screen: ComponentType;
-  /** What came of it, in a word; empty if nothing. */
+  /** Its result in a word or two; may be empty. */
   result?: (project: Project, form: Form | undefined) => string;
   /** What is missing before this screen opens, in a few words; empty if nothing. */
   needs: (project: Project) => string;

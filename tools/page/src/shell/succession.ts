@@ -1,5 +1,5 @@
 // Saves of the same thing from this tab: each waits for the answer to the save before it, and names the state that it
-// left. What somebody else saved is in no succession of this tab, so the server still refuses to replace it unseen.
+// left. Saves made elsewhere are not part of it, so the server still refuses to overwrite them unseen.
 
 interface Saved {
   digest: string;

@@ -1,4 +1,4 @@
-// Answers of a server that is busy come in any order: which of them still count.
+// A busy server's answers come in any order: this says which of them still count.
 
 /** The order in which something was asked. */
 export class Turns {
@@ -18,7 +18,7 @@ export class Turns {
     return true;
   }
 
-  /** Something newer than all that was asked is known. */
+  /** Something newer than any answer is known. */
   overtake(): void {
     this.newest = this.asked;
   }

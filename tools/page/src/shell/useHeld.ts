@@ -1,4 +1,4 @@
-// What the connected machine and the open file say otherwise; undefined while one of them is not known.
+// Differences between the connected machine and the open file; undefined while one of them is unknown.
 import type { Schemas } from "../api/client";
 import { useMachine } from "./machine";
 import { useNewest } from "./newest";

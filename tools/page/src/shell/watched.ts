@@ -1,4 +1,4 @@
-// A piece of the server's state that others change too: looked at again and again, and changed by presses.
+// A part of the server's state that others change too: polled, and changed by buttons.
 import { useCallback, useEffect, useRef, useState } from "preact/hooks";
 import { get, isSilence, send } from "../api/client";
 import { LOOK_MS } from "../api/patience";
@@ -8,7 +8,7 @@ const SELDOM_MS = 3000; // so what another tab or the command line does shows up
 /** How a screen sees the state, and changes it. */
 export interface Watched<State> {
   state: State | undefined;
-  /** Nobody answered the last look, so the state may be old. */
+  /** The last poll was not answered, so the state may be out of date. */
   silent: boolean;
   /** Sends something that answers with the new state. */
   press: (name: string, body?: unknown) => Promise<void>;
@@ -18,7 +18,7 @@ export interface Watched<State> {
   refused: string;
 }
 
-/** Never two looks at once, and none while a press is under way; the more often while `works`, if it is said. */
+/** Never two polls at once, and none while a press is under way; more often while `works`, if given. */
 export function useWatched<State>(
   path: string,
   works: (state: State) => boolean = () => false,
@@ -37,7 +37,7 @@ export function useWatched<State>(
     const { pressed } = now;
     try {
       const seen = await get<State>(path, LOOK_MS);
-      // An answer that a press has overtaken is old.
+      // A press has been answered since: this answer is out of date.
       if (pressed === now.pressed) setState(() => seen);
       setSilent(false);
     } catch (error) {

@@ -1,4 +1,4 @@
-// Step 9: two marks that took no part: is the machine where its settings promise?
+// Step 9: two marks that were not part of the fit: is the machine as accurate as its settings promise?
 
 import { useEffect } from "preact/hooks";
 import { type Project, type Schemas, send } from "../api/client";
@@ -120,7 +120,7 @@ function OpenCheck({ answer }: { answer: CheckAnswer }) {
 
 type Next = "read" | "go on" | "cut" | "write" | "nothing";
 
-/** What is to be done next: the button of the screen does it. Fields for readings are there anyway. */
+/** What to do next: the screen's button does it. Fields for readings are always there. */
 function nextOf(answer: CheckAnswer, machine: Machine): Next {
   const { sentence, is_saved, broke_off, goes_on, meant } = answer;
   if (sentence) return "nothing";
@@ -131,13 +131,13 @@ function nextOf(answer: CheckAnswer, machine: Machine): Next {
   return broke_off != null && goes_on ? "go on" : "cut";
 }
 
-/** Has the diary note a result, once it is there. */
+/** Writes a result into the diary, once there is one. */
 function useNoted(answer: CheckAnswer | undefined): void {
   const { take } = useProject();
   const isNew = !!answer?.sentence && !answer.is_noted;
   useEffect(() => {
     if (!isNew) return;
-    // Who looks at the result next time has it noted then.
+    // If it fails, the next look at the result writes it.
     send<Project>("POST", "check/note").then(take, () => undefined);
   }, [isNew, answer?.sentence, take]);
 }
@@ -152,7 +152,7 @@ function Why() {
   );
 }
 
-/** Nothing can be checked before a correction promises something. */
+/** Nothing can be checked before there is a correction. */
 function NoPromise() {
   return (
     <Screen

@@ -1,4 +1,4 @@
-// Step 8: each number before and after, accepted one by one; written, sent, read back, and taken back.
+// Step 8: each number before and after, accepted one by one; written, sent, read back, and undone.
 import { useRef } from "preact/hooks";
 import type { Choices, Schemas } from "../api/client";
 import { namedLength, shownLength } from "../controls/lengths";
@@ -80,7 +80,7 @@ function useCurrent({ answer, made }: Parts): boolean {
   );
 }
 
-/** Which numbers are believed, and written. */
+/** Which numbers are accepted and written. */
 function Question(parts: Parts) {
   const { answer, made, writing } = parts;
   const { accepted = [] } = useProject().project.choices;
@@ -135,7 +135,7 @@ function Question(parts: Parts) {
   );
 }
 
-/** What is written goes to the machine; what would still change is folded away. */
+/** Sends what is written to the machine; numbers that would still change are folded away. */
 function Written(parts: Parts) {
   const { answer, made, writing, isHeld } = parts;
   const { settings } = useProject().project.choices;
@@ -202,7 +202,7 @@ function Fall({ from, to, busy }: { from: State; to: State; busy: boolean }) {
   );
 }
 
-/** What speaks against the numbers, or has to be done at the machine: the promise counts on it. */
+/** Doubts about the numbers, or work on the machine that the promise depends on. */
 export function ByHand({ title, said }: { title: string; said: string[] }) {
   return (
     <section class="box edge warned" aria-label={title}>

@@ -88,7 +88,7 @@ function OpenCut({ grid }: { grid: Grid }) {
 
 type Next = "wait" | "connect" | "read" | "chains" | "go on" | "cut" | "save" | "type";
 
-/** What is to be done next: the button of the screen does it, or a button of the machine's bar. */
+/** What to do next: the screen's button does it, or one in the machine's bar. */
 function nextOf(grid: Grid, machine: Machine): Next {
   const outcome = machine.program?.title === grid.program ? machine.program.outcome : undefined;
   if (outcome === "running") return "wait";
@@ -167,7 +167,7 @@ function PutBack() {
   );
 }
 
-/** Whoever begins again on the sheet has each mark twice there that is cut already. */
+/** Beginning again on the same sheet would cut the finished marks twice. */
 function beginWords({ broke_off, perhaps, is_proposed }: Grid, { kind }: Machine): string {
   if (broke_off == null) return "Move";
   if (kind === "virtual" || broke_off + perhaps === 0) return "Begin again: move";

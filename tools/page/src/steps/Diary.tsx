@@ -14,7 +14,7 @@ type DiaryAnswer = Schemas["DiaryAnswer"];
 export function Diary() {
   const { project } = useProject();
   const units = project.choices.units ?? "mm";
-  // A new entry, or another unit, is asked for; the server goes by the unit that it has.
+  // Asked again for a new entry or another unit; the server uses its saved unit.
   const state = `${project.files["diary.jsonl"]} ${project.choices_digest}`;
   const diary = useNewest<DiaryAnswer>("diary", state);
   if (!diary) return <Screen title="The diary" say="One moment …" busy />;

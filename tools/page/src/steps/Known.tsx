@@ -1,4 +1,4 @@
-// Step 2: what the owner knows without a mark: a drawing with the distance, a number, and how sure it is.
+// Step 2: what you can measure without marks: a drawing with the distance, a number, and its uncertainty.
 import { useRef, useState } from "preact/hooks";
 import type { Choices, Schemas } from "../api/client";
 import { type Distance, MachinePicture } from "../machine/MachinePicture";
@@ -14,7 +14,7 @@ type Number = Schemas["KnownNumber"];
 
 const FIRST = "motor_gap";
 
-/** The number for which somebody came here, behind the screen in the address. */
+/** The number that the address asks for, after the screen. */
 function numberInAddress(): string {
   return location.hash.split("/")[2] ?? "";
 }

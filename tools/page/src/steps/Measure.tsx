@@ -1,4 +1,4 @@
-// Step 4: choose how to measure, and see before a hole is cut what the marks could tell.
+// Step 4: choose how to measure, and see what the marks could tell before a hole is cut.
 import { send } from "../api/client";
 import { Trouble } from "../controls/Trouble";
 import { useAsked } from "../shell/asked";

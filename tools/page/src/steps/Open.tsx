@@ -1,4 +1,4 @@
-// Step 1: which machine is it? A file of settings, a port, or a virtual machine.
+// Step 1: choose the machine: a file of settings, a port, or a virtual machine.
 import { type Project, sendFile } from "../api/client";
 import { isPhone } from "../api/here";
 import { namedLength } from "../controls/lengths";
@@ -16,7 +16,7 @@ export function Open() {
   const { machine } = project;
   const guide = useGuide();
   const connected = useMachine().kind !== "none";
-  // Who is in the middle of the first day sees it first.
+  // An unfinished first day comes first.
   const begun = guide.guide?.steps.some((step) => step.done) && guide.guide.open !== "";
   const first = connected && (begun || guide.guide?.here !== "" || !machine);
   const read = machine ? `plumb settings ${machine.file}` : "plumb read -o machine.toml";

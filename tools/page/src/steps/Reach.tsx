@@ -9,7 +9,7 @@ import { Screen } from "../shell/Screen";
 import "./reach.css";
 
 type Answer = Schemas["ReachAnswer"];
-/** Class of the map, and what it means to a maker, by verdict. */
+/** For each verdict its class on the map, and its meaning. */
 const MEANING: [string, string][] = [
   ["usable", "usable"],
   ["tight", "too tight: a chain pulls harder than its gearbox likes"],
@@ -74,7 +74,7 @@ function Places({ reach, sheet }: { reach: Answer; sheet: readonly [number, numb
   );
 }
 
-/** The extreme places; what is the same place is a single mark. */
+/** The extreme places, without duplicates. */
 function spotsOf(reach: Answer): Mark[] {
   const spots = new Map<string, Mark>();
   for (const { place, title } of reach.extremes) {

@@ -1,4 +1,4 @@
-// Step 6: what the tape says, typed into a grid laid out like the sheet.
+// Step 6: the tape's readings, typed into a grid laid out like the sheet.
 
 import type { Schemas } from "../api/client";
 import { namedLength } from "../controls/lengths";

@@ -31,7 +31,7 @@ export function Verdict() {
   const place = useRef<HTMLDivElement>(null);
   const findNext = () => {
     wantNext();
-    // On a phone the answer comes far below what was pressed.
+    // On a phone the answer appears far below the button.
     requestAnimationFrame(() => place.current?.scrollIntoView({ block: "center" }));
   };
   const verdict = answer?.verdict;
@@ -39,7 +39,7 @@ export function Verdict() {
     verdict ? "bench" : "",
     JSON.stringify(project.files),
   );
-  // The likeliest cause lies under the arrows until somebody chooses another, or none.
+  // The likeliest cause is drawn under the arrows until another, or none, is chosen.
   const [chosen, lay] = useState<string | null>();
   const likeliest = verdict?.marks.length ? verdict.cards[0] : undefined;
   const card =
@@ -58,7 +58,7 @@ export function Verdict() {
       </Screen>
     );
   }
-  // The answer goes on here: something has to be measured.
+  // It goes on here: something has to be measured.
   const isOpen = verdict.step.screen === "verdict";
   return (
     <Screen
@@ -143,7 +143,7 @@ export function Verdict() {
   );
 }
 
-/** Whether somebody asked for the next measurement of a folder; a reload and a report keep the question. */
+/** Whether the next measurement was asked for in this folder; kept in reloads and reports. */
 function useNextWanted(folder: string): [boolean, () => void] {
   const key = `plumb-next/${folder}`;
   const [isWanted, setWanted] = useState(isReport || sessionStorage.getItem(key) !== null);

@@ -1,11 +1,11 @@
-// Opens the settings again that were open before the latest correction; no file is lost.
+// Reopens the settings from before the latest correction; no file is lost.
 import { useChoosing } from "../../shell/kept";
 import { useProject } from "../../shell/project";
 import { useKnown, type Writing } from "./useWriting";
 
 interface GoBackParts {
   writing: Writing;
-  /** What follows, where it is what to do next. */
+  /** What follows, if this is the next thing to do. */
   then?: string;
 }
 

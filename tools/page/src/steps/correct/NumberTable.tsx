@@ -4,7 +4,7 @@ import { Table } from "../../controls/Table";
 
 interface TableParts {
   numbers: readonly Schemas["ChangedNumber"][];
-  /** The names of those that are believed, where that is asked. */
+  /** The names of the accepted numbers, if they can be chosen. */
   accepted?: readonly string[];
   accept?: (names: string[]) => void;
 }

@@ -6,7 +6,7 @@ import { NumberTable } from "./NumberTable";
 
 export function Numbers({ made, busy }: { made: Schemas["CorrectionParts"]; busy: boolean }) {
   const { project, choose } = useProject();
-  // Those too that the server does not know yet.
+  // Including those not yet saved on the server.
   const accepted = project.choices.accepted ?? [];
   const accept = (names: string[]) => void choose({ accepted: names });
   const now = asked(made, accepted);

@@ -1,4 +1,4 @@
-// Why nothing can be said of the marks; and the way back where readings changed after a fit to them.
+// Why there is no verdict on the marks, and how to go back if readings changed after a fit.
 import type { ComponentChildren } from "preact";
 import { useProject } from "../../shell/project";
 import { Screen } from "../../shell/Screen";

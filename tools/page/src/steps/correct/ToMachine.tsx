@@ -1,4 +1,4 @@
-// What was written, how it comes into the machine, and what the machine says that it holds now.
+// What was written, how to send it to the machine, and what the machine reports it holds now.
 import type { Project } from "../../api/client";
 import { setting, settingText } from "../../controls/settings";
 import { Table } from "../../controls/Table";

@@ -1,4 +1,4 @@
-// Writes the accepted numbers into a file, sends a file to the machine, and takes either back.
+// Writes the accepted numbers into a file, sends a file to the machine, and undoes either.
 import { useState } from "preact/hooks";
 import { type Schemas, send } from "../../api/client";
 import { type Doing, useDo } from "../../shell/doing";
@@ -10,7 +10,7 @@ export type Sent = Schemas["NumbersAnswer"];
 
 export interface Writing {
   busy: boolean;
-  /** Why the last was refused, to be shown at its button. */
+  /** Why the last action was refused, for its button. */
   notWritten: Doing[2];
   notSent: Doing[2];
   written: Schemas["Written"] | undefined;
@@ -57,7 +57,7 @@ export function useWriting(): Writing {
   };
 }
 
-/** What the page knows of the folder: nothing is written over what it has not seen. */
+/** What the page knows of the folder, so that nothing it has not seen is overwritten. */
 export function useKnown(): Known {
   const { project } = useProject();
   return {

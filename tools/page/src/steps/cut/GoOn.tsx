@@ -1,4 +1,4 @@
-// On from where a cut broke off: which marks are on the sheet is asked where nobody but its owner can know.
+// Continues a cut that broke off; asks which marks are on the sheet if that is unknown.
 import type { ComponentChild } from "preact";
 import { useEffect, useState } from "preact/hooks";
 import { send } from "../../api/client";
@@ -17,13 +17,13 @@ interface GoOnParts {
   blocked: boolean;
 }
 
-/** The question, and the button that goes on by its answer. */
+/** The question, and the button that continues. */
 export function useGoOn(parts: GoOnParts): [question: ComponentChild, act: ComponentChild] {
   const { surely, perhaps, names, path, blocked } = parts;
   const { reload } = useProject();
   const machine = useMachine();
   const [seen, setSeen] = useState<number>();
-  // Each break is another question.
+  // A new break asks again.
   useEffect(() => setSeen(undefined), [surely, perhaps]);
   const choosing = useChoosing();
   const cut = perhaps > 0 ? seen : surely;
@@ -62,7 +62,7 @@ export function useGoOn(parts: GoOnParts): [question: ComponentChild, act: Compo
   return [question, act];
 }
 
-/** How far a cut came that broke off, as the folder knows it: after a restart of the lab too. */
+/** How far a broken-off cut came, from the folder, so that it survives a restart of the lab. */
 export function brokenWords(surely: number, perhaps: number, names: readonly string[]): string {
   if (surely === names.length) return "All marks are cut.";
   const more = names.slice(surely, surely + perhaps);

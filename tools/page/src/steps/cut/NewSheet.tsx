@@ -1,4 +1,4 @@
-// Whether the next marks go onto another sheet, and how that should lie.
+// Whether the next marks go onto a new sheet, and how to place it.
 import { namedLength } from "../../controls/lengths";
 import { useUnits } from "../../controls/units";
 import { useMachine } from "../../shell/machine";

@@ -1,4 +1,4 @@
-// What came of the last cut, and what to do about it.
+// The result of the last cut, and what to do about it.
 import { Do } from "../../shell/doing";
 import { isConnected, isReady, type Machine, useMachine } from "../../shell/machine";
 import { useTell } from "../../shell/project";

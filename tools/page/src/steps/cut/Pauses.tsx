@@ -1,4 +1,4 @@
-// Where the program waits for a person, and what is to be done there.
+// Where the program waits for you, and what to do there.
 import { capital } from "../../controls/words";
 import type { Grid } from "../Cut";
 

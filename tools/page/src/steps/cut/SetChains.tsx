@@ -1,4 +1,4 @@
-// Where the sled is, is not known: the machine is given the lengths of its chains, and the height of its bit.
+// If the sled's place is unknown: sets the lengths of the chains and the height of the bit.
 import type { ComponentChild } from "preact";
 import { useState } from "preact/hooks";
 import { send } from "../../api/client";

@@ -1,4 +1,4 @@
-// How a number went, fit by fit, with its 95 % interval.
+// How a number changed from fit to fit, with its 95 % interval.
 import type { Schemas } from "../../api/client";
 
 export function Course({ course }: { course: Schemas["Course"] }) {

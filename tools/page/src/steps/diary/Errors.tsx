@@ -1,4 +1,4 @@
-// The error of each fit: before it, after it, and on marks that took no part.
+// The error of each fit: before it, after it, and on marks that were not part of it.
 import type { Schemas } from "../../api/client";
 import { Bar } from "../../controls/Bar";
 import { namedLength, type Unit } from "../../controls/lengths";

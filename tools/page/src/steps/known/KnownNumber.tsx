@@ -1,4 +1,4 @@
-// A number that can be measured by hand: what is read, and how far that may be off.
+// A number that can be measured by hand: the reading, and its uncertainty.
 import { useEffect, useRef } from "preact/hooks";
 import { type Schemas, send } from "../../api/client";
 import { shownLength, typedLength, type Unit } from "../../controls/lengths";
@@ -14,7 +14,7 @@ interface NumberParts {
   number: Known;
   known: Value | undefined;
   here: boolean;
-  /** Somebody came to this screen for it. */
+  /** The address asked for it. */
   wanted: boolean;
   look: () => void;
   keep: (value: Value | undefined) => void;
@@ -40,7 +40,7 @@ export function KnownNumber({ number, known, here, wanted, look, keep }: NumberP
   const [sigma, setSigma] = useTyped(sure, () => false);
   const [typed, error] = [typedLength(read, unit), typedLength(sigma, unit)];
   const wrong = isWrong(read) || error === undefined || error <= 0;
-  // Why what is saved cannot be; not said of what is typed over it.
+  // Why the saved value is impossible; hidden while it is being retyped.
   const refused = read === saved ? number.refused : "";
   const done = () => {
     if (read === "" || isWrong(read)) {

@@ -1,4 +1,4 @@
-// What is read by hand and the number that it says: factor * curve(reading - zero), with how far each may be off.
+// A reading and the number it stands for: factor * curve(reading - zero), each with its uncertainty.
 
 export type Curve = "straight" | "square" | "tangent squared";
 
@@ -26,14 +26,14 @@ const CURVES: Record<Curve, [(read: number) => number, (value: number) => number
   ],
 };
 
-/** The number that a reading says. */
+/** The number for a reading. */
 export function numberOf({ zero, factor, curve }: Way, read: Value): Value {
   const [bend] = CURVES[curve];
   const from = read.value - zero;
   return { value: factor * bend(from), sigma: Math.abs(factor) * rise(bend, from, read.sigma) };
 }
 
-/** The reading that says a number. */
+/** The reading for a number. */
 export function readingOf({ zero, factor, curve }: Way, known: Value): Value {
   const [bend, straighten] = CURVES[curve];
   const from = straighten(known.value / factor);

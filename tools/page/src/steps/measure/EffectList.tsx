@@ -1,4 +1,4 @@
-// Each effect under the plan: it could be named, it would show but look like another, or it stays hidden.
+// Each effect under the plan: it would be identified, would look like another, or would stay hidden.
 import type { Layout } from "./plan";
 
 type Effect = Layout.Plan["preview"]["outlines"][number];

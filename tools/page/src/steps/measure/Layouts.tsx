@@ -4,7 +4,7 @@ import type { Layout } from "./plan";
 interface LayoutsParts {
   layouts: Layout.Layout[];
   chosen: Layout.Id;
-  /** Marks of the person's choice. */
+  /** Marks that you place yourself. */
   count: number;
   choose: (id: Layout.Id) => void;
 }

@@ -1,4 +1,4 @@
-// The planned marks on the sheet; more by their place, and the chosen is taken away.
+// The planned marks on the sheet: add marks by their place, or remove the chosen one.
 import { useState } from "preact/hooks";
 import { typedLength } from "../../controls/lengths";
 import { useUnits } from "../../controls/units";

@@ -1,4 +1,4 @@
-// What the server says of layouts and plans.
+// The server's types for layouts and plans.
 import type { Schemas } from "../../api/client";
 
 export type Place = [number, number]; // [mm] machine frame

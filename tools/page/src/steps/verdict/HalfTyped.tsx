@@ -1,4 +1,4 @@
-// Marks of which half a reading is typed in this browser: they do not count, and the verdict says so.
+// Marks with half a reading in this browser: they do not count, and the verdict says so.
 import { useEffect, useState } from "preact/hooks";
 import { get } from "../../api/client";
 import { allHalves } from "../../readings/halves";
@@ -9,7 +9,7 @@ export function HalfTyped() {
   const { project } = useProject();
   const [count, setCount] = useState(0);
   const state = JSON.stringify(project.files);
-  // What is read by now is half typed no longer.
+  // Marks that have been read since are no longer half typed.
   useEffect(() => {
     let over = false;
     void halfTyped(project.key).then((now) => over || setCount(now));

@@ -1,4 +1,4 @@
-// A suspect: its odds, how large it is, and whether what it draws lies over the marks; folded away, what settles it.
+// A suspect: its odds, its size, and whether its pattern is shown over the marks; folded away, how to settle it.
 import { Bar } from "../../controls/Bar";
 import { namedLength, type Unit } from "../../controls/lengths";
 import { capital } from "../../controls/words";
@@ -8,9 +8,9 @@ import type { Card } from "./words";
 interface CardParts {
   card: Card;
   units: Unit;
-  /** Whether what it draws lies over the marks. */
+  /** Whether its pattern is shown over the marks. */
   isLaid: boolean;
-  /** Lays it over the marks, if there are any. */
+  /** Shows its pattern over the marks, if there are any. */
   lay?: () => void;
 }
 

@@ -1,4 +1,4 @@
-// Takes a proposal into the folder: a form for its readings, and the program that cuts its marks. Nothing moves.
+// Adds a proposal to the folder: a form for its readings, and the program that cuts its marks. Nothing moves.
 import type { Schemas } from "../../api/client";
 import { Do } from "../../shell/doing";
 import { useTell } from "../../shell/project";
@@ -7,7 +7,7 @@ export type Taking = Schemas["Taking"];
 
 interface TakeParts {
   taking: Taking;
-  /** What is measured, if the button is not that of the best. */
+  /** What is measured, if it is not the best proposal. */
   title?: string;
 }
 
