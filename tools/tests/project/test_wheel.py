@@ -136,6 +136,8 @@ def the_lab_is_served_with_its_page(plumb):
 def test_a_wheel_works_in_an_empty_folder(wheel, plumb):
     """In a single test: another worker would build the wheel once more."""
     with zipfile.ZipFile(wheel) as archive:
+        licences = [name for name in archive.namelist() if "/licenses/" in name]
+        assert {Path(name).name for name in licences} == {"LICENSE", "NOTICE"}
         brought = {"plumb/cli/answers.schema.json", "plumb/firmware.hex", "plumb/py.typed"}
         assert brought <= {*archive.namelist()}
         name = next(n for n in archive.namelist() if n.endswith("METADATA"))
