@@ -9,7 +9,6 @@ from contextlib import redirect_stdout
 import pytest
 from folder import EXAMPLE, asked, choose, finished
 from plumb.cli.main import main
-from plumb.diagnosis.answer import odds_words
 from plumb.model.plain import noun_of, plain_size
 from plumb.settings.toml import write_machine_toml
 from synthetic import BELIEVED, TRUE, distances_between, grid, marks_on
@@ -186,32 +185,6 @@ def test_the_decision_reads_the_same_everywhere(said):
     assert_same(numbers[-1], after["left_out_rms_mm"], said.bench["left_out_rms"])
 
 
-def test_odds_of_explanations_are_the_same(said):
-    explanations = said.diagnosed["explanations"]
-    cards = said.verdict["cards"]
-    assert [card["odds"] for card in cards] == [odds_words(each["share"]) for each in explanations]
-    if len(explanations) == 1:
-        return  # there is no rival
-    for each, card in zip(explanations, cards, strict=True):
-        assert_same(card["account"]["rms_after_mm"], each["rms_after_mm"])
-    first = f", at odds of {odds_words(explanations[0]['share'])}"
-    for sentence in (said.diagnose, said.verdict["sentence"]):
-        assert first in sentence
-
-
-def test_sizes_and_their_noise_are_those_of_the_diagnosis(said):
-    noise = said.verdict["noise"]
-    assert noise in said.diagnose
-    assert_same(match_in(LENGTH, noise), said.diagnosed["sigma_mm"])
-    for card in said.verdict["cards"]:
-        assert all(size in said.diagnose for size in sizes_on(card))
-
-
-def sizes_on(card):
-    """The sizes of a card of the page, as they are said."""
-    return [size["said"] for effect in card["effects"] for size in effect["sizes"]]
-
-
 def test_sizes_and_their_noise_are_those_of_the_fit(said):
     noise = said.correction["intervals"]
     assert noise in said.add
@@ -237,12 +210,3 @@ def test_a_diagnosis_and_a_fit_have_the_same_noise_and_say_where_it_is_from(said
     assert said.diagnosed["sigma_from"] == "marks"
     for words in (said.verdict["noise"], said.correction["intervals"]):
         assert "(from the scatter of the marks)" in words
-
-
-def test_what_could_hide_is_the_same(said):
-    unseen = said.verdict["unseen"]
-    assert unseen["causes"]
-    for words in (unseen["words"], " ".join(unseen["header"])):
-        assert words in said.diagnose
-    for each in unseen["causes"]:
-        assert f"{each['noun']} {each['mm']:.1f} mm {each['taken_up']}" in said.diagnose

@@ -68,8 +68,7 @@ def test_a_board_is_flashed_although_its_cable_was_pulled_and_takes_its_settings
     assert re.search(r"sheet_width +2440.5", numbers) and re.search(r"motor_gap +3602.6", numbers)
 
     other = IntelHex(str(firmware))
-    at = hex_bytes(firmware).index(b"Plumb v") + len("Plumb v")
-    other.puts(at, "9")
+    other.puts(hex_bytes(firmware).index(b"Plumb v") + len("Plumb v"), "9")
     other.write_hex_file(tmp_path / "other.hex")
     said = plumb("flash", "--port", port, "other.hex", folder=tmp_path)
     assert re.search(r"On the board: Plumb v(\d).*\nWritten and read back. Now: Plumb v9", said)
