@@ -6,7 +6,7 @@ from pathlib import Path
 from plumb.cli.arguments import add_shared
 from plumb.cli.screen import bar, sentences
 from plumb.firmware.hex_file import program_in
-from plumb.line.bootloader import greeting_of, name_in, write_program
+from plumb.line.bootloader import firmware_on, write_program
 from plumb.line.port import port_for
 from plumb.line.sender import WRONG
 from plumb.text.errors import InputError
@@ -20,14 +20,13 @@ def run(arguments: argparse.Namespace) -> int:
     hex_file = _hex_file(arguments.hex)
     program = program_in(hex_file)
     port = port_for(arguments.port)
-    before = name_in(greeting_of(port))
-    print(f"On the board: {before or 'no firmware that greets'}.", flush=True)
+    before, _ = firmware_on(port)
+    print(f"On the board: {before or 'no firmware that answers'}.", flush=True)
     write_program(port, hex_file, program, bar(f"writing {hex_file.name}"))
-    greeting = greeting_of(port)
-    now = name_in(greeting)
+    now, greeting = firmware_on(port)
     if not now:
         raise InputError(
-            port, "the flash was written, but nothing greets", remedy="reset the board"
+            port, "the program was written, but does not answer", remedy="reset the board"
         )
     print(f"Written and read back. Now: {now}.")
     if odd := [line for line in greeting if line.startswith(WRONG)]:

@@ -16,6 +16,7 @@ from pathlib import Path
 import serial
 from arduinobootloader import ArduinoBootloader
 
+from plumb.line.memory import version_of
 from plumb.line.port import SerialPort
 from plumb.line.sender import Sender
 from plumb.text.errors import InputError
@@ -26,25 +27,24 @@ MEGA = "ATmega2560"
 WAITS = (0.1, 0.3, 0.6, 0.3, 0.1)  # [s] from a reset until the bootloader is asked, in turns
 SILENT, PATIENCE = 0.1, 3.0  # [s] to wait for a byte: of the first answer, and of all others
 AVRDUDE = ("-p", "atmega2560", "-c", "wiring", "-b", str(BAUD), "-D")
-GREETINGS = ("Plumb v", "Firmware Version")
+OURS = "Plumb v"  # how our firmware greets
 
 
-def greeting_of(path: str) -> tuple[str, ...]:
-    """Return what the firmware of a board says at its start; empty if it says nothing."""
+def firmware_on(path: str) -> tuple[str, tuple[str, ...]]:
+    """Return the firmware of a board with its version, and all that it says at its start; an empty
+    name if it says nothing.
+    """
     port = SerialPort(path)
-    sender = Sender(port)
+    sender, name = Sender(port), ""
     try:
         with suppress(InputError):  # an empty board is silent
             sender.await_start()
+            ours = [line for line in sender.greeting if line.startswith(OURS)]
+            # Ours answers with the version that clients expect.
+            name = ours[0].partition(",")[0] if ours else version_of(sender)
     finally:
         port.close()
-    return sender.greeting
-
-
-def name_in(greeting: tuple[str, ...]) -> str:
-    """Return the firmware and its version; empty if none greets."""
-    named = [line for line in greeting if line.startswith(GREETINGS)]
-    return named[-1].partition(",")[0] if named else ""
+    return name, sender.greeting
 
 
 def write_program(
@@ -60,7 +60,9 @@ def write_program(
     try:
         _by_library(path, program, progress)
     except OSError:  # of which serial's errors are some
-        raise InputError(path, "the line was lost", remedy="check the cable, and again") from None
+        raise InputError(
+            path, "the line was lost", remedy="check the cable and try again"
+        ) from None
 
 
 def _by_avrdude(avrdude: str, path: str, hex_file: Path) -> None:
@@ -69,7 +71,7 @@ def _by_avrdude(avrdude: str, path: str, hex_file: Path) -> None:
         raise InputError(
             path,
             "avrdude could not write it",
-            remedy="close GroundControl or WebControl, check the cable and the board, and again",
+            remedy="close GroundControl and WebControl, check the cable, and try again",
         )
 
 
@@ -79,20 +81,22 @@ def _by_library(path: str, program: bytes, progress: Callable[[float], None]) ->
     bootloader = board.select_programmer("Stk500v2")
     try:
         if not any(_found(board, bootloader, path, wait) for wait in WAITS):
-            raise InputError(path, "no bootloader answers", remedy="connect a Mega, and try again")
+            raise InputError(path, "no bootloader answers", remedy="connect a Mega and try again")
         if not bootloader.cpu_signature() or board.cpu_name != MEGA:
             raise InputError(path, f"is {board.cpu_name or 'another board'}, not an {MEGA}")
         pages = range(0, len(program), PAGE)
         for done, at in enumerate(pages):
             page = program[at : at + PAGE].ljust(PAGE, b"\xff")
             if not bootloader.write_memory(bytearray(page), at):
-                raise InputError(path, f"stopped at byte {at}", remedy="check the cable, and again")
+                raise InputError(
+                    path, f"stopped at byte {at}", remedy="check the cable and try again"
+                )
             progress(0.5 * done / len(pages))
         for done, at in enumerate(pages):
             page = program[at : at + PAGE]
             if (bootloader.read_memory(at, PAGE) or b"")[: len(page)] != page:
                 raise InputError(
-                    path, f"reads back otherwise at byte {at}", remedy="flash it again"
+                    path, f"reads back differently at byte {at}", remedy="flash it again"
                 )
             progress(0.5 + 0.5 * done / len(pages))
         bootloader.leave_bootloader()

@@ -132,6 +132,7 @@ def test_a_report_from_before_a_reset_is_not_taken_for_a_machine_that_hears():
     up, from_2_s = board.read, board.write
 
     def read():
+        assert board.time < 20, "its answer does not come"
         if board.time >= 2:
             return up()
         board.time += 0.2

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 from intelhex import IntelHex
+from numbers_machine import NumbersMachine
 from plumb.firmware.hex_file import hex_bytes
 from plumb.line.bootloader import write_program
 from plumb.text.errors import InputError
@@ -63,7 +64,7 @@ def test_a_board_is_flashed_although_its_cable_was_pulled_and_takes_its_settings
         with pytest.raises(InputError, match="the line was lost; check the cable"):
             write_program(port, firmware, hex_bytes(firmware), pull)
         said = plumb("flash", "--port", port, str(firmware), folder=tmp_path)
-    assert said.startswith("On the board: no firmware that greets.\nWritten and read back. Now: ")
+    assert said.startswith("On the board: no firmware that answers.\nWritten and read back. Now: ")
     numbers = plumb("read", "--port", port, folder=tmp_path)
     assert re.search(r"sheet_width +2440.5", numbers) and re.search(r"motor_gap +3602.6", numbers)
 
@@ -72,6 +73,23 @@ def test_a_board_is_flashed_although_its_cable_was_pulled_and_takes_its_settings
     other.write_hex_file(tmp_path / "other.hex")
     said = plumb("flash", "--port", port, "other.hex", folder=tmp_path)
     assert re.search(r"On the board: Plumb v(\d).*\nWritten and read back. Now: Plumb v9", said)
+
+
+def test_the_firmware_before_and_after_is_named(tmp_path, monkeypatch):
+    board = NumbersMachine()
+    board.says = ["Firmware Version 1.29"]
+
+    def flashed(*_):
+        at_once = board.read
+        greeting = [b"Plumb v2.0.0, firmware for the Maslow CNC\r\nready\r\n"]
+        board.read = lambda: greeting.pop() if greeting else at_once()
+
+    monkeypatch.setattr("plumb.line.bootloader.SerialPort", lambda path: board)
+    monkeypatch.setattr("plumb.cli.flash.write_program", flashed)
+    IntelHex({0: 0}).write_hex_file(tmp_path / "program.hex")
+    said = plumb("flash", "--port", "here", "program.hex", folder=tmp_path)
+    now = "Written and read back. Now: Plumb v2.0.0."
+    assert said == f"On the board: Firmware Version 1.29.\n{now}\n"
 
 
 def test_a_program_that_is_too_large_is_refused(tmp_path):
