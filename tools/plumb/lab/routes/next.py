@@ -98,7 +98,7 @@ def take_next(wanted: Wanted, project: TheProject, background: TheBackground) ->
     if written is None:
         raise InputError(f"proposal {wanted.choose} has no marks: do what it says, by hand")
     if written.digest != wanted.digest:
-        raise ChangedError("the proposal")
+        raise ChangedError(f"proposal {wanted.choose}")
     kept = kept_settings(project, project.choices)
     save_choices(
         project,
