@@ -43,7 +43,7 @@ def refusals(room: str) -> Iterator[str]:
                 parts = [part for text in node.args for part in ast.walk(text)]
                 words = [part.value for part in parts if isinstance(part, ast.Constant)]
                 text = "...".join(map(str, words))
-                if re.search(r"[a-z]+ [a-z]+", re.sub(r"is not (a )?$", "", text)):
+                if re.search(r"[a-z]+ [a-z]+", re.sub(r"(is not|holds) (a )?$", "", text)):
                     yield text
 
 
