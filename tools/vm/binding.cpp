@@ -1,5 +1,7 @@
 // The virtual machine for Python: a world, and a firmware that drives it.
+#ifndef _WIN32
 #include <dlfcn.h>
+#endif
 #include <nanobind/nanobind.h>
 #include <nanobind/stl/map.h>
 #include <nanobind/stl/optional.h>
@@ -21,15 +23,23 @@ namespace {
 using Pair = std::pair<double, double>;
 using CutRow = std::tuple<int, double, double, double, double>;
 
-/// Makes the brain of a simulated Mega; mega.so holds it, beside this module.
-std::unique_ptr<brain::Brain> megaFor(world::World& world, const std::string& elf,
-                                      const std::string& bootloader) {
+/// Finds the maker of a simulated Mega's brain in mega.so, beside this module; null on Windows.
+void* megaBrain() {
+#ifdef _WIN32
+  return nullptr;
+#else
   Dl_info here;
-  dladdr(reinterpret_cast<void*>(&megaFor), &here);
+  dladdr(reinterpret_cast<void*>(&megaBrain), &here);
   const std::string module = here.dli_fname;
   const std::string path = module.substr(0, module.rfind('/') + 1) + "mega.so";
   void* const mega = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
-  void* const make = mega ? dlsym(mega, "megaBrain") : nullptr;
+  return mega ? dlsym(mega, "megaBrain") : nullptr;
+#endif
+}
+
+std::unique_ptr<brain::Brain> megaFor(world::World& world, const std::string& elf,
+                                      const std::string& bootloader) {
+  void* const make = megaBrain();
   if (!make)
     throw std::runtime_error(
         "the lab has no simulated Mega here; install libsimavr-dev and libelf-dev, and build the "

@@ -33,7 +33,7 @@ from plumb.job.slip import repair_program
 from plumb.settings.machine import MachineSettings
 from plumb.text.answers import Internal, in_json, json_of
 from plumb.text.errors import InputError
-from plumb.text.files import alone_in
+from plumb.text.locks import alone
 from plumb.text.values import bare, signed, unit, worded
 
 
@@ -136,7 +136,7 @@ def _written(arguments: argparse.Namespace, answer: HomeAnswer) -> list[str]:
     if arguments.keep:
         name, _ = arguments.keep
         path = home_file(arguments.settings)
-        with alone_in(path.parent):
+        with alone(path.with_name(f".{path.name}.lock")):
             # Another command may have kept another mark since this one began.
             write_home_marks(path, {**read_home_marks(path), name: answer.kept[name]})
         written.append(str(path))

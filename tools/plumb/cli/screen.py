@@ -8,7 +8,6 @@ import json
 import math
 import os
 import re
-import shlex
 import sys
 import textwrap
 import time
@@ -23,6 +22,7 @@ from rich.table import Table
 from rich.text import Text
 
 from plumb.text.answers import json_of
+from plumb.text.commands import GOES_ON, quoted
 from plumb.text.files import numbered
 from plumb.text.values import unit
 
@@ -174,11 +174,11 @@ def next_step(words: str, command: Sequence[str]) -> str:
 
 
 def command_text(words: Iterable[str]) -> str:
-    """Return a command that a shell reads, on lines that fit the screen; an option keeps
-    its value.
+    """Return a command that a shell reads, on lines that fit the screen where that shell has lines
+    that go on; an option keeps its value.
     """
     parts: list[str] = []
-    for word in map(shlex.quote, words):
+    for word in map(quoted, words):
         value_of_last = parts and parts[-1].startswith("-") and " " not in parts[-1]
         if value_of_last and not word.startswith("-"):
             parts[-1] += f" {word}"
@@ -187,11 +187,11 @@ def command_text(words: Iterable[str]) -> str:
     width = console().width - 2  # a blank and the backslash
     lines = [f"{INDENT}{parts[0]}"]
     for part in parts[1:]:
-        if len(f"{lines[-1]} {part}") > width:
+        if GOES_ON and len(f"{lines[-1]} {part}") > width:
             lines.append(f"{2 * INDENT}{part}")
         else:
             lines[-1] += f" {part}"
-    return " \\\n".join(lines)
+    return f"{GOES_ON}\n".join(lines)
 
 
 def same_inputs(

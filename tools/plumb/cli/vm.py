@@ -2,6 +2,7 @@
 
 import argparse
 import struct
+import sys
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -27,7 +28,8 @@ from plumb.vm.garage import (
     set_up,
 )
 from plumb.vm.owner import InProcessPort
-from plumb.vm.pseudo_terminal import BOOTLOADER, Pace, PseudoTerminal, preload
+from plumb.vm.served_port import BOOTLOADER, Pace, ServedPort
+from plumb.vm.socket_port import ANY, SocketPort
 from plumb.vm.tape import BLANK, Tape
 
 EEPROM_BYTES = 4096
@@ -47,6 +49,8 @@ class VmAnswer:
 def run(arguments: argparse.Namespace) -> int:
     """Start it, serve until Ctrl-C, and return the exit code."""
     if arguments.preload:
+        from plumb.vm.pseudo_terminal import preload
+
         library = preload()
         print_json(VmAnswer(None, library, None)) if arguments.json else print(library)
         return 0
@@ -93,21 +97,26 @@ def serve(
     )
     _wake(machine, garage.settings, arguments)
     boot_time = 0 if bootloader else BOOTLOADER
-    terminal = _terminal(PseudoTerminal(machine, boot_time=boot_time), arguments.link)
+    port = _port(machine, boot_time, arguments.link)
     try:
-        announce(str(terminal.link or terminal.path))
-        _serve(terminal, arguments, lambda: look(machine))
+        announce(str(port.link or port.path))
+        _serve(port, arguments, lambda: look(machine))
     except KeyboardInterrupt:
         pass
     finally:
-        terminal.close()
+        port.close()
         machine.stop()
         _save(_memory(machine), arguments.eeprom)
     return 0
 
 
-def _terminal(terminal: PseudoTerminal, link: str | None) -> PseudoTerminal:
+def _port(machine: VirtualMachine, boot_time: int, link: str | None) -> ServedPort:
     """Return a machine's port, under its name. A machine whose name is taken leaves no trace."""
+    if sys.platform == "win32" or (link or "").startswith("socket:"):
+        return SocketPort(machine, link or ANY, boot_time=boot_time)
+    from plumb.vm.pseudo_terminal import PseudoTerminal  # Windows has none
+
+    terminal = PseudoTerminal(machine, boot_time=boot_time)
     if link:
         try:
             terminal.link_as(link)
@@ -159,10 +168,8 @@ def _hang(machine: VirtualMachine, state: bytes) -> None:
         machine.slip(axis, was - travel)
 
 
-def _serve(
-    terminal: PseudoTerminal, arguments: argparse.Namespace, look: Callable[[], None]
-) -> None:
-    machine, pace, start = terminal.machine, Pace(arguments.speed), time.monotonic()
+def _serve(port: ServedPort, arguments: argparse.Namespace, look: Callable[[], None]) -> None:
+    machine, pace, start = port.machine, Pace(arguments.speed), time.monotonic()
     machine.start()
     picture, screen = VmPicture(machine), console()
     saved = looked = start
@@ -171,7 +178,7 @@ def _serve(
         if not screen.is_terminal:
             live.stop()
         while not arguments.seconds or time.monotonic() - start < arguments.seconds:
-            terminal.pass_time(pace.due())
+            port.pass_time(pace.due())
             now = time.monotonic()
             if now - looked > LOOK_EVERY:
                 look()
@@ -209,7 +216,9 @@ EXIT = "Exit: 0 ended with Ctrl-C or after --seconds; 2 it cannot be started."
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the arguments of `plumb vm`."""
-    parser.add_argument("--link", metavar="PATH", help="a name for the port, say ./maslow")
+    parser.add_argument(
+        "--link", metavar="PATH", help="a name for the port, as ./maslow or socket://localhost:7000"
+    )
     parser.add_argument(
         "--hide",
         metavar="EFFECT",

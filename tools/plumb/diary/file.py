@@ -4,7 +4,6 @@ Entries are only added. Each line begins with a digest of its rest, so a line th
 middle is noticed, and the next entry begins on a line by itself. Writers wait for each other.
 """
 
-import fcntl
 import json
 import os
 from collections.abc import Mapping
@@ -21,6 +20,7 @@ from plumb.line.sender import Sender
 from plumb.text.answers import Internal, Moment, plain
 from plumb.text.errors import InputError, Source
 from plumb.text.files import opened, write_whole
+from plumb.text.locks import hold, reaches_disk
 from plumb.text.version import version
 
 NAME = "diary.jsonl"
@@ -133,9 +133,10 @@ def _add_line(path: Path, line: bytes) -> None:
     is_new = not path.exists()
     handle = opened(path, os.O_RDWR | os.O_CREAT | os.O_APPEND, follows=False)
     try:
-        fcntl.flock(handle, fcntl.LOCK_EX)
-        length = os.fstat(handle).st_size
-        is_cut = length > 0 and os.pread(handle, 1, length - 1) != b"\n"
+        hold(handle)
+        length = os.lseek(handle, 0, os.SEEK_END)
+        os.lseek(handle, max(0, length - 1), os.SEEK_SET)
+        is_cut = os.read(handle, 1) not in (b"", b"\n")
         rest = memoryview(b"\n" + line if is_cut else line)
         try:
             while rest:
@@ -149,16 +150,7 @@ def _add_line(path: Path, line: bytes) -> None:
     finally:
         os.close(handle)
     if is_new:
-        _keep_name(path.parent)
-
-
-def _keep_name(folder: Path) -> None:
-    """Let the folder remember a new file even if the power fails now."""
-    handle = os.open(folder, os.O_RDONLY)
-    try:
-        os.fsync(handle)
-    finally:
-        os.close(handle)
+        reaches_disk(path.parent)
 
 
 # What goes into the diary: a fit with its marks and numbers, numbers sent, programs sent.

@@ -37,7 +37,9 @@ Result = TypeVar("Result")
 SETTLING = 10_000  # [ms] until all is in the EEPROM and the motors are off
 PATIENCE = 60.0  # [s] for an answer of the machine
 # What may be opened as a serial line: never a file.
-PORT = re.compile(r"/dev/(tty[\w.-]+|cu\.[\w.-]+|rfcomm\d+|pts/\d+|serial/by-id/[\w.:-]+)|COM\d+")
+PORT = re.compile(
+    r"/dev/(tty[\w.-]+|cu\.[\w.-]+|rfcomm\d+|pts/\d+|serial/by-id/[\w.:-]+)|COM\d+|socket://localhost:\d+"
+)
 
 
 @dataclass(frozen=True)

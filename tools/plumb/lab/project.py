@@ -6,12 +6,10 @@ what another program or the command line wrote in the meantime; `guard.py` lets 
 
 from __future__ import annotations
 
-import fcntl
 import json
 import os
 import re
-from collections.abc import Callable, Iterable, Iterator, Mapping
-from contextlib import contextmanager
+from collections.abc import Callable, Iterable, Mapping
 from hashlib import sha256
 from pathlib import Path
 from typing import Annotated, Literal
@@ -20,6 +18,7 @@ from pydantic import BaseModel, ConfigDict, Field
 
 from plumb.text.errors import InputError
 from plumb.text.files import links_refused, numbered, opened, parsed, write_all
+from plumb.text.locks import alone
 from plumb.text.tables import read_table
 
 # A name is a single word without a folder, so no name from outside leads out of the project.
@@ -105,7 +104,7 @@ class Project:
         `read` holds the digests of the files that the author knew. Raises ChangedError if one of
         these is another by now, and OSError if the disk takes nothing.
         """
-        with self._locked():
+        with alone(self.folder / LOCK):
             self._refuse_changed(read)
             staged = {str(self.path(name)): content for name, content in files.items()}
             try:
@@ -119,7 +118,7 @@ class Project:
 
         Raises ChangedError as `save` does.
         """
-        with self._locked():
+        with alone(self.folder / LOCK):
             self._refuse_changed(read)
             for name in names:
                 self.path(name).unlink(missing_ok=True)
@@ -128,15 +127,6 @@ class Project:
         for name, digest in read.items():
             if self.digest(name) != digest:
                 raise ChangedError(name)
-
-    @contextmanager
-    def _locked(self) -> Iterator[None]:
-        """Nobody else saves meanwhile, not even another server on this folder."""
-        # Never through a link: a folder from elsewhere may bring this name.
-        flags = os.O_RDWR | os.O_CREAT | os.O_NOFOLLOW
-        with os.fdopen(os.open(self.folder / LOCK, flags, 0o600), "w") as lock:
-            fcntl.flock(lock, fcntl.LOCK_EX)
-            yield
 
 
 def digest_of(content: bytes | None) -> str:

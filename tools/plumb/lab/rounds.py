@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-import shlex
 from collections.abc import Collection, Container, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path, PurePath
@@ -23,6 +22,7 @@ from plumb.model.reach import plain_machine, refuse_way, with_soft_chains
 from plumb.plan.options import MARK, READING, ROUND
 from plumb.settings.cut_with import cut_with_lines, digest_of, with_form
 from plumb.settings.machine import MachineSettings
+from plumb.text.commands import quoted
 from plumb.text.errors import InputError
 from plumb.text.files import is_ours, numbered
 
@@ -237,7 +237,7 @@ def taken_marks(project: Project, choices: Choices) -> Taken | None:
 
 def command(*words: str) -> str:
     """Return a command as a shell reads it."""
-    return shlex.join(["plumb", *words])
+    return " ".join(map(quoted, ["plumb", *words]))
 
 
 def known_words(

@@ -8,6 +8,7 @@ import re
 import secrets
 import socket
 import stat
+import sys
 import webbrowser
 from collections.abc import Callable
 from contextlib import suppress
@@ -127,8 +128,10 @@ def _kept_token(path: Path) -> str:
     """Return the token that an earlier server wrote; empty if others can read or wrote it."""
     with suppress(OSError):
         kept = path.lstat()
-        private = stat.S_ISREG(kept.st_mode) and not kept.st_mode & 0o077
-        text = path.read_text().strip() if private and kept.st_uid == os.getuid() else ""
+        private = stat.S_ISREG(kept.st_mode)
+        if sys.platform != "win32":  # where a folder of one's own is closed to others
+            private = private and not kept.st_mode & 0o077 and kept.st_uid == os.getuid()
+        text = path.read_text().strip() if private else ""
         return text if TOKEN.fullmatch(text) else ""
     return ""
 

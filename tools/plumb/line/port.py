@@ -1,10 +1,9 @@
 """Interface of a line to a machine, whether a board or a simulation hangs on it."""
 
-import fcntl
 import os
 import re
+import sys
 import tempfile
-import termios
 import time
 from contextlib import suppress
 from pathlib import Path
@@ -14,6 +13,7 @@ import serial
 from serial.tools import list_ports
 
 from plumb.text.errors import InputError, to_do
+from plumb.text.locks import NO_LINKS, hold
 
 
 class LostError(InputError):
@@ -54,13 +54,13 @@ class SerialPort:
             why, remedy = "another plumb has the line", "wait until it is done, or end it"
             raise InputError(path, why, remedy=remedy) from None
         try:
-            self._line = serial.Serial(path, BAUD, timeout=PATIENCE, exclusive=True)
+            self._line = serial.serial_for_url(path, BAUD, timeout=PATIENCE, exclusive=True)
         except serial.SerialException as error:
             self._lock.release()
             busy = "busy" in str(error).lower() or "lock" in str(error).lower()
             remedy = "close the program that has it" if busy else "check the cable and the name"
             raise InputError(path, "cannot be opened", remedy=remedy) from None
-        refuse_others(path, self._line.fileno())
+        refuse_others(path, self._line)
 
     def write(self, characters: bytes) -> None:
         """Put characters on the line."""
@@ -129,7 +129,7 @@ class LineLock:
         if self._handle is None:
             return  # of another user, who may have left it: the kernel refuses what is open
         try:
-            fcntl.flock(self._handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            hold(self._handle, wait=False)
         except OSError:
             self.release()
             raise TakenError from None
@@ -141,13 +141,16 @@ class LineLock:
             self._handle = None
 
 
-def refuse_others(path: str, handle: int) -> None:
-    """Have the kernel refuse to open the line at `handle` again, except for root."""
+def refuse_others(path: str, line: serial.SerialBase) -> None:
+    """Have the kernel refuse to open the line again, except for root; Windows does so by itself."""
     # A pseudo terminal would refuse on, even when the program that had it was killed.
-    if os.path.realpath(path).startswith(PSEUDO):
+    if sys.platform == "win32" or os.path.realpath(path).startswith(PSEUDO):
         return
+    import fcntl
+    import termios
+
     with suppress(OSError):  # what is no terminal knows no such refusal
-        fcntl.ioctl(handle, termios.TIOCEXCL)
+        fcntl.ioctl(line.fileno(), termios.TIOCEXCL)
 
 
 def _lock_file(path: str) -> Path:
@@ -159,6 +162,6 @@ def _lock_file(path: str) -> Path:
 def _opened(file: Path) -> int:
     """Return a handle of the file, made if it is not there; a lock needs no right to write."""
     try:
-        return os.open(file, os.O_RDONLY | os.O_CREAT | os.O_NOFOLLOW, 0o644)
+        return os.open(file, os.O_RDONLY | os.O_CREAT | NO_LINKS, 0o644)
     except PermissionError:
-        return os.open(file, os.O_RDONLY | os.O_NOFOLLOW)
+        return os.open(file, os.O_RDONLY | NO_LINKS)

@@ -6,7 +6,6 @@ none is: `links_refused` says so for all that is opened here, and `opened` is th
 
 import codecs
 import errno
-import fcntl
 import os
 import re
 import stat
@@ -19,6 +18,7 @@ from pathlib import Path
 from typing import Any
 
 from plumb.text.errors import InputError, Source
+from plumb.text.locks import AS_IT_IS, NO_LINKS
 
 MB = 1_000_000
 # A file of marks or settings has a few kilobytes; more is some other file picked by mistake.
@@ -46,7 +46,7 @@ def opened(path: Source, flags: int, *, follows: bool | None = None) -> int:
     """
     is_followed = _follows.get() if follows is None else follows
     try:
-        return os.open(path, flags if is_followed else flags | os.O_NOFOLLOW, 0o644)
+        return os.open(path, flags | AS_IT_IS | (0 if is_followed else NO_LINKS), 0o644)
     except OSError as error:
         if error.errno == errno.ELOOP:
             remedy = "put the file itself into the folder"
@@ -146,17 +146,6 @@ def parsed(
         raise InputError(path, f"is not valid {form}: {why}", remedy="mend that line") from None
 
 
-@contextmanager
-def alone_in(folder: Source) -> Iterator[None]:
-    """Until the end, others that ask the same for this folder wait."""
-    handle = os.open(folder, os.O_RDONLY)
-    try:
-        fcntl.flock(handle, fcntl.LOCK_EX)
-        yield
-    finally:
-        os.close(handle)
-
-
 def numbered(stem: str) -> Iterator[str]:
     """Yield a name and its followers, as `machine`, `machine-2` ..."""
     yield stem
@@ -173,7 +162,7 @@ def write_all(files: Mapping[str, bytes]) -> None:
 
     Devices and pipes stay what they are: they get the bytes, just before the files are replaced.
     """
-    staged: dict[str, tuple[int, str, Path]] = {}
+    staged: dict[str, tuple[int | None, str, Path]] = {}
     path = ""
     try:
         poured = [path for path in files if _is_poured_into(path)]
@@ -186,7 +175,7 @@ def write_all(files: Mapping[str, bytes]) -> None:
                 stream.write(files[path])
         for path in staged:
             handle, name, target = staged[path]
-            if not os.path.exists(name):
+            if handle is not None:
                 # Any folder's handle makes Python follow the link to the file without a name.
                 os.link(f"/proc/self/fd/{handle}", name, src_dir_fd=handle)
             os.replace(name, target)
@@ -194,7 +183,8 @@ def write_all(files: Mapping[str, bytes]) -> None:
         raise InputError(path, f"cannot be written ({error.strerror})") from None
     finally:
         for handle, name, _ in staged.values():
-            os.close(handle)
+            if handle is not None:
+                os.close(handle)
             Path(name).unlink(missing_ok=True)
 
 
@@ -216,28 +206,34 @@ def _is_poured_into(path: Source) -> bool:
     return stat.S_ISFIFO(mode) or stat.S_ISCHR(mode)
 
 
-def _staged(target: Path, content: bytes) -> tuple[int, str]:
+def _staged(target: Path, content: bytes) -> tuple[int | None, str]:
     """Return the content in an open file, and the name under which it is next to the target.
 
     Where the system has them, the file gets its name only when it is whole, so that a command that
-    is killed leaves nothing behind.
+    is killed leaves nothing behind. Elsewhere it is shut, as Windows asks of a file to be renamed.
     """
+    is_nameless = True
     try:
         handle = os.open(target.parent, os.O_TMPFILE | os.O_RDWR, 0o600)
         name = str(target.with_name(f".{target.name}.{os.getpid()}-{handle}"))
     except (AttributeError, OSError):
+        is_nameless = False
         handle, name = tempfile.mkstemp(dir=target.parent, prefix=f".{target.name}.")
+    is_kept = False
     try:
         with os.fdopen(handle, "wb", closefd=False) as file:
             file.write(content)
             file.flush()
             os.fsync(handle)
-        os.fchmod(handle, _mode_for(target))
+        os.chmod(handle if os.chmod in os.supports_fd else name, _mode_for(target))
+        is_kept = is_nameless
     except OSError:
-        os.close(handle)
         Path(name).unlink(missing_ok=True)
         raise
-    return handle, name
+    finally:
+        if not is_kept:
+            os.close(handle)
+    return (handle if is_kept else None), name
 
 
 def _mode_for(target: Path) -> int:

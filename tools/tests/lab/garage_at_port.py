@@ -4,7 +4,8 @@ import threading
 
 from plumb.vm.garage import hide, random_garage
 from plumb.vm.owner import VirtualOwner
-from plumb.vm.pseudo_terminal import Pace, PseudoTerminal
+from plumb.vm.pseudo_terminal import PseudoTerminal
+from plumb.vm.served_port import Pace
 from plumb.vm.tape import marks_on
 
 SPEED = 200  # times as fast as a real machine

@@ -36,8 +36,8 @@ def openings(monkeypatch):
         seen.paths.append(path)
         return SimpleNamespace(fileno=lambda: 77, close=lambda: None)
 
-    monkeypatch.setattr(port.serial, "Serial", opened)
-    monkeypatch.setattr(port.fcntl, "ioctl", lambda *words: seen.asked.append(words))
+    monkeypatch.setattr(port.serial, "serial_for_url", opened)
+    monkeypatch.setattr("fcntl.ioctl", lambda *words: seen.asked.append(words))
     return seen
 
 
@@ -56,7 +56,7 @@ def test_a_second_program_is_refused_before_it_opens_the_line(openings, tmp_path
 def test_the_kernel_refuses_other_programs_as_long_as_a_board_is_open(openings):
     SerialPort("/dev/ttyACM7").close()
     assert openings.asked == [(77, termios.TIOCEXCL)]
-    refuse_others("/dev/pts/7", 77)  # which would be refused for good
+    refuse_others("/dev/pts/7", None)  # which would be refused for good
     assert len(openings.asked) == 1
 
 

@@ -11,7 +11,8 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 
 from plumb.bench.causes import MAKER
-from plumb.vm.pseudo_terminal import Pace, PseudoTerminal
+from plumb.vm.pseudo_terminal import PseudoTerminal
+from plumb.vm.served_port import Pace
 from usual_machine import declaration, switched_on, usual_machine
 
 SPEED = 2  # times real time

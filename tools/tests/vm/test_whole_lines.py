@@ -2,7 +2,8 @@
 however busy the computer is."""
 
 import serial
-from plumb.vm.pseudo_terminal import LONGEST_PAUSE, PseudoTerminal
+from plumb.vm.pseudo_terminal import PseudoTerminal
+from plumb.vm.served_port import LONGEST_PAUSE
 
 
 class SlowSpeaker:
