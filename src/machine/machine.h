@@ -1,5 +1,5 @@
 // The machine: how lines from the computer move the motors, and every answer to them. Without
-// Arduino: ports.h holds what it needs of a board. README.md says which part does what.
+// Arduino: ports.h holds what it needs of a board. parts.h says which part uses which.
 #pragma once
 
 #include "b_codes.h"

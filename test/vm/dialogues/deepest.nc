@@ -1,5 +1,5 @@
 ; The lines that took the most stack, of 800 that a search tried on a machine with every effect:
-; docs/decisions/0010-budgets-of-the-firmware.md says more. What comes back does not matter here.
+; docs/results.md says more. What comes back does not matter here.
 ~~ include every_effect.inc
 ~~ stack
 ~~ wait 0.1
