@@ -1,0 +1,106 @@
+"""The package for Windows, by a Windows Python under Wine: the main way, from marks to a cut."""
+
+import re
+import shutil
+import socket
+import subprocess
+import sys
+import time
+from pathlib import Path
+from urllib.request import Request, urlopen
+
+import pytest
+
+pytestmark = pytest.mark.slow
+ROOT = Path(__file__).resolve().parents[3]
+PLUMB = ROOT / "tools/windows/plumb"
+HEARD = {"stdout": subprocess.PIPE, "stderr": subprocess.STDOUT}  # Wine knows not all files
+START = 120  # [s] in which a program under Wine must have begun
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    """A folder with settings and marks; what setup says if there is no Windows Python."""
+    done = subprocess.run([ROOT / "tools/setup", "windows"], capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    folder = tmp_path_factory.mktemp("garage")
+    for file in ("groundcontrol.ini", "marks.toml"):
+        shutil.copy(ROOT / "docs/example" / file, folder)
+    return folder
+
+
+def plumb(folder: Path, *words: str, code: int = 0) -> str:
+    """What a command says, which must end with this exit code."""
+    done = subprocess.run([PLUMB, *words], cwd=folder, input="", text=True, timeout=600, **HEARD)
+    assert done.returncode == code, done.stdout
+    return done.stdout
+
+
+@pytest.fixture
+def served(folder):
+    """Starts a command that goes on, and returns what it says first; ended with the test."""
+    running = []
+
+    def start(pattern: str, *words: str) -> str:
+        program = subprocess.Popen(
+            [PLUMB, *words], cwd=folder, stdin=subprocess.PIPE, text=True, **HEARD
+        )
+        running.append(program)
+        end = time.monotonic() + START
+        while time.monotonic() < end:
+            line = program.stdout.readline()
+            assert line, "it ended"
+            if found := re.search(pattern, line):
+                return found[1]
+        raise AssertionError("it says nothing")
+
+    yield start
+    for program in running:
+        program.kill()
+        program.wait()
+
+
+def test_the_diagnosis_is_that_of_linux(folder):
+    words = ["diagnose", "groundcontrol.ini", "marks.toml"]
+    linux = subprocess.run(
+        [sys.executable, "-m", "plumb.cli.start", *words],
+        cwd=folder,
+        capture_output=True,
+        text=True,
+    )
+    assert plumb(folder, *words, code=linux.returncode).split() == linux.stdout.split()
+
+
+def test_the_error_falls_and_all_is_written(folder):
+    added = plumb(
+        folder, "add", "groundcontrol.ini", "marks.toml", "--effect", "auto", "-o", "new.toml"
+    )
+    before, after = map(float, re.search(r"from ([\d.]+) to ([\d.]+) mm", added).groups())
+    assert after < before / 2
+    plumb(folder, "report", "groundcontrol.ini", "marks.toml", "-o", "report.html")
+    assert (folder / "new.toml").read_bytes().count(b"\r") == 0
+    assert (folder / "diary.jsonl").is_file() and (folder / "report.html").is_file()
+
+
+def test_a_virtual_machine_is_sent_a_program_and_read(folder, served):
+    port = served(
+        r"The machine is at (socket://localhost:\d+)",
+        "vm",
+        "--speed",
+        "10",
+        "--link",
+        "socket://localhost:0",
+    )
+    plumb(folder, "grid", "--places=0,100 100,100", "--output", "grid.nc")
+    assert "the machine took each" in plumb(folder, "send", "--port", port, "grid.nc")
+    assert "The sled is at x " in plumb(folder, "read", "--port", port)
+
+
+def test_the_lab_answers_a_browser_outside(folder, served):
+    with socket.create_server(("127.0.0.1", 0)) as free:
+        number = free.getsockname()[1]
+    address = served(r"(http://\S+)", "lab", ".", "--no-browser", "--port", str(number))
+    begin, token = address.split("/?token=")
+    assert b"<title>" in urlopen(address, timeout=START).read()
+    asked = Request(f"{begin}/api/project", headers={"x-plumb-token": token})
+    assert b"groundcontrol.ini" in urlopen(asked, timeout=START).read()
