@@ -9,7 +9,6 @@ import pathspec
 
 ROOT = Path(__file__).resolve().parents[2]
 CXX = {".h", ".hpp", ".cpp"}
-SCRIPT = {".ts", ".tsx", ".js"}
 # What tools/page/make writes; a test of the lab makes it again and compares.
 BUILT = ("tools/plumb/lab/page", "tools/page/src/api/schema.ts")
 
