@@ -121,7 +121,7 @@ def details(comparison: Comparison, inputs: Inputs) -> list[str]:
             ]
             for mark in comparison.marks
         ]
-        parts.append(table([*BOARD, "left chain", "right"], rows))
+        parts.append(table([*MARKS, "left chain", "right"], rows))
         note = (
             "Error: measured - predicted. Chains: how much more of each the measured place needs "
             f"than was paid out. All in {unit()}; {FRAMES[typed.sheet is None]}."
