@@ -1,24 +1,21 @@
 """`plumb reach`: which part of the sheet a machine can use, and what limits the rest."""
 
 import argparse
-from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
 
-from plumb import _core
-from plumb.cli.arguments import add_shared, limit
+from plumb.cli.arguments import add_shared
 from plumb.cli.inputs import picture_form
 from plumb.cli.output import write_outputs
 from plumb.cli.screen import next_step, print_json, sentences, table
 from plumb.fit.expected import Expected, expected_anywhere, expected_priors, expected_sentence
 from plumb.fit.inputs import settings_in
 from plumb.fit.problem import priors_with
-from plumb.model.predict import REACH_WORDS
+from plumb.model.predict import REACH_LIMITS, REACH_WORDS
 from plumb.model.reach import Give, Pull, Survey, conclusion_of, percent, survey_sheet
 from plumb.pictures.drawing import Panel, draw
 from plumb.text.answers import Internal, in_json, part
-from plumb.text.errors import InputError
 from plumb.text.values import bare, unit, worded
 
 SIGNS = ".TSV#"  # by verdict
@@ -43,7 +40,6 @@ class SheetReach:
     expected: Expected | None  # None: no sled hangs on this sheet
     written: list[str]
 
-    limits = part("survey.limits", Mapping[str, float])
     tightest = part("survey.tightest", Pull | None)
     slackest = part("survey.slackest", Pull | None)
     softest = part("survey.softest", Give | None)
@@ -68,16 +64,10 @@ class SheetReach:
 
 def run(arguments: argparse.Namespace) -> int:
     """Survey the sheet, print, and return the exit code."""
-    limits = {name: getattr(arguments, name) for name in OPTIONS}
-    if limits["least_tension"] >= limits["most_tension"]:
-        raise InputError(
-            f"--least-tension {limits['least_tension']:g} is not below --most-tension "
-            f"{limits['most_tension']:g}: no chain can keep both"
-        )
     form = picture_form(arguments.output, option="-o") if arguments.output else ""
     settings = settings_in(arguments.settings)
     priors_with(arguments.prior)  # refuses a number that is none
-    survey = survey_sheet(settings, **limits)
+    survey = survey_sheet(settings)
     expected = expected_anywhere(settings, expected_priors(dict(arguments.prior)))
     answer = SheetReach(survey, expected, [arguments.output] if arguments.output else [])
     if arguments.output:
@@ -134,18 +124,17 @@ def as_text(answer: SheetReach) -> str:
         "\n".join(legend),
     ]
     if survey.tightest and survey.slackest and survey.softest:
-        parts.append(_worst(survey, survey.tightest, survey.slackest, survey.softest))
+        parts.append(_worst(survey.tightest, survey.slackest, survey.softest))
     if survey.assumed:
         parts.append(sentences(survey.assumed))
     return "\n\n".join(parts)
 
 
-def _worst(survey: Survey, tightest: Pull, slackest: Pull, softest: Give) -> str:
-    limits = survey.limits
+def _worst(tightest: Pull, slackest: Pull, softest: Give) -> str:
     rows = [
-        ["tightest chain", f"{tightest.value:.1f} N", f"{limits['most_tension']:g} N"],
-        ["slackest chain", f"{slackest.value:.1f} N", f"{limits['least_tension']:g} N"],
-        ["softest place", f"{worded(softest.value)}/N", f"{worded(limits['most_give'])}/N"],
+        ["tightest chain", f"{tightest.value:.1f} N", f"{REACH_LIMITS['most_tension']:g} N"],
+        ["slackest chain", f"{slackest.value:.1f} N", f"{REACH_LIMITS['least_tension']:g} N"],
+        ["softest place", f"{worded(softest.value)}/N", f"{worded(REACH_LIMITS['most_give'])}/N"],
     ]
     extremes: list[Pull | Give] = [tightest, slackest, softest]
     for row, extreme in zip(rows, extremes, strict=True):
@@ -156,29 +145,14 @@ def _worst(survey: Survey, tightest: Pull, slackest: Pull, softest: Give) -> str
 
 # The arguments of `plumb reach`.
 
-OPTIONS = {
-    "most_tension": ("N", "largest tension of a chain at its sprocket; motors stall near 290 N"),
-    "least_tension": ("N", "least tension of a chain at its sprocket; the bungee pulls about 18 N"),
-    "least_free": ("MM", "least length of chain between ring and sprocket"),
-    "most_give": ("MM_PER_N", "largest move of the sled for each newton that pushes it"),
-}
 EXAMPLES = (
     "plumb reach machine.toml",
-    "plumb reach machine.toml -o reach.png --most-tension 120",
+    "plumb reach machine.toml -o reach.png",
 )
 EXIT = "Exit: 0 done; 2 an input cannot be used."
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the arguments of `plumb reach`."""
-    usual = _core.reach_limits()
     add_shared(parser, "settings", output="draw the map: .png, .svg or .pdf")
-    for name, (measure, meaning) in OPTIONS.items():
-        parser.add_argument(
-            "--" + name.replace("_", "-"),
-            metavar=measure,
-            type=limit,
-            default=usual[name],
-            help=f"{meaning} [%(default)g]",
-        )
     add_shared(parser, "--prior", "--force", "--units", "--json")

@@ -1,6 +1,5 @@
 """Where on the sheet a machine is usable: its tightest, slackest and softest places."""
 
-from collections.abc import Mapping
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from typing import Annotated
@@ -11,7 +10,6 @@ import plumb.grid as marks_grid
 from plumb.model.plain import greatest, noun_of
 from plumb.model.predict import (
     CANNOT_HANG,
-    REACH_LIMITS,
     REACH_WORDS,
     TOO_SLACK,
     TOO_TIGHT,
@@ -55,7 +53,6 @@ class Survey:
     x: Array  # (COLUMNS,) [mm]
     y: Array  # (ROWS,) [mm] from the top down
     reached: Reached  # of the places row by row
-    limits: Mapping[str, float]
     assumed: tuple[str, ...]  # what the settings do not say, a sentence each
     tightest: Pull | None  # None where no sled hangs on the whole sheet
     slackest: Pull | None
@@ -98,14 +95,14 @@ def _too_little(settings: MachineSettings, name: str) -> str:
     return f"a {noun} that no chain has" if settings.effect(effect, parameter) else f"no {noun}"
 
 
-def survey_sheet(settings: MachineSettings, **limits: float) -> Survey:
-    """Return every place of the sheet by our model of the machine; limits as in REACH_LIMITS."""
+def survey_sheet(settings: MachineSettings) -> Survey:
+    """Return every place of the sheet by our model of the machine."""
     machine, assumed = with_soft_chains(settings.as_plumb_model())
     width, height = machine.sheet
     x = np.linspace(-width / 2, width / 2, COLUMNS)
     y = np.linspace(height / 2, -height / 2, ROWS)
     places = np.stack(np.meshgrid(x, y), axis=-1).reshape(-1, 2)
-    reached = reach(machine, places, **limits)
+    reached = reach(machine, places)
     hanging = reached.verdict != CANNOT_HANG
     tightest = slackest = softest = None
     if hanging.any():
@@ -119,7 +116,6 @@ def survey_sheet(settings: MachineSettings, **limits: float) -> Survey:
         x,
         y,
         reached,
-        {**REACH_LIMITS, **limits},
         assumed,
         tightest,
         slackest,
