@@ -9,57 +9,22 @@ from plumb.cli.arguments import add_shared
 from plumb.cli.inputs import picture_form
 from plumb.cli.output import write_outputs
 from plumb.cli.screen import next_step, print_json, sentences, table
-from plumb.fit.expected import Expected, expected_anywhere, expected_priors, expected_sentence
 from plumb.fit.inputs import settings_in
 from plumb.fit.problem import priors_with
-from plumb.model.predict import REACH_LIMITS, REACH_WORDS
-from plumb.model.reach import Give, Pull, Survey, conclusion_of, percent, survey_sheet
+from plumb.model.reach import Extreme, Survey, percent
 from plumb.pictures.drawing import Panel, draw
-from plumb.text.answers import Internal, in_json, part
+from plumb.plan.sheet_reach import MEANING, SheetReach, reach_of
 from plumb.text.values import bare, unit, worded
 
-SIGNS = ".TSV#"  # by verdict
-MEANING = (
-    "usable",
-    "too tight: a chain pulls more than its gearbox should",
-    "too slack: a chain pulls less than its gears need to lie on one side",
-    "too vertical: only a slack chain holds the sled, which gives sideways",
-    "no sled hangs there, or its ring touches a sprocket",
-)
 CUT_THERE = ("--marks", "marks.toml", "--output", "grid.nc")
 CUT = 10.0  # [N] the side force of a light cut
-MAP_STEP = 4  # every fourth place of the survey
-MAP_ROWS = 8  # characters are twice as high as wide
 
 
-@dataclass(frozen=True)
-class SheetReach:
-    """The usable part of the sheet, and what limits the rest."""
+@dataclass(frozen=True, kw_only=True)
+class ReachAnswer(SheetReach):
+    """The usable part of the sheet, and the files that were written."""
 
-    survey: Internal[Survey]
-    expected: Expected | None  # None: no sled hangs on this sheet
     written: list[str]
-
-    tightest = part("survey.tightest", Pull | None)
-    slackest = part("survey.slackest", Pull | None)
-    softest = part("survey.softest", Give | None)
-    assumed = part("survey.assumed", tuple[str, ...], "What the settings do not say.")
-
-    @in_json
-    def usable_share(self) -> float:
-        """The share of the sheet that the machine can use."""
-        return self.survey.shares[REACH_WORDS[0]]
-
-    @in_json
-    def shares(self) -> dict[str, float]:
-        """The share of the sheet of each verdict."""
-        return {word.replace(" ", "_"): share for word, share in self.survey.shares.items()}
-
-    @in_json
-    def map(self) -> list[str]:
-        """The sheet in characters, from the top down; edges included."""
-        rows = self.survey.reached.verdict.reshape(len(self.survey.y), len(self.survey.x))
-        return ["".join(SIGNS[each] for each in row) for row in rows[::MAP_ROWS, ::MAP_STEP]]
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -67,9 +32,9 @@ def run(arguments: argparse.Namespace) -> int:
     form = picture_form(arguments.output, option="-o") if arguments.output else ""
     settings = settings_in(arguments.settings)
     priors_with(arguments.prior)  # refuses a number that is none
-    survey = survey_sheet(settings)
-    expected = expected_anywhere(settings, expected_priors(dict(arguments.prior)))
-    answer = SheetReach(survey, expected, [arguments.output] if arguments.output else [])
+    survey, expected = reach_of(settings, dict(arguments.prior))
+    written = [arguments.output] if arguments.output else []
+    answer = ReachAnswer(survey=survey, expected=expected, written=written)
     if arguments.output:
         write_outputs({arguments.output: drawn_map(survey, form=form)}, inputs=[arguments.settings])
     if arguments.json:
@@ -109,38 +74,34 @@ def drawn_map(survey: Survey, *, form: str = "png") -> bytes:
 
 def as_text(answer: SheetReach) -> str:
     """Return the survey for people: conclusion, what is normal, map, worst places."""
-    survey, expected, lines = answer.survey, answer.expected, answer.map
+    lines = answer.map[::2]  # characters are twice as high as wide
     edge = "+" + "-" * len(lines[0]) + "+"
-    shares = survey.shares.values()
     legend = [
-        sentences([meaning], mark=f"  {sign}  {percent(share):>6s}  ")
-        for sign, share, meaning in zip(SIGNS, shares, MEANING, strict=True)
-        if share
+        sentences([each.meaning], mark=f"  {each.sign}  {each.share:>6s}  ")
+        for each in answer.legend
     ]
     parts = [
-        conclusion_of(survey),
-        *([sentences([expected_sentence(expected)], mark="")] if expected else []),
+        answer.conclusion,
+        *([sentences([answer.normal], mark="")] if answer.normal else []),
         "\n".join([edge, *(f"|{line}|" for line in lines), edge]),
         "\n".join(legend),
     ]
-    if survey.tightest and survey.slackest and survey.softest:
-        parts.append(_worst(survey.tightest, survey.slackest, survey.softest))
-    if survey.assumed:
-        parts.append(sentences(survey.assumed))
+    if answer.extremes:
+        rows = [_row(each) for each in answer.extremes]
+        parts.append(table(["", "", "limit", f"at x, y [{unit()}]", ""], rows, words=[-1]))
+    if answer.assumed:
+        parts.append(sentences(answer.assumed))
     return "\n\n".join(parts)
 
 
-def _worst(tightest: Pull, slackest: Pull, softest: Give) -> str:
-    rows = [
-        ["tightest chain", f"{tightest.value:.1f} N", f"{REACH_LIMITS['most_tension']:g} N"],
-        ["slackest chain", f"{slackest.value:.1f} N", f"{REACH_LIMITS['least_tension']:g} N"],
-        ["softest place", f"{worded(softest.value)}/N", f"{worded(REACH_LIMITS['most_give'])}/N"],
-    ]
-    extremes: list[Pull | Give] = [tightest, slackest, softest]
-    for row, extreme in zip(rows, extremes, strict=True):
-        row += [f"{bare(extreme.place[0], 0)}, {bare(extreme.place[1], 0)}", extreme.side]
-    rows[2][-1] = f"{CUT:g} N move it {worded(CUT * softest.value, 1)}"
-    return table(["", "", "limit", f"at x, y [{unit()}]", ""], rows, words=[-1])
+def _row(extreme: Extreme) -> list[str]:
+    x, y = extreme.place
+    place = f"{bare(x, 0)}, {bare(y, 0)}"
+    if extreme.unit == "N":
+        sizes = [f"{extreme.value:.1f} N", f"{extreme.limit:g} N"]
+        return [extreme.title, *sizes, place, extreme.side]
+    sizes = [f"{worded(size)}/N" for size in (extreme.value, extreme.limit)]
+    return [extreme.title, *sizes, place, f"{CUT:g} N move it {worded(CUT * extreme.value, 1)}"]
 
 
 # The arguments of `plumb reach`.

@@ -1,8 +1,8 @@
 """Where on the sheet a machine is usable: its tightest, slackest and softest places."""
 
+from collections.abc import Iterator
 from contextlib import suppress
-from dataclasses import dataclass, replace
-from typing import Annotated
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -10,6 +10,7 @@ import plumb.grid as marks_grid
 from plumb.model.plain import greatest, noun_of
 from plumb.model.predict import (
     CANNOT_HANG,
+    REACH_LIMITS,
     REACH_WORDS,
     TOO_SLACK,
     TOO_TIGHT,
@@ -21,28 +22,21 @@ from plumb.model.predict import (
     with_parameters,
 )
 from plumb.settings.machine import MachineSettings
-from plumb.text.answers import Internal, key
 from plumb.text.errors import InputError, to_do
 
 COLUMNS, ROWS = 305, 153  # of a survey: a place each 8 mm of the usual sheet, edges included
 
 
 @dataclass(frozen=True)
-class Pull:
-    """The place where a chain pulls most or least."""
+class Extreme:
+    """The place where a chain pulls most or least, or where the sled gives most."""
 
+    title: str
     place: tuple[float, float]  # [mm]
-    value: Annotated[float, key("tension_n")]
-    side: str  # whose chain
-
-
-@dataclass(frozen=True)
-class Give:
-    """The place where the sled gives most."""
-
-    place: tuple[float, float]  # [mm]
-    value: Annotated[float, key("give_mm_per_n")]
-    side: Internal[str] = ""  # no chain's
+    value: float
+    unit: str  # N, or mm/N
+    limit: float
+    side: str  # whose chain; empty: no chain's
 
 
 @dataclass(frozen=True)
@@ -54,9 +48,7 @@ class Survey:
     y: Array  # (ROWS,) [mm] from the top down
     reached: Reached  # of the places row by row
     assumed: tuple[str, ...]  # what the settings do not say, a sentence each
-    tightest: Pull | None  # None where no sled hangs on the whole sheet
-    slackest: Pull | None
-    softest: Give | None
+    extremes: tuple[Extreme, ...]  # tightest, slackest, softest; none where no sled hangs
 
     @property
     def shares(self) -> dict[str, float]:
@@ -103,24 +95,23 @@ def survey_sheet(settings: MachineSettings) -> Survey:
     y = np.linspace(height / 2, -height / 2, ROWS)
     places = np.stack(np.meshgrid(x, y), axis=-1).reshape(-1, 2)
     reached = reach(machine, places)
-    hanging = reached.verdict != CANNOT_HANG
-    tightest = slackest = softest = None
-    if hanging.any():
-        tightest = _extreme(places, np.where(hanging[:, None], reached.tension, -np.inf))
-        slackest = _extreme(places, -np.where(hanging[:, None], reached.tension, np.inf))
-        slackest = replace(slackest, value=-slackest.value)
-        most = greatest(np.where(hanging, reached.give, -np.inf))
-        softest = Give(_place(places, most), float(reached.give[most]))
-    return Survey(
-        machine.sheet,
-        x,
-        y,
-        reached,
-        assumed,
-        tightest,
-        slackest,
-        softest,
-    )
+    return Survey(machine.sheet, x, y, reached, assumed, tuple(_extremes(places, reached)))
+
+
+def _extremes(places: Array, reached: Reached) -> Iterator[Extreme]:
+    """Yield the extreme places; none where no sled hangs on the whole sheet."""
+    hangs = (reached.verdict != CANNOT_HANG)[:, None]
+    for title, limit, unit, values, sign in (
+        ("tightest chain", "most_tension", "N", reached.tension, 1),
+        ("slackest chain", "least_tension", "N", reached.tension, -1),
+        ("softest place", "most_give", "mm/N", reached.give[:, None], 1),
+    ):
+        if hangs.any():
+            most = greatest(np.where(hangs, sign * values, -np.inf))
+            i, side = np.unravel_index(most, values.shape)
+            place, value = (float(places[i, 0]), float(places[i, 1])), float(values[i, side])
+            whose = ("left", "right")[side] if unit == "N" else ""
+            yield Extreme(title, place, value, unit, REACH_LIMITS[limit], whose)
 
 
 def percent(share: float) -> str:
@@ -138,16 +129,6 @@ def conclusion_of(survey: Survey) -> str:
     usable, *bad = [(word, share) for word, share in survey.shares.items() if share]
     rest = ", ".join(f"{percent(share)} {word}" for word, share in bad)
     return f"{percent(usable[1])} of the sheet is usable; {rest}."
-
-
-def _extreme(places: Array, tension: Array) -> Pull:
-    """Return the largest of all chains' tensions (n, 2)."""
-    i, side = np.unravel_index(greatest(tension), tension.shape)
-    return Pull(_place(places, int(i)), float(tension[i, side]), ("left", "right")[side])
-
-
-def _place(places: Array, i: int) -> tuple[float, float]:
-    return float(places[i, 0]), float(places[i, 1])
 
 
 # Whether the sled can take the way of a grid, by our model of the machine.

@@ -7,7 +7,6 @@ from dataclasses import replace
 import numpy as np
 import plumb.grid as grids
 import pytest
-from plumb.cli.reach import SIGNS, SheetReach
 from plumb.grid import options
 from plumb.model.predict import (
     CANNOT_HANG,
@@ -21,6 +20,7 @@ from plumb.model.predict import (
 )
 from plumb.model.predict import lengths as lengths_of
 from plumb.model.reach import survey_sheet, with_soft_chains
+from plumb.plan.sheet_reach import SIGNS, SheetReach
 from plumb.settings.toml import write_machine_toml
 from published_marks import SETTINGS
 from synthetic import BELIEVED, SHEET, TRUE
@@ -112,20 +112,21 @@ def test_chains_without_stretch_in_the_settings_stretch_as_usual():
 def test_the_survey_finds_the_lower_corners_of_the_usual_machine():
     answer = survey_sheet(SOFT)
     assert 0.99 < answer.shares["usable"] < 1
-    assert answer.slackest.place[1] == answer.softest.place[1] == pytest.approx(-609.6)
-    assert abs(answer.softest.place[0]) == pytest.approx(1219.2)
-    assert answer.tightest.value == pytest.approx(165.14, rel=0.01)  # published
-    assert answer.slackest.value == pytest.approx(18.04, rel=0.015)
-    far = {-1: "right", 1: "left"}[int(np.sign(answer.slackest.place[0]))]
-    assert answer.slackest.side == far
+    tightest, slackest, softest = answer.extremes
+    assert slackest.place[1] == softest.place[1] == pytest.approx(-609.6)
+    assert abs(softest.place[0]) == pytest.approx(1219.2)
+    assert tightest.value == pytest.approx(165.14, rel=0.01)  # published
+    assert slackest.value == pytest.approx(18.04, rel=0.015)
+    far = {-1: "right", 1: "left"}[int(np.sign(slackest.place[0]))]
+    assert slackest.side == far
 
 
 def test_the_map_shows_the_sheet_as_it_hangs():
     survey = survey_sheet(replace(SOFT, motor_gap=2900.0, motor_height=909.6))
-    lines = SheetReach(survey, None, []).map
-    assert {len(line) for line in lines} == {77} and len(lines) == 20
+    lines = SheetReach(survey=survey, expected=None).map
+    assert {len(line) for line in lines} == {77} and len(lines) == 39
     assert lines[0][38] == "T" and lines[-1][0] == lines[-1][-1] == "S"
-    assert lines[10][38] == "." and set("".join(lines)) <= set(SIGNS)
+    assert lines[20][38] == "." and set("".join(lines)) <= set(SIGNS)
 
 
 @pytest.mark.parametrize("form", ["png", "svg"])

@@ -9,14 +9,14 @@ import { Screen } from "../shell/Screen";
 import "./reach.css";
 
 type Answer = Schemas["ReachAnswer"];
-/** For each verdict its class on the map, and its meaning. */
-const MEANING: [string, string][] = [
-  ["usable", "usable"],
-  ["tight", "too tight: a chain pulls harder than its gearbox likes"],
-  ["slack", "too slack: a chain hangs loose, and the sled follows late"],
-  ["vertical", "too vertical: the chains hold the sled hardly at all sideways"],
-  ["nowhere", "no sled hangs here, or its ring meets a motor"],
-];
+/** The class of each sign of the map. */
+const TONES: Record<string, string> = {
+  ".": "usable",
+  T: "tight",
+  S: "slack",
+  V: "vertical",
+  "#": "nowhere",
+};
 
 export function Reach() {
   const { project } = useProject();
@@ -38,17 +38,14 @@ export function Reach() {
             <Places reach={reach} sheet={project.machine.sheet} />
           </Sheet>
           <ul class="plain">
-            {MEANING.map(([tone, words], verdict) => {
-              const share = reach.shares[reach.words[verdict] ?? ""];
-              return reach.verdicts.includes(verdict) ? (
-                <li key={tone}>
-                  <span class={`swatch ${tone}`} />
-                  <span>
-                    {share}: {words}
-                  </span>
-                </li>
-              ) : null;
-            })}
+            {reach.legend.map(({ sign, share, meaning }) => (
+              <li key={sign}>
+                <span class={`swatch ${TONES[sign]}`} />
+                <span>
+                  {share}: {meaning}
+                </span>
+              </li>
+            ))}
           </ul>
         </div>
       }
@@ -58,17 +55,16 @@ export function Reach() {
 
 function Places({ reach, sheet }: { reach: Answer; sheet: readonly [number, number] }) {
   const { at, px } = useScale();
-  const [wide, high] = [sheet[0] / reach.columns, sheet[1] / reach.rows];
+  const columns = reach.map[0]?.length ?? 1;
+  const [wide, high] = [sheet[0] / columns, sheet[1] / reach.map.length];
   return (
     <g class="reached">
-      {reach.verdicts.map((verdict, index) => {
-        const [tone] = MEANING[verdict] ?? MEANING[0] ?? ["usable"];
-        const row = Math.floor(index / reach.columns);
-        const [x, y] = at([
-          -sheet[0] / 2 + (index % reach.columns) * wide,
-          sheet[1] / 2 - row * high,
-        ]);
-        return <rect key={index} class={tone} x={x} y={y} width={wide * px} height={high * px} />;
+      {[...reach.map.join("")].map((sign, index) => {
+        const row = Math.floor(index / columns);
+        const [x, y] = at([-sheet[0] / 2 + (index % columns) * wide, sheet[1] / 2 - row * high]);
+        return (
+          <rect key={index} class={TONES[sign]} x={x} y={y} width={wide * px} height={high * px} />
+        );
       })}
     </g>
   );

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
+from dataclasses import dataclass
 from threading import Lock
 
-import numpy as np
 from fastapi import APIRouter
 from pydantic import BaseModel, Field
 
-from plumb.fit.expected import Expected, expected_anywhere, expected_priors, expected_sentence
+from plumb.fit.expected import expected_priors
 from plumb.lab.known import measured_to, planned_priors, possible
 from plumb.lab.project import Choices, Layout
 from plumb.lab.rounds import (
@@ -25,17 +25,14 @@ from plumb.lab.rounds import (
 )
 from plumb.lab.routes.project import TheProject
 from plumb.marks.model import tape_sigma
-from plumb.model.predict import REACH_WORDS
-from plumb.model.reach import Give, Pull, Survey, conclusion_of, percent, survey_sheet
 from plumb.plan.preview import Preview, as_read, preview
+from plumb.plan.sheet_reach import SheetReach, reach_of
 from plumb.settings.machine import MachineSettings
-from plumb.text.answers import like
 from plumb.text.errors import InputError
 from plumb.text.values import worded
 
 router = APIRouter(tags=["plan"])
 MOST_MARKS = 400
-COLUMNS, ROWS = 61, 31  # of the map of reach
 MOST_SEEN = 64  # plans that are kept
 
 
@@ -74,30 +71,11 @@ class PlanAnswer(BaseModel):
     command: str
 
 
-class ReachAnswer(BaseModel):
+@dataclass(frozen=True, kw_only=True)
+class ReachAnswer(SheetReach):
     """Where on the sheet the machine is usable."""
 
-    columns: int
-    rows: int
-    verdicts: list[int]  # row by row from the top left: index into words
-    words: list[str]
-    shares: dict[str, str]
-    conclusion: str
-    extremes: list[ExtremeAnswer]
-    assumed: list[str]
-    expected: Expected | None  # None: no sled hangs on this sheet
-    normal: str  # the same as a sentence
     command: str
-
-
-class ExtremeAnswer(BaseModel):
-    """The tightest, slackest or softest place."""
-
-    title: str
-    place: tuple[float, float]
-    value: float
-    unit: str
-    side: str
 
 
 @router.get("/layouts")
@@ -203,35 +181,13 @@ def preview_plan(request: PlanRequest, project: TheProject) -> PlanAnswer:
 @router.get("/reach")
 def reach(project: TheProject) -> ReachAnswer:
     """Return where on the sheet the machine is usable."""
-    choices = project.choices
     settings = opened(project)
-    survey = survey_sheet(settings)
-    choices = possible(choices, settings)
-    known = expected_priors(measured_to(choices))
-    expected = expected_anywhere(settings, known)
-    said = expected_sentence(expected)
-    rows, columns = len(survey.y), len(survey.x)
-    verdicts = survey.reached.verdict.reshape(rows, columns)
-    down = np.linspace(0, rows - 1, ROWS).round().astype(int)
-    across = np.linspace(0, columns - 1, COLUMNS).round().astype(int)
-    return ReachAnswer(
-        columns=COLUMNS,
-        rows=ROWS,
-        verdicts=verdicts[np.ix_(down, across)].ravel().tolist(),
-        words=list(REACH_WORDS),
-        shares={word: percent(share) for word, share in survey.shares.items()},
-        conclusion=conclusion_of(survey),
-        extremes=list(_extremes(survey)),
-        assumed=list(survey.assumed),
-        expected=expected,
-        normal=said,
-        command=command(
-            "reach",
-            choices.settings,
-            *prior_words(known, expected_priors({})),
-            *unit_words(choices),
-        ),
-    )
+    choices = possible(project.choices, settings)
+    known = measured_to(choices)
+    survey, expected = reach_of(settings, known)
+    words = prior_words(expected_priors(known), expected_priors({}))
+    said = command("reach", choices.settings, *words, *unit_words(choices))
+    return ReachAnswer(survey=survey, expected=expected, command=said)
 
 
 def _trouble(settings: MachineSettings, request: PlanRequest) -> str:
@@ -240,14 +196,3 @@ def _trouble(settings: MachineSettings, request: PlanRequest) -> str:
     except (ValueError, InputError) as error:
         return str(error)
     return ""
-
-
-def _extremes(survey: Survey) -> Iterable[ExtremeAnswer]:
-    each: list[tuple[str, Pull | Give | None, str]] = [
-        ("tightest chain", survey.tightest, "N"),
-        ("slackest chain", survey.slackest, "N"),
-        ("softest place", survey.softest, "mm/N"),
-    ]
-    for title, extreme, unit in each:
-        if extreme:
-            yield like(ExtremeAnswer, extreme, title=title, unit=unit)
