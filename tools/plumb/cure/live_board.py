@@ -13,11 +13,11 @@ from functools import cached_property, partial
 from threading import Lock
 from typing import Protocol
 
+from plumb.diagnosis.drawn import Drawn, drawn_by
 from plumb.diagnosis.explanation import Board, Explanation, explain
 from plumb.diagnosis.noise import Noise
 from plumb.diagnosis.outliers import described
 from plumb.diagnosis.readings import clear_outliers
-from plumb.diagnosis.suspect_curves import SuspectCurves, suspect_curves
 from plumb.firmware.settings import Difference, both_values, differences, numbers_in_force
 from plumb.fit.compare import chain_errors, hung_places
 from plumb.fit.covariates import PATCH, Covariate, covariates
@@ -229,11 +229,11 @@ class BoardView:
         rows = self.board.rows
         return chain_errors(self.model, self._places, errors, rows.sled_weights[rows.mark_rows])
 
-    def drawn(self, *effects: str) -> SuspectCurves:
+    def drawn(self, *effects: str) -> Drawn:
         """Return what effects draw into the marks once the frame is refitted with them."""
         frame, rows = self._frame, self.board.rows
         explanation = explain(frame.board, effects, start=frame)
-        return suspect_curves(frame, explanation, rows)
+        return drawn_by(frame, explanation, rows)
 
     @property
     def _frame(self) -> Explanation:

@@ -10,8 +10,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from plumb.diagnosis.drawn import model_by
 from plumb.diagnosis.explanation import Explanation
-from plumb.diagnosis.suspect_curves import model_by
 from plumb.fit.compare import best_pose
 from plumb.fit.expected import places_over
 from plumb.fit.observations import Observations, visited

@@ -1,17 +1,15 @@
-"""Residuals as the page draws them: on the sheet, in chain, and against noise."""
+"""Residuals as the page draws them: on the sheet, and in chain."""
 
 import math
 from collections.abc import Collection, Sequence
 from typing import TypeVar
 
-import numpy as np
 from pydantic import BaseModel
 
 from plumb.cure.live_board import BoardView
 from plumb.diagnosis.outliers import NOTHING_DOUBTED, Doubts
 from plumb.fit.compare import Comparison
 from plumb.fit.fit import Fit
-from plumb.fit.quantiles import quantiles
 from plumb.marks.read import Measurements
 from plumb.model.predict import Array
 
@@ -19,17 +17,6 @@ Pair = tuple[float, float]
 Ends = tuple[float | None, float | None]  # left and right; None for what is not known
 NO_ENDS: Ends = (None, None)
 Value = TypeVar("Value")
-MICROMETRE = 3  # decimals of a mm
-
-
-class Ranked(BaseModel):
-    """The coordinates of residuals, the smallest first, against noise [mm]."""
-
-    order: list[int]  # whose coordinate each is: 2 * mark + 0 for x, + 1 for y
-    at: list[float]  # what noise alone would make of it
-    low: list[float]  # noise leaves this band with no point, 95 times of 100
-    high: list[float]
-    beyond: list[bool]  # whether it lies outside of the band
 
 
 class Span(BaseModel):
@@ -51,7 +38,6 @@ class State(BaseModel):
     errors: list[Pair | None]
     spans: list[float | None]  # errors of the distances
     chains: list[Ends]
-    ranked: Ranked
 
 
 def spans_of(measurements: Measurements) -> list[Span]:
@@ -69,12 +55,8 @@ def spans_of(measurements: Measurements) -> list[Span]:
     ]
 
 
-def as_set(
-    raw: Comparison, sigma: float, *, title: str = "as set", doubts: Doubts = NOTHING_DOUBTED
-) -> State:
-    """Return the marks against the settings as they stand; sigma [mm] is that of a reading. What is
-    doubted does not count.
-    """
+def as_set(raw: Comparison, *, title: str = "as set", doubts: Doubts = NOTHING_DOUBTED) -> State:
+    """Return the marks against the settings as they stand. What is doubted does not count."""
     return State(
         title=title,
         fit_rms=doubts.rms(raw),
@@ -82,7 +64,6 @@ def as_set(
         errors=[mark.error for mark in raw.marks],
         spans=[each.error for each in raw.distances],
         chains=[(mark.left_chain_residual, mark.right_chain_residual) for mark in raw.marks],
-        ranked=_ranked(np.array([mark.error for mark in raw.marks]), math.sqrt(2) * sigma),
     )
 
 
@@ -101,7 +82,6 @@ def fitted_state(
         errors=among_all(errors, doubts.marks, None),
         spans=among_all(spans, doubts.spans, None),
         chains=among_all(ends(view.chains(fitted.errors)), doubts.marks, NO_ENDS),
-        ranked=_ranked(fitted.errors, fitted.noise_rms, doubts.marks),
     )
 
 
@@ -110,19 +90,6 @@ def among_all(sure: Sequence[Value], doubted: Collection[int], nothing: Value) -
     said = iter(sure)
     count = len(sure) + len(doubted)
     return [nothing if i in doubted else next(said) for i in range(count)]
-
-
-def _ranked(errors: Array, noise_rms: float, doubted: Collection[int] = ()) -> Ranked:
-    """Residuals (k, 2) [mm] against noise that leaves this much of their vectors [mm]."""
-    placed = quantiles(errors.reshape(-1, 2), noise_rms)
-    sure = [i for i in range(len(errors) + len(doubted)) if i not in doubted]
-    return Ranked(
-        order=[2 * sure[place // 2] + place % 2 for place in placed.order.tolist()],
-        at=placed.at.round(MICROMETRE).tolist(),
-        low=placed.low.round(MICROMETRE).tolist(),
-        high=placed.high.round(MICROMETRE).tolist(),
-        beyond=placed.beyond.tolist(),
-    )
 
 
 def pairs(values: Array) -> list[Pair]:

@@ -33,12 +33,6 @@ Matrix = Annotated[
     GetPydanticSchema(lambda _type, _handler: core_schema.any_schema()),
     PlainSerializer(lambda array: array.tolist(), return_type=list[list[float]]),
 ]
-# Numbers in a row.
-Series = Annotated[
-    np.ndarray,
-    GetPydanticSchema(lambda _type, _handler: core_schema.any_schema()),
-    PlainSerializer(lambda array: array.tolist(), return_type=list[float]),
-]
 # A number that is null in the JSON where it is not finite.
 Number = Annotated[float, PlainSerializer(lambda number: plain(number), return_type=float | None)]
 # A time of day as ISO 8601 writes it.

@@ -4,9 +4,9 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from plumb.diagnosis.drawn import model_by
 from plumb.diagnosis.expected_error import rival_error, sigmas
 from plumb.diagnosis.explanation import Board, explain
-from plumb.diagnosis.suspect_curves import model_by
 from plumb.fit.expected import places_over
 from plumb.fit.observations import observe
 from plumb.marks.read import Measurements

@@ -36,7 +36,6 @@ def test_nothing_that_users_get_is_ranked_by_the_last_bit():
         "model/plain.py",
         "diagnosis/every_machine.py",
         "diagnosis/evidence.py",  # the order in which signs are conditioned on, which is not shown
-        "fit/quantiles.py",  # ranks of random draws
         "job/check.py",
         "job/fixes.py",  # the first of yes and no
         "job/wood.py",  # the first of yes and no

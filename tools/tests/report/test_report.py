@@ -95,7 +95,7 @@ def test_every_button_works_and_no_link_leaves_the_page(made, opened, kind):
     suspects = page.get_by_role("checkbox", name="Over the marks")
     if suspects.count():
         page.locator(".key.laid").wait_for()
-        assert page.locator(".curve.left").count() > 0
+        assert page.locator(".strokes.left").count() > 0
     for suspect in suspects.all()[1:2]:
         suspect.check()
         page.locator(".key.laid").wait_for()

@@ -1,4 +1,4 @@
-// A picture of numbers against numbers, with axes: errors of the chains, of a coordinate, or against noise.
+// A picture of numbers against numbers, with axes: errors of the chains against what they may depend on.
 
 import { nearest, type Pair, pointIn, ticks, tickText } from "../sheet/view";
 

@@ -1,14 +1,13 @@
-// Remaining errors against what they may depend on, with an effect's curve below them; and against noise.
+// Remaining errors against what they may depend on, with what an effect would draw below them.
 import type { Schemas } from "../api/client";
 import { shownLength, type Unit } from "../controls/lengths";
 import type { Ends, State } from "../sheet/marks";
 import { tickText } from "../sheet/view";
-import { type Along, Plot } from "./Plot";
+import { Plot } from "./Plot";
 import type { Drawn } from "./useDrawn";
 
 export type Covariate = Schemas["BenchCovariate"];
 export type Left = Schemas["State"];
-type Curve = Drawn["curves"][string][0];
 
 /** Most effects are a curve against the first two. */
 const TITLES: Record<string, string> = {
@@ -22,7 +21,7 @@ const TITLES: Record<string, string> = {
   order: "order of cutting",
   approach: "way of the last move",
 };
-const STRIP = 3; // plots in view, and beside them that against noise
+const STRIP = 4; // plots in view
 const BEYOND_NOISE = 1.96; // sigmas: noise alone makes a larger error in 5 % of the chains
 const ORDER = Object.keys(TITLES);
 const SIDES = ["left", "right"] as const;
@@ -63,7 +62,6 @@ export function Plots(parts: PlotsParts) {
       {/* biome-ignore lint/a11y/noNoninteractiveTabindex: on a narrow page it is a strip that keys move */}
       <section class="grid tiles" tabIndex={0} aria-label="Plots">
         {plots.slice(0, STRIP)}
-        <AgainstNoise {...parts} />
       </section>
       <details>
         <summary>{plots.length - STRIP} more views</summary>
@@ -85,7 +83,6 @@ function AgainstCovariate(parts: CovariateParts) {
   const [by, name] = covariate.unit === "mm" ? [unit, units] : [1, covariate.unit];
   const title = TITLES[covariate.name] ?? covariate.name;
   const ends = extremes(covariate);
-  const curves = drawn?.curves[covariate.name];
   const noise = (BEYOND_NOISE * sigma) / unit;
   return (
     <Plot
@@ -106,102 +103,25 @@ function AgainstCovariate(parts: CovariateParts) {
       below={(x, y) => (
         <>
           <path
-            class="curve noise band"
+            class="noise band"
             d={`M${x(ends[0] / by)} ${y(noise)}H${x(ends[1] / by)}V${y(-noise)}H${x(ends[0] / by)}z`}
           />
-          {SIDES.map((kind, side) =>
-            curves ? (
-              <CurvePath
+          {drawn &&
+            SIDES.map((kind, side) => (
+              <path
                 key={kind}
-                kind={kind}
-                curve={curves[side as 0 | 1]}
-                x={(value) => x(value / by)}
-                y={(value) => y(value / unit)}
-                ends={ends}
+                class={`strokes ${kind}`}
+                d={drawn.chains
+                  .map((pair, i) => {
+                    const [at, value] = [covariate.values[i]?.[side], pair[side]];
+                    if (at == null || value == null) return "";
+                    return `M${(x(at / by) - 5).toFixed(1)} ${y(value / unit).toFixed(1)}h10`;
+                  })
+                  .join("")}
               />
-            ) : (
-              drawn && (
-                <path
-                  key={kind}
-                  class={`strokes ${kind}`}
-                  d={drawn.chains
-                    .map((pair, i) => {
-                      const [at, value] = [covariate.values[i]?.[side], pair[side]];
-                      if (at == null || value == null) return "";
-                      return `M${(x(at / by) - 5).toFixed(1)} ${y(value / unit).toFixed(1)}h10`;
-                    })
-                    .join("")}
-                />
-              )
-            ),
-          )}
+            ))}
         </>
       )}
-    />
-  );
-}
-
-interface CurveParts {
-  curve: Curve;
-  kind: string;
-  x: Along;
-  y: Along;
-  ends: readonly [number, number];
-}
-
-/** An effect's curve, with the band in which four fifths of the sheet lie. */
-function CurvePath({ curve, kind, x, y, ends }: CurveParts) {
-  const rows = curve.at.flatMap((at, i) => (at >= ends[0] && at <= ends[1] ? [i] : []));
-  const line = (values: readonly number[], order: readonly number[]) =>
-    order.map((i) => `${x(curve.at[i] ?? 0).toFixed(1)} ${y(values[i] ?? 0).toFixed(1)}`).join("L");
-  if (rows.length < 2) return null;
-  return (
-    <g class={`curve ${kind}`}>
-      <path
-        class="band"
-        d={`M${line(curve.low, rows)}L${line(curve.high, [...rows].reverse())}z`}
-      />
-      <path class="middle" d={`M${line(curve.middle, rows)}`} />
-    </g>
-  );
-}
-
-/** Both coordinates of all errors, smallest first, against what noise alone would give. */
-function AgainstNoise({ state, doubted, units, selected, select }: PlotsParts) {
-  const unit = units === "inch" ? INCH : 1;
-  const { order, at, low, high, beyond } = state.ranked;
-  const both = order.map((place) => state.errors[Math.floor(place / 2)]?.[place % 2] ?? 0);
-  const [first = 0, last = 0] = [at[0], at.at(-1)];
-  const sure = both.filter((_, i) => !doubted.includes(Math.floor((order[i] ?? 0) / 2)));
-  const most = 1.1 * Math.max(...[...sure, ...low, ...high].map(Math.abs), 1e-6);
-  const dots = (kind: string, keep: (i: number) => boolean) => ({
-    kind,
-    places: both.map((value, i) =>
-      keep(i) ? ([(at[i] ?? 0) / unit, value / unit] as const) : null,
-    ),
-    marks: order.map((place) => Math.floor(place / 2)),
-  });
-  return (
-    <Plot
-      title={`if it were noise, ${units}`}
-      label={`Errors against noise: ${beyond.filter(Boolean).length} of ${beyond.length} coordinates are beyond it`}
-      across={[first / unit, last / unit]}
-      most={most / unit}
-      dots={[dots("inside", (i) => !beyond[i]), dots("outside", (i) => !!beyond[i])]}
-      selected={selected}
-      select={select}
-      below={(x, y) => {
-        const line = (values: readonly number[]) =>
-          values.map(
-            (value, i) => `${x((at[i] ?? 0) / unit).toFixed(1)} ${y(value / unit).toFixed(1)}`,
-          );
-        return (
-          <g class="curve noise">
-            <path class="band" d={`M${[...line(low), ...line(high).reverse()].join("L")}z`} />
-            <path class="middle" d={`M${line(at).join("L")}`} />
-          </g>
-        );
-      }}
     />
   );
 }

@@ -13,7 +13,6 @@ from plumb.cure.add import add, add_to
 from plumb.cure.live_board import Chosen
 from plumb.cure.machine_file import record_of, toml_of
 from plumb.diagnosis.sizes import intervals_sentence
-from plumb.diagnosis.suspect_curves import Curve
 from plumb.fit.compare import ComparedMark
 from plumb.fit.covariates import Covariate
 from plumb.fit.expected import plausible_range
@@ -44,14 +43,12 @@ from plumb.lab.rounds import (
 from plumb.lab.routes.project import ProjectAnswer, TheProject, of_lab, show
 from plumb.model.catalogue import every_effect, parameter_words
 from plumb.model.plain import noun_of, plain_size, plainly
-from plumb.model.predict import Array
 from plumb.text.answers import like
 from plumb.text.errors import InputError
 
 router = APIRouter(tags=["bench"])
 NEW_MACHINE = "new.toml"
 MOST_EFFECTS = 32
-ANGLES = ("angle", "phase", "approach")  # covariates
 
 
 class BenchParameter(BaseModel):
@@ -153,7 +150,6 @@ class BenchDrawn(BaseModel):
     noun: str
     moved: list[Pair | None]
     chains: list[Ends]
-    curves: dict[str, tuple[Curve, Curve]]
 
 
 class BenchSave(BenchChoice):
@@ -179,7 +175,7 @@ def open_bench(project: TheProject, warm: Warm) -> BenchAnswer:
         sigma=warm.live.noise.sigma,
         marks=warm.raw.marks,
         spans=spans_of(warm.inputs.measurements),
-        as_set=as_set(warm.raw, warm.live.noise.sigma, doubts=doubts),
+        as_set=as_set(warm.raw, doubts=doubts),
         doubted=list(doubts.marks),
         doubted_spans=list(doubts.spans),
         effects=_effects(warm),
@@ -234,7 +230,7 @@ def climb(choice: BenchChoice, project: TheProject, warm: Warm) -> BenchStairs:
     result = add_to(warm.live, warm.raw, chosen)
     qualities = [("frame fitted", result.before, False)]
     qualities += [(f"+ {noun_of(step.effect)}", step, step.only_fit) for step in result.by_effect]
-    shown = as_set(warm.raw, warm.live.noise.sigma, doubts=warm.doubts)
+    shown = as_set(warm.raw, doubts=warm.doubts)
     first = BenchStair(
         noun="as set", fit_rms=shown.fit_rms, noise_rms=None, left_out_rms=None, only_fit=False
     )
@@ -260,13 +256,6 @@ def draw(
         noun=plainly(effects),
         moved=among_all(moved, doubted, None),
         chains=among_all(ends(drawn.chains), doubted, NO_ENDS),
-        curves={
-            name: (
-                replace(left, at=_in_degrees(name, left.at)),
-                replace(right, at=_in_degrees(name, right.at)),
-            )
-            for name, (left, right) in drawn.curves.items()
-        },
     )
 
 
@@ -320,17 +309,14 @@ def covariates_of(warm: WarmBoard) -> list[BenchCovariate]:
 
 
 def _covariate(covariate: Covariate, doubted: Collection[int]) -> BenchCovariate:
+    is_angle = covariate.unit == "rad"
+    values = np.degrees(covariate.values) if is_angle else covariate.values
     return like(
         BenchCovariate,
         covariate,
-        unit="°" if covariate.unit == "rad" else covariate.unit,
-        values=among_all(ends(_in_degrees(covariate.name, covariate.values)), doubted, NO_ENDS),
+        unit="°" if is_angle else covariate.unit,
+        values=among_all(ends(values), doubted, NO_ENDS),
     )
-
-
-def _in_degrees(covariate: str, values: Array) -> Array:
-    """Angles are shown in degrees."""
-    return np.degrees(values) if covariate in ANGLES else values
 
 
 def _sizes(fitted: Fit, chosen: Chosen) -> dict[str, BenchSize]:

@@ -231,7 +231,7 @@ def _parts(
         marks=whole.raw.marks,
         spans=spans_of(decision.inputs.measurements),
         sigma=noise.sigma,
-        as_set=as_set(whole.raw, noise.sigma, title=f"as {choices.settings} says"),
+        as_set=as_set(whole.raw, title=f"as {choices.settings} says"),
         accepted=left("with what you accepted", some.after_fit) if some else None,
         whole=left("with all of it", whole.after_fit),
         add=_add_words(made, decision.diagnosis.usual, choices),

@@ -165,7 +165,7 @@ def _title(decision: Decision) -> str:
 def _states(raw: Comparison, decision: Decision, doubts: Doubts) -> list[State]:
     """Return what is left of the marks: as set, with the frame, with what is added."""
     addition, noise = decision.addition, decision.diagnosis.noise
-    states = [as_set(raw, noise.sigma, doubts=doubts)]
+    states = [as_set(raw, doubts=doubts)]
     if decision.diagnosis.outliers:
         return states
     live = LiveBoard(decision.inputs, noise=noise)
