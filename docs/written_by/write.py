@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import argparse
 import sys
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 
 import effects_page
@@ -32,18 +32,14 @@ def main(arguments: Sequence[str] | None = None) -> int:
     try:
         refuse_stale()
         texts = {name: text for pages in PAGES for name, text in pages().items()}
-        left_over = _left_over(root, texts)
         if parsed.check:
             stale = [name for name, text in texts.items() if not _holds(root / name, text)]
-            stale += left_over
             if stale:
                 print(f"{', '.join(stale)}: stale; run .venv/bin/python docs/written_by/write.py")
             return int(bool(stale))
         for name in texts:
             (root / name).parent.mkdir(parents=True, exist_ok=True)
         write_all({str(root / name): text.encode() for name, text in texts.items()})
-        for name in left_over:
-            (root / name).unlink()
     except (InputError, OSError) as error:
         print(f"write.py: {error}", file=sys.stderr)
         return 2
@@ -52,14 +48,6 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 def _holds(path: Path, text: str) -> bool:
     return path.is_file() and path.read_bytes() == text.encode()
-
-
-def _left_over(root: Path, texts: Mapping[str, str]) -> list[str]:
-    """Pictures beside those of a page that the page shows no more."""
-    folders = sorted({Path(name).parent for name in texts if name.endswith(".svg")})
-    there = [path for folder in folders for path in sorted((root / folder).glob("*.svg"))]
-    names = [path.relative_to(root).as_posix() for path in there]
-    return [name for name in names if name not in texts]
 
 
 if __name__ == "__main__":

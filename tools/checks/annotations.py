@@ -3,27 +3,22 @@
 Its name is not types.py: that would hide the module `types` of Python's library from all checks.
 """
 
-import re
-import subprocess
 import sys
+from collections.abc import Iterator
 from pathlib import Path
 
 import tree
+from formatting import first_in_each_file
 
 ROOMS = ("tools/plumb", "docs/written_by")
-ERROR = re.compile(r"[^:]+:\d+: error: ")
 
 
-def violations(root: Path) -> list[str]:
-    """Return the errors as mypy prints them; its last words where it could not run."""
+def violations(root: Path) -> Iterator[str]:
+    """Yield the first error of each file."""
     config, cache = tree.ROOT / "pyproject.toml", root / ".build/mypy"
     rooms = [name for name in ROOMS if (root / name).is_dir()]
-    command = [sys.executable, "-m", "mypy", "--config-file", config, "--cache-dir", cache, *rooms]
-    done = subprocess.run(command, cwd=root, capture_output=True, text=True)
-    lines = [line for line in done.stdout.splitlines() if ERROR.match(line)]
-    if done.returncode and not lines:
-        return [f"mypy: {(done.stdout + done.stderr).strip()}"]
-    return lines
+    command = [sys.executable, "-m", "mypy", "--config-file", config, "--cache-dir", cache]
+    return first_in_each_file([*command, *rooms], root)
 
 
 if __name__ == "__main__":

@@ -1,14 +1,16 @@
 """Shared code of the checks: the project's files, and the report of violations."""
 
 import os
+import re
 import sys
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
 from pathlib import Path
 
 import pathspec
 
 ROOT = Path(__file__).resolve().parents[2]
 CXX = {".h", ".hpp", ".cpp"}
+NOT_CODE = re.compile(r'//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\\n])*"', re.DOTALL)
 # What tools/page/make writes; a test of the lab makes it again and compares.
 BUILT = ("tools/plumb/lab/page", "tools/page/src/api/schema.ts")
 
@@ -48,6 +50,14 @@ def text_of(path: Path) -> str:
         return path.read_text(encoding="utf-8")
     except UnicodeDecodeError:
         return ""
+
+
+def cxx_code(root: Path) -> Iterator[tuple[Path, str]]:
+    """Yield the name and the code of each C++ file, without the words of comments and strings."""
+    for path in own_files(root):
+        if path.suffix in CXX:
+            code = NOT_CODE.sub(lambda match: "\n" * match[0].count("\n"), text_of(path))
+            yield path.relative_to(root), code
 
 
 def is_python(path: Path) -> bool:

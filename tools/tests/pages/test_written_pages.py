@@ -24,14 +24,6 @@ def test_a_changed_or_missing_page_is_reported(written, tmp_path, capsys, name):
         assert written() == written("--check") == 0
 
 
-def test_a_picture_that_no_page_shows_is_reported_and_removed(written, tmp_path, capsys):
-    assert written() == 0
-    old = tmp_path / "docs/pictures/a/rust.svg"
-    old.write_text("<svg/>")
-    assert written("--check") == 1 and "rust.svg: stale" in capsys.readouterr().out
-    assert written() == 0 and not old.exists()
-
-
 def test_a_folder_that_cannot_be_written_is_refused(written, tmp_path, capsys):
     (tmp_path / "docs").write_text("a file")
     assert written() == 2

@@ -179,19 +179,6 @@ def test_generated_reports_a_stale_page(tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("name", "line", "word"),
-    [
-        ("lib/Motion/src/Motion.h", "x = max (a, b);", "max is a macro"),
-        ("lib/Motion/src/Motion.h", "x = 2 * PI;", "PI is a macro"),
-        ("lib/Motion/src/Motion.h", "int B0;", "B0 is a macro"),
-    ],
-)
-def test_names_refuse(tmp_path, name, line, word):
-    code, out = said("names", plant(tmp_path, {**GOOD, name: f"\n{line}\n"}))
-    assert code == 1 and out.startswith(f"{name}:2:") and word in out, out
-
-
-@pytest.mark.parametrize(
     ("text", "word"),
     [
         ("const float kTick = 1;\n", "kTick"),
