@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from plumb.cli.arguments import BOARD, add_shared
-from plumb.cli.inputs import add_stated, picture_form, stated_inputs
+from plumb.cli.inputs import add_stated, stated_inputs
 from plumb.cli.output import refuse_twins, write_outputs
 from plumb.cli.screen import (
     bar,
@@ -21,11 +21,9 @@ from plumb.cli.screen import (
 from plumb.diagnosis import Diagnosis, diagnose
 from plumb.fit.by_hand import to_fill_in, what_to_type
 from plumb.fit.inputs import Inputs, settings_in
-from plumb.pictures.drawing import BAD, GOOD, INK, Panel, Spot, draw
 from plumb.plan import Next, Proposal, propose
 from plumb.plan.case import Case
 from plumb.plan.options import READ_ONLY
-from plumb.plan.planned_visits import Visits
 from plumb.plan.proposal import (
     AGAIN,
     CONFIRM,
@@ -66,12 +64,11 @@ class ProposalsAnswer(Next):
 
 def run(arguments: argparse.Namespace) -> int:
     """Diagnose, propose, write, print, and return the exit code."""
-    refuse_twins(arguments.picture, arguments.template, arguments.output)
-    form = picture_form(arguments.picture) if arguments.picture else ""
+    refuse_twins(arguments.template, arguments.output)
     inputs = stated_inputs(arguments)
     diagnosis = diagnose(inputs)
     advice = propose(diagnosis, inputs, progress=bar("simulating"))
-    place, files = _files(arguments, advice, inputs, form)
+    place, files = _files(arguments, advice, inputs)
     named = filter(None, [arguments.cut_with, arguments.cut_next_with])
     read = [arguments.settings, *arguments.marks, *named]
     write_outputs(files, inputs=read)
@@ -87,22 +84,17 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _files(
-    arguments: argparse.Namespace, advice: Next, inputs: Inputs, form: str
+    arguments: argparse.Namespace, advice: Next, inputs: Inputs
 ) -> tuple[int, dict[str, bytes]]:
     """Return the number of the proposal to show, and the files that were asked for."""
-    if not (arguments.picture or arguments.template or arguments.output):
+    if not (arguments.template or arguments.output):
         if arguments.choose is not None:
-            raise InputError("--choose is for --picture, --marks and --output: add what you want")
+            raise InputError("--choose is for --marks and --output: add what you want")
         return 1, {}
-    place, chosen = _chosen(advice, arguments.choose, is_cut=bool(arguments.output))
+    place = _chosen(advice, arguments.choose, is_cut=bool(arguments.output))
     assert advice.case, "what is proposed is proposed for a case"
     files: dict[str, bytes] = {}
     machine = inputs.cut_with or inputs.settings
-    if arguments.picture:
-        old = [Spot(x, y, colour="white", size=6) for x, y in inputs.measurements.targets]
-        new = spots_of(chosen.option.visits, advice.case.usual_weight)
-        panel = Panel(f"Next: {chosen.option.title}", spots=[*old, *new])
-        files[arguments.picture] = draw([panel], sheet=machine.sheet, words=MEANING, form=form)
     if arguments.template:
         moved_by = arguments.cut_next_with or _in_force(arguments, advice.case)
         sheet = settings_in(moved_by).sheet if moved_by else machine.sheet
@@ -116,24 +108,6 @@ def _files(
     return place, files
 
 
-MEANING = (
-    "White: measured marks. Blue: new marks, in their order. Orange: with more weight on the sled.",
-    "Black: with each chain on the other's sprocket. --marks and --output say the rest.",
-)
-
-
-def spots_of(visits: Visits, usual_weight: float) -> list[Spot]:
-    """Return the planned places by number; repeats of a place share its first number."""
-    seen, spots = set[tuple[float, ...]](), list[Spot]()
-    for i, (x, y) in enumerate(visits.targets.tolist()):
-        weight, swapped = visits.sled_weights[i], bool(visits.swapped[i])
-        if (x, y, weight, swapped) not in seen:
-            colour = INK if swapped else BAD if weight > 1.01 * usual_weight else GOOD
-            spots.append(Spot(x, y, f"{i + 1}", colour, size=12))
-        seen.add((x, y, weight, swapped))
-    return spots
-
-
 def _in_force(arguments: argparse.Namespace, case: Case) -> str | None:
     """Return the file of the settings that the marks there are were cut with, if it was given.
 
@@ -145,8 +119,8 @@ def _in_force(arguments: argparse.Namespace, case: Case) -> str | None:
     return None
 
 
-def _chosen(advice: Next, wanted: int | None, *, is_cut: bool) -> tuple[int, Proposal]:
-    """Return the proposal to draw or to cut, with its place."""
+def _chosen(advice: Next, wanted: int | None, *, is_cut: bool) -> int:
+    """Return the number of the proposal to cut or to fill in."""
     having = [
         i
         for i, proposal in enumerate(advice.proposals, 1)
@@ -155,14 +129,14 @@ def _chosen(advice: Next, wanted: int | None, *, is_cut: bool) -> tuple[int, Pro
     if not having and is_cut:
         raise InputError("nothing is proposed that is cut: leave out --output")
     if not having:
-        raise InputError("nothing is proposed that has marks: leave out --picture and --marks")
+        raise InputError("nothing is proposed that has marks: leave out --marks")
     place = having[0] if wanted is None else wanted
     if place not in having:
         raise InputError(
             f"--choose {place}: the proposals that {'are cut' if is_cut else 'have marks'} are "
             f"{', '.join(map(str, having))}"
         )
-    return place, advice.proposals[place - 1]
+    return place
 
 
 def other_ways(advice: Next, shown: int = 1) -> list[str]:
@@ -307,10 +281,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--choose",
         metavar="N",
         type=int,
-        help="the number of the proposal for --picture, --marks and --output [the best that has "
-        "them]",
+        help="the number of the proposal for --marks and --output [the best that has them]",
     )
-    add_shared(parser, picture="draw the proposal on the sheet")
     parser.add_argument(
         "--marks", dest="template", metavar="FILE", help="write a marks.toml to fill in"
     )

@@ -1,12 +1,9 @@
 """`marks.csv`: a mark per line in the machine frame, columns named in the first line."""
 
 import csv
-import io
 import re
 from collections.abc import Mapping
 from typing import Any
-
-import numpy as np
 
 from plumb.marks.model import Mark, Measurements, Point
 from plumb.marks.plausible import Sheet, to_machine
@@ -50,28 +47,6 @@ def read_marks_csv(path: Source) -> Measurements:
                 raise ValueError(f"{many}; write one value for each column")
         marks.append(_mark(path, line, dict(zip(columns, cells, strict=True)), units))
     return Measurements(marks=marks_of(marks), source=str(path))
-
-
-def marks_csv(measurements: Measurements) -> str:
-    """Return the marks that are read as such a table, with what is known of how they were cut."""
-    marks = measurements.measured_marks
-    rows = [_row(mark) for mark in marks]
-    used = [column for column in OPTIONAL if any(row.get(column) for row in rows)]
-    text = io.StringIO()
-    table = csv.DictWriter(text, [*used[:1], *NEEDED, *used[1:]], lineterminator="\n")
-    table.writeheader()
-    table.writerows({name: row.get(name, "") for name in table.fieldnames} for row in rows)
-    return text.getvalue()
-
-
-def _row(mark: Mark) -> dict[str, str]:
-    row = {"name": mark.name}
-    for key, columns in COLUMNS.items():
-        value = getattr(mark, key.removesuffix("_n"))
-        if value is not None:
-            numbers = map(repr, np.atleast_1d(value).tolist())
-            row |= dict(zip(columns, numbers, strict=True))
-    return row
 
 
 def _in_millimetres(title: str) -> str:

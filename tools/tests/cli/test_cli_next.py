@@ -30,18 +30,11 @@ def test_the_preparation_is_printed_first(run):
     assert max(len(line) for line in said.splitlines()) <= 100
 
 
-def test_a_proposal_is_drawn_and_waits_for_the_tape(run, ask, file, maker, tmp_path):
+def test_a_proposal_waits_for_the_tape(run, ask, file, maker, tmp_path):
     marks = marks_on(TRUE, BELIEVED, grid(3, 3), noise=0.3, seed=2)
-    path, picture, form = (
-        file("m.csv", csv_of(marks)),
-        tmp_path / "next.svg",
-        tmp_path / "next.toml",
-    )
-    command = ["next", maker, path, "--sigma", "0.3"]
-    code, answer = ask(*command, "--picture", picture, "--marks", form)
-    assert code == 0 and answer["written"] == [str(picture), str(form)]
-    drawn = picture.read_text()
-    assert drawn.startswith("<?xml") and "</svg>" in drawn
+    path, form = file("m.csv", csv_of(marks)), tmp_path / "next.toml"
+    code, answer = ask("next", maker, path, "--sigma", "0.3", "--marks", form)
+    assert code == 0 and answer["written"] == [str(form)]
     chosen = next(each for each in answer["next"] if each["marks"])
     text = form.read_text()
     assert text.count(FILL) == len(chosen["marks"])
@@ -112,10 +105,8 @@ def test_a_number_that_was_checked_is_not_proposed_again(ask):
         (["--checked", "nonsense=1+-1"], "nonsense"),
         (["--checked", "motor_gap=1+-0"], "above zero"),
         (["--checked", "motor_gap=1+-1", "--checked", "motor_gap=2+-1"], "twice"),
-        (["--picture", "x.gif"], "x.gif"),
         (["--choose", "1"], "--choose"),
         (["--marks", "x.toml", "--choose", "99"], "--choose 99"),
-        (["--marks", "x.svg", "--picture", "x.svg"], "two results"),
         (["--marks", "x.nc", "--output", "x.nc"], "two results"),
     ],
 )

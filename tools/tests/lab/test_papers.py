@@ -1,19 +1,13 @@
 """Tests of the files to save and print: each can be read back or printed."""
 
-import io
 import json
 import shutil
-import zipfile
 
 import pytest
 from folder import EXAMPLE, choose, got
 from playwright.sync_api import expect
-from plumb.marks.csv import read_marks_csv
-from plumb.marks.read import read_marks
 from plumb.pictures import grid_paper
 from screens import measured_machine
-
-SHEET = (2438.4, 1219.2)
 
 
 @pytest.fixture
@@ -30,32 +24,6 @@ def paper(client, name):
     assert answer.status_code == 200, answer.text
     assert answer.headers["content-disposition"] == f'attachment; filename="{name}"'
     return answer.content
-
-
-def test_the_table_of_readings_reads_back_as_the_same_marks(measured, tmp_path):
-    file = tmp_path / "table.csv"
-    file.write_bytes(paper(measured, "readings.csv"))
-    there, back = read_marks(tmp_path / "marks.toml", sheet=SHEET), read_marks_csv(file)
-    for mark, again in zip(there.measured_marks, back.marks, strict=True):
-        assert (mark.name, mark.target, mark.measured) == (again.name, again.target, again.measured)
-        assert (mark.approach, mark.sled_weight, mark.chains) == (
-            again.approach,
-            again.sled_weight,
-            again.chains,
-        )
-
-
-def test_the_folder_is_packed_whole_and_the_same_each_time(measured, tmp_path):
-    packed = paper(measured, "folder.zip")
-    with zipfile.ZipFile(io.BytesIO(packed)) as archive:
-        assert set(archive.namelist()) >= {"groundcontrol.ini", "marks.toml", "lab.json"}
-        for name in archive.namelist():
-            assert archive.read(name) == (tmp_path / name).read_bytes()
-    assert paper(measured, "folder.zip") == packed
-    # What a link leads to does not go along.
-    (tmp_path / "secret.toml").symlink_to("/etc/passwd")
-    with zipfile.ZipFile(io.BytesIO(paper(measured, "folder.zip"))) as archive:
-        assert "secret.toml" not in archive.namelist()
 
 
 def test_a_sheet_to_print_has_the_marks_that_are_to_be_cut(client, tmp_path, monkeypatch):
@@ -97,7 +65,6 @@ def test_the_report_has_the_verdicts_sentence(measured):
 def test_the_browser_saves_them(lab, page):
     measured_machine(lab.folder)
     for step, words, name in (
-        ("readings", "Save the readings as a table", "readings.csv"),
         ("cut", "Save a sheet to print", "marks.pdf"),
         ("verdict", "Save the report", "report.html"),
     ):

@@ -5,9 +5,7 @@ import xml.etree.ElementTree as ElementTree
 
 import numpy as np
 import pytest
-from plumb.cli.next import spots_of
 from plumb.pictures.drawing import FORMATS, Panel, columns_for, draw, factor_for, view_of
-from plumb.plan.planned_visits import Visits
 
 SHEET = (2438.4, 1219.2)
 PLACES = np.array([[-1000.0, 500.0], [0.0, 500.0], [1000.0, -500.0]])
@@ -72,20 +70,3 @@ def test_a_picture_has_few_words(count, written):
 def test_marks_that_repeat_each_other_have_one_number():
     panel = Panel("", np.array([[0.0, 0.0], [20.0, 0.0], [60.0, 0.0]]), np.full((3, 2), 0.5))
     assert svg_of(panel).count("<!-- 0.7 -->") == 2
-
-
-def test_repeats_of_a_planned_place_share_a_number_and_each_kind_its_colour():
-    targets = np.array([[-1000.0, 500.0], [0.0, 0.0], [-1000.0, 500.0], [0.0, 0.0], [9.0, 9.0]])
-    visits = Visits(
-        names=tuple("abcde"),
-        targets=targets,
-        chains=np.zeros((5, 2)),
-        sled_weights=np.array([100.0, 100.0, 100.0, 150.0, 100.0]),
-        approaches=np.zeros((5, 2)),
-        swapped=np.array([False, False, False, False, True]),
-    )
-    spots = spots_of(visits, 100.0)
-    assert [spot.words for spot in spots] == ["1", "2", "4", "5"]
-    assert len({spot.colour for spot in spots}) == 3
-    drawn = svg_of(Panel("Next", spots=spots), words=("Blue: new marks",))
-    assert all(f"<!-- {spot.words} -->" in drawn for spot in spots) and "Blue: new" in drawn

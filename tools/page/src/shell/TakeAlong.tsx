@@ -1,10 +1,10 @@
-// A button that downloads a file from the lab: a report, a sheet to print, a table, the folder.
+// A button that downloads a file from the lab: a report, or a sheet to print.
 import type { ComponentChildren } from "preact";
 import { takeAlong } from "../api/client";
 import { Do } from "./doing";
 
 interface TakeAlongParts {
-  name: "report.html" | "marks.pdf" | "readings.csv" | "folder.zip";
+  name: "report.html" | "marks.pdf";
   children: ComponentChildren;
 }
 

@@ -4,7 +4,6 @@ import type { Schemas } from "../api/client";
 import { useNewest } from "../shell/newest";
 import { useProject } from "../shell/project";
 import { Screen } from "../shell/Screen";
-import { TakeAlong } from "../shell/TakeAlong";
 import { Course } from "./diary/Course";
 import { Errors } from "./diary/Errors";
 import "./diary/diary.css";
@@ -19,13 +18,11 @@ export function Diary() {
   const diary = useNewest<DiaryAnswer>("diary", state);
   if (!diary) return <Screen title="The diary" say="One moment …" busy />;
   const { fits } = diary;
-  const save = <TakeAlong name="folder.zip">Save the whole folder</TakeAlong>;
   if (fits.length === 0 && diary.others.length === 0) {
     return (
       <Screen
         title="The diary"
         say="Each correction that you write, and what you send to the machine, is noted here by itself. Nothing is noted yet."
-        act={save}
       />
     );
   }
@@ -33,7 +30,6 @@ export function Diary() {
     <Screen
       title="The diary"
       say="Each correction with its error, and the history of the numbers. A number that moved by more than its interval says that the machine has changed."
-      act={save}
     >
       {fits.length > 0 && <Errors fits={fits} units={units} />}
       {diary.courses.length > 0 && (

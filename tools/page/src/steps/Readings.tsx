@@ -14,7 +14,6 @@ import { Tape } from "../readings/Tape";
 import { useDoubts } from "../readings/useDoubts";
 import { useReadings } from "../readings/useReadings";
 import { Screen } from "../shell/Screen";
-import { TakeAlong } from "../shell/TakeAlong";
 import "../readings/readings.css";
 
 const LEAST = 9; // marks for a first verdict
@@ -69,7 +68,6 @@ export function Readings() {
           ) : (
             grid
           )}
-          {read > 0 && <TakeAlong name="readings.csv">Save the readings as a table</TakeAlong>}
         </>
       )}
       <FileOfReadings form={form} choose={readings.chooseFile} />

@@ -1,7 +1,5 @@
-"""Files to take along: a report, a sheet to print, the readings as a table, the folder."""
+"""Files to take along: a report, and a sheet to print."""
 
-import io
-import zipfile
 from collections.abc import Callable, Mapping
 from typing import Literal
 
@@ -23,14 +21,10 @@ from plumb.lab.rounds import (
     unit_words,
 )
 from plumb.lab.routes.project import TheProject
-from plumb.marks.csv import marks_csv
 from plumb.pictures.grid_paper import grid_paper
-from plumb.text.errors import InputError
 
 router = APIRouter(tags=["papers"])
-Paper = Literal["report.html", "marks.pdf", "readings.csv", "folder.zip"]
-MOST = 200_000_000  # bytes of a folder that is packed
-LONG_AGO = (1980, 1, 1, 0, 0, 0)  # so that equal folders make equal archives
+Paper = Literal["report.html", "marks.pdf"]
 
 
 @router.get("/papers/{name}", response_class=Response)
@@ -63,29 +57,7 @@ def _paper(project: Project) -> bytes:
     return grid_paper(plan.grid, plan.machine, settings=choices.settings, form=form)
 
 
-def _readings(project: Project) -> bytes:
-    measurements = inputs_of(project).measurements
-    if not measurements.measured_marks:
-        raise InputError("no place of a mark is read; a table has the places, not the distances")
-    return marks_csv(measurements).encode()
-
-
-def _folder(project: Project) -> bytes:
-    names = project.names()
-    if sum(project.path(name).stat().st_size for name in names) > MOST:
-        raise InputError(f"the folder is larger than {MOST // 1_000_000} MB; copy it by hand")
-    packed = io.BytesIO()
-    with zipfile.ZipFile(packed, "w") as archive:
-        for name in names:
-            file = zipfile.ZipInfo(name, LONG_AGO)
-            file.compress_type = zipfile.ZIP_DEFLATED
-            archive.writestr(file, project.read(name) or b"")
-    return packed.getvalue()
-
-
 _PAPERS: Mapping[str, tuple[str, Callable[[Project], bytes]]] = {
     "report.html": ("text/html", _report),
     "marks.pdf": ("application/pdf", _paper),
-    "readings.csv": ("text/csv", _readings),
-    "folder.zip": ("application/zip", _folder),
 }
