@@ -95,7 +95,8 @@ def worst_rows(comparison: Comparison, inputs: Inputs) -> list[str]:
         rows = table(DISTANCES, [_distance_row(distance) for distance in reversed(distances)])
         left_out = len(comparison.distances) - len(distances)
         said = f"All in {unit()}."
-    more = f" {left_out} more are off by less; --details shows them." if left_out else ""
+    is_or_are = "is" if left_out == 1 else "are"
+    more = f" {left_out} more {is_or_are} off by less; --details shows them." if left_out else ""
     parts = [f"{rows}\n{sentences([f'{said}{more}'], mark='')}"]
     outside = outside_sentence(comparison.promised) if comparison.promised else ""
     notes = [*filter(None, [outside]), *comparison.warnings][:NOTES]

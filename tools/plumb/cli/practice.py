@@ -98,6 +98,7 @@ class _Reader:
             self._tape.pass_over(machine)
         filled = self._tape.fill_when_cut(form, machine)
         if filled:
+            self._form = ""
             write_whole(str(path), filled.encode())
 
 

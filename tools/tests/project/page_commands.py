@@ -1,10 +1,11 @@
 """The commands that pages show, and what they print; run as a script it writes that
 into the pages that it is given, or into all.
 
-In a block ```console the lines after `$ ` are commands, and below each stands what it prints. It
-exits with 0, or the page shows the code by `; echo "exit $?"`. In a block without a language the
-lines that begin with plumb, or with Python and a script, are commands that answer (exit 0 or 1).
-The commands of a page run one after the other, in a folder with a copy of docs/example.
+In a block ```console the lines after `$ ` are commands, and below each stands what it prints, where
+... stands for anything. It exits with 0, or the page shows the code by `; echo "exit $?"`. In a
+block without a language the lines that begin with plumb, or with Python and a script, are commands
+that answer (exit 0 or 1). The commands of a page run one after the other, in a folder with a copy
+of docs/example. One that serves until Ctrl-C has a terminal of its own until the last has run.
 """
 
 from __future__ import annotations
@@ -35,6 +36,11 @@ PATIENCE = (
     1200  # [s] for all commands of a page; a busy computer takes five minutes for the longest
 )
 END = "--- end of a command, exit "
+SERVES = re.compile(r"plumb (?:lab|practice start)[^&|>;]*")
+SERVED = (
+    "{0} > terminal.{1} 2>&1 & until grep -Eqs '[.] Ctrl-C|token=' terminal.{1}; "
+    "do sleep 0.1; done; cat terminal.{1}"
+)
 # What the reader does after a command: he measures, and fills in the file that it wrote.
 FILLED_IN = {
     "--marks marks.toml": "cp docs/example/marks.toml marks.toml",
@@ -74,7 +80,12 @@ def commands_on(text: str) -> list[Shown]:
 
 def run_in(folder: Path, commands: list[str]) -> list[Printed]:
     """The output of each command, all run by one shell in a folder with the example."""
-    script = "".join(f"{command}\necho '{END}'$?\n{fill_in(command)}\n" for command in commands)
+    script = "".join(
+        f"{served(command, number)}\necho '{END}'$?\n{fill_in(command)}\n"
+        for number, command in enumerate(commands)
+    )
+    if any(map(SERVES.fullmatch, commands)):
+        script += "kill $(jobs -p)\n"
     shutil.copytree(EXAMPLE, folder / "docs/example")
     for file in EXAMPLE.iterdir():
         if f"--marks {file.name}" not in script:
@@ -85,7 +96,7 @@ def run_in(folder: Path, commands: list[str]) -> list[Printed]:
     done = subprocess.run(
         ["bash", "-c", script],
         cwd=folder,
-        env={**os.environ, "PATH": path, "COLUMNS": "80"},
+        env={**os.environ, "PATH": path, "COLUMNS": "80", "BROWSER": "true"},
         stdout=subprocess.PIPE,
         stderr=subprocess.STDOUT,
         text=True,
@@ -108,6 +119,18 @@ def fill_in(command: str) -> str:
     return "; ".join(deed for part, deed in FILLED_IN.items() if part in command)
 
 
+def served(command: str, number: int) -> str:
+    """A command as it runs beside the others if it serves until Ctrl-C, else as it is."""
+    return SERVED.format(command, number) if SERVES.fullmatch(command) else command
+
+
+def shows(output: str, printed: str) -> bool:
+    """Whether a page shows what is printed; ... stands for anything, also for no line."""
+    pattern = re.escape(output.rstrip()).replace(re.escape("...\n"), "(?:.*\n)?")
+    pattern = pattern.replace(re.escape("..."), ".*")
+    return re.fullmatch(pattern, printed.rstrip(), re.DOTALL) is not None
+
+
 def faults_on(text: str, folder: Path) -> list[str]:
     """Commands that a page needs and does not show."""
     shown = commands_on(text)
@@ -116,7 +139,7 @@ def faults_on(text: str, folder: Path) -> list[str]:
     for each, printed in zip(shown, answers, strict=True):
         if printed.code > (each.output is None):
             faults.append(f"$ {each.command}\nexit {printed.code}:\n{printed.output}")
-        elif each.output is not None and printed.output.rstrip() != each.output.rstrip():
+        elif each.output is not None and not shows(each.output, printed.output):
             faults.append(
                 f"$ {each.command}\nshown:\n{each.output}\nprinted:\n{printed.output}\n"
                 f"If that is right: python {Path(__file__).relative_to(ROOT)} writes it."
@@ -140,7 +163,8 @@ def _block(block: re.Match[str], output_of: Callable[[str], str]) -> str:
     for part in PROMPT.split(body)[1:]:
         command, _, old = part.partition("\n")
         gap = "\n" if old.endswith("\n\n") else ""
-        output = output_of(command).rstrip()
+        printed = output_of(command)
+        output = (old if shows(old, printed) else printed).rstrip()
         parts.append(f"$ {command}\n{output}{output and chr(10)}{gap}")
     return f"```console\n{''.join(parts)}```"
 

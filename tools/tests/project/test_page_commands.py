@@ -9,7 +9,7 @@ PAGES = pages()
 # Their commands drive a machine, or fit and draw much. Those of README are run by
 # cli/test_client_files.py too.
 COMMANDS = ("bench", "calibrate", "lab", "next", "practice", "recover", "report", "send")
-LONG = {"README.md", *(f"docs/commands/{name}.md" for name in COMMANDS)}
+LONG = {"README.md", "docs/tutorial.md", *(f"docs/commands/{name}.md" for name in COMMANDS)}
 
 
 @pytest.mark.parametrize(
@@ -25,6 +25,9 @@ def test_the_commands_of_a_page_run_as_shown(page: str, tmp_path: Path) -> None:
     [
         ("```console\n$ echo a\nb\n```\n", "shown:\nb\n\nprinted:\na\n"),
         ("```console\n$ x=a\n\n$ echo $x\na\n```\n", ""),
+        ("```console\n$ seq 4\n1\n...\n4\n```\n", ""),
+        ("```console\n$ seq 4\n...\n1\n...\n```\n", ""),
+        ("```console\n$ seq 4\n1\n...\n5\n```\n", "printed:\n1\n"),
         ('```console\n$ false; echo "exit $?"\nexit 1\n```\n', ""),
         ("```\nplumb gird      # a comment\n```\n", "exit 2:"),
         ("```\nplumb reach machine.toml --most-give 0.01\n```\n", ""),

@@ -7,9 +7,11 @@ from dataclasses import replace
 import pytest
 from plumb.bench.causes import MAKER, Hidden
 from plumb.cli.main import main
+from plumb.cli.practice import _Reader
 from plumb.marks.read import read_marks
 from plumb.vm.garage import Garage, sled_error
 from plumb.vm.practice import Secret, score, secret_in
+from plumb.vm.tape import BLANK
 from served_machine import INTERRUPTIBLE, PLUMB, plumb
 
 GRID = ("grid", "--places=-1119,510 1119,510 1119,-510 -1119,-510")
@@ -85,3 +87,28 @@ def test_the_error_over_the_sheet_is_nothing_where_the_settings_are_true():
     assert sled_error(Garage(Hidden()), MAKER) < 0.02
     assert sled_error(Secret(1).garage, MAKER) > 1
     assert score(Secret(1), replace(MAKER, motor_height=100.0)).after_mm is None
+
+
+def test_the_same_form_again_waits_for_its_marks_to_be_cut_again(tmp_path):
+    tape = CountingTape()
+    reader = _Reader(tmp_path, tape)
+    for _ in range(2):
+        (tmp_path / "marks.toml").write_text(f'[[mark]]\nname = "1"\n{BLANK}\n')
+        reader.look(machine=None)
+        reader.look(machine=None)
+    assert tape.passed_over == 2
+
+
+class CountingTape:
+    """A tape that reads at once, and counts the forms for which it left older marks."""
+
+    passed_over = 0
+
+    def get_ready(self, form):
+        pass
+
+    def pass_over(self, machine):
+        self.passed_over += 1
+
+    def fill_when_cut(self, form, machine):
+        return form.replace(BLANK, "measured = [1, 2]")
