@@ -54,7 +54,9 @@ void Telemetry::tell() {
   parts_.out << FLASH("|supply:");
   parts_.out.fixed(watch_.supply(), 2) << ',';
   parts_.out.fixed(watch_.lowestSupply(), 2);
-  parts_.out << (parts_.memory.isWorn() ? FLASH("|eeprom:worn") : FLASH("|eeprom:ok"));
+  parts_.out << (parts_.memory.isWorn()           ? FLASH("|eeprom:worn")
+                 : parts_.memory.settingsStored() ? FLASH("|eeprom:ok")
+                                                  : FLASH("|eeprom:writing"));
   parts_.out << FLASH("|start:");
   parts_.out << (start_ == Start::kUsual      ? FLASH("usual")
                  : start_ == Start::kBrownOut ? FLASH("brown-out")

@@ -42,6 +42,10 @@ windows_python() {
   x86_64-w64-mingw32-gcc-posix -shared -o "$windows_folder/python/bcryptprimitives.dll" tools/windows/for_wine.c -ladvapi32
 }
 
+no_windows() {
+  stop "the package for Windows does not compile: $(grep -m 1 -i error "$log") (all of it in .setup.log)"
+}
+
 # A wheel is a zip: that of this computer with the modules of Windows, and pip's door to the command.
 windows_package() {
   local python=$windows_folder/python build=$windows_folder/build site=$windows_folder/python/lib/site-packages
@@ -50,9 +54,9 @@ windows_package() {
     -DCMAKE_TOOLCHAIN_FILE="$root/tools/windows/mingw.cmake" -DPython_EXECUTABLE="$root/.venv/bin/python" \
     -DPython_INCLUDE_DIR="$root/$python/include" -DPython_LIBRARY="$root/$python/libs/python311.lib" \
     -DNB_SUFFIX=.pyd -DNB_SUFFIX_S=.pyd -Dnanobind_DIR="$(.venv/bin/python -m nanobind --cmake_dir)" \
-    -DEigen3_DIR=/usr/share/eigen3/cmake -DSKBUILD_SCRIPTS_DIR=scripts >"$log" 2>&1 &&
-    .venv/bin/ninja -C "$build" >>"$log" 2>&1 && cmake --install "$build" --prefix "$windows_folder/modules" >>"$log" 2>&1 ||
-    stop "the package for Windows does not compile: $(grep -m 1 -i error "$log") (all of it in .setup.log)"
+    -DEigen3_DIR=/usr/share/eigen3/cmake -DSKBUILD_SCRIPTS_DIR=scripts >"$log" 2>&1 || no_windows
+  .venv/bin/ninja -C "$build" >>"$log" 2>&1 || no_windows
+  cmake --install "$build" --prefix "$windows_folder/modules" >>"$log" 2>&1 || no_windows
   .venv/bin/python tools/windows/pack.py "$windows_folder/modules/plumb" "$windows_folder" >"$log" 2>&1 ||
     stop "no wheel for Windows: $(tail -n 1 "$log")"
   rm -rf "$site"/plumb "$site"/plumb_maslow-*

@@ -29,6 +29,8 @@ class NumbersMachine:
             return [f"${number}={value:.7g} (a number)" for number, value in self.numbers.items()]
         if line == "B05":
             return self.says
+        if line == "B30":
+            return ["[Telemetry|eeprom:ok|]"]
         self.written.append(line)
         number, value = line.removeprefix("$").split("=")
         if int(number) not in self.forgets:

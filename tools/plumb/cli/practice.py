@@ -2,6 +2,7 @@
 
 import argparse
 import secrets
+import sys
 from contextlib import suppress
 from pathlib import Path
 
@@ -56,7 +57,8 @@ def _start(folder: Path, arguments: argparse.Namespace) -> int:
         ),
         flush=True,
     )
-    vars(arguments).update(link=str(folder / PORT), mega=None, eeprom=None, fresh=False)
+    link = str(folder / PORT) if sys.platform == "linux" else None
+    vars(arguments).update(link=link, mega=None, eeprom=None, fresh=False)
     return serve(garage, arguments, _Reader(folder, tape).look)
 
 

@@ -112,9 +112,9 @@ def serve(
 
 def _port(machine: VirtualMachine, boot_time: int, link: str | None) -> ServedPort:
     """Return a machine's port, under its name. A machine whose name is taken leaves no trace."""
-    if sys.platform == "win32" or (link or "").startswith("socket:"):
+    if sys.platform != "linux" or (link or "").startswith("socket:"):
         return SocketPort(machine, link or ANY, boot_time=boot_time)
-    from plumb.vm.pseudo_terminal import PseudoTerminal  # Windows has none
+    from plumb.vm.pseudo_terminal import PseudoTerminal  # which can be watched on Linux alone
 
     terminal = PseudoTerminal(machine, boot_time=boot_time)
     if link:

@@ -54,7 +54,7 @@ def _read(fields: dict[str, str]) -> Telemetry:
     """Return the fields of a line; a KeyError or ValueError if one is missing or no number."""
     left_illegal, right_illegal, z_illegal = (int(n) for n in fields["illegal"].split(","))
     _, least = (float(number) for number in fields["supply"].split(","))
-    if fields["eeprom"] not in ("ok", "worn") or fields["start"] not in STARTS:
+    if fields["eeprom"] not in ("ok", "writing", "worn") or fields["start"] not in STARTS:
         raise ValueError
     slips, last_slip = _slips(fields)
     return Telemetry(

@@ -15,6 +15,7 @@ from plumb.text.files import read_text
 ROW = re.compile(r"\$(\d+)=([-+\d.eE]+)")
 SETTING = re.compile(r"\$(\d+)\s*=\s*(\S+)")
 SAME = 1e-5  # of a value: the machine prints seven digits
+STORING = 10.0  # [s] of the machine; a new board takes three
 
 
 @dataclass(frozen=True)
@@ -50,8 +51,9 @@ def write_numbers(
     """Send lines `$N=VALUE`, read all numbers back, and compare.
 
     `keep` gets all numbers that the machine has, before any is sent.
-    Raises InputError while the machine moves, for a line of something else, and if the machine
-    holds another number than was sent.
+    Returns when they are in the machine's EEPROM: who opens its line next resets it. Raises
+    InputError while the machine moves, for a line of something else, and if the machine holds
+    another number than was sent.
     """
     wanted = {}
     for line in lines:
@@ -70,12 +72,21 @@ def write_numbers(
                 f"the machine holds ${number}={after.get(number)} though {value} was sent: send "
                 "the numbers again"
             )
+    _await_stored(sender)
     changed = {
         number: (value, after[number])
         for number, value in before.items()
         if number in after and not _same(after[number], value)
     }
     return WrittenNumbers(before, changed)
+
+
+def _await_stored(sender: Sender) -> None:
+    watch = Watch(sender)
+    while any("|eeprom:writing|" in line for line in sender.ask("B30")):
+        if watch.has_lasted(STORING):
+            raise InputError("the machine does not store its numbers: send them again")
+        sender.listen()
 
 
 def _same(printed: float, value: float) -> bool:

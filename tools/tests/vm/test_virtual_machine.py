@@ -4,8 +4,11 @@ import numpy as np
 import pytest
 from plumb import _judge, _vm
 from plumb.bench.causes import MAKER
+from plumb.line.memory import read_numbers, write_numbers
+from plumb.line.sender import Sender
 from plumb.model.predict import judged
 from plumb.vm import garage as garage_room
+from plumb.vm.owner import InProcessPort
 
 NUMBERS = judged(MAKER)
 COUNT = 63.5 / 8113.73  # [mm] of chain
@@ -98,6 +101,20 @@ def test_the_position_outlives_a_power_cut(machine):
     machine.advance(3000)
     assert "position loaded at:" in machine.take_said().decode()
     assert machine.sled == pytest.approx(place, abs=0.01)
+
+
+def test_numbers_that_are_said_to_be_held_outlive_a_reset():
+    """Whoever opens the line next resets the board, and a new board stores for three seconds."""
+    machine = _vm.VirtualMachine(NUMBERS)
+    machine.start()
+    sender = Sender(InProcessPort(machine))
+    sender.await_start()
+    write_numbers(sender, ["$62=101"])
+    machine.stop()
+    machine.start()
+    again = Sender(InProcessPort(machine))
+    again.await_start()
+    assert read_numbers(again)[62] == 101
 
 
 def test_a_skipped_tooth_moves_the_sled_and_not_the_count(machine):
