@@ -1,5 +1,7 @@
 ; B30 tells how the machine is doing in a line that clients pass over; the board is watched.
 ~~ include setup.inc
+; A new board stores its settings first, and says "writing" until then.
+~~ wait 4
 -> B30
 <- B30
 <- [Telemetry|error:0.000,0.000,0.000|dry:0|tick:#|illegal:0,0,0|supply:5.00,5.00|eeprom:ok|start:usual|events:0,0,0,0|last:none,0|slips:0,0|slipped:none,0,0,0] within 0.03
