@@ -15,7 +15,7 @@ SETTINGS, MARKS, MACHINE = (
     str(EXAMPLE / name) for name in ("groundcontrol.ini", "marks.toml", "machine.toml")
 )
 ADD = ("add", SETTINGS, MARKS, "--effect", "chain_pitch")
-LINES = ("settings", MACHINE, "--client", "none")
+LINES = ("settings", MACHINE, "--to", "gcode", "--client", "none")
 GRID = ("grid", "--preset", "nine")
 # Commands with the option that names their result, and the name of a file for it.
 WRITERS = [

@@ -83,7 +83,6 @@ WANTED = {
     "verdict": "Find the best next measurement",
     "correct": "Accept a number first",
     "check": "To the correction",
-    "diary": "Save the whole folder",
     "bench": "Write these numbers to new.toml",
     "practice": "To the machines: start a virtual machine there",
 }
@@ -213,10 +212,7 @@ def test_so_do_the_screens_of_a_machine_that_was_corrected(opened, lab):
 @pytest.mark.parametrize(
     ("machine", "wanted"),
     [
-        (
-            {},
-            {"open": "Settings' file", "diary": "Save the whole folder", "practice": "To the mach"},
-        ),
+        ({}, {"open": "Settings' file", "practice": "To the mach"}),
         (AT_REST, {"open": "Begin: Read the machine's numbers"}),
     ],
     ids=["no-machine", "machine"],
