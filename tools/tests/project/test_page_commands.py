@@ -30,7 +30,7 @@ def test_the_commands_of_a_page_run_as_shown(page: str, tmp_path: Path) -> None:
         ("```console\n$ seq 4\n1\n...\n5\n```\n", "printed:\n1\n"),
         ('```console\n$ false; echo "exit $?"\nexit 1\n```\n', ""),
         ("```\nplumb gird      # a comment\n```\n", "exit 2:"),
-        ("```\nplumb reach machine.toml --most-give 0.01\n```\n", ""),
+        ("```\nplumb diagnose groundcontrol.ini marks.toml\n```\n", ""),
     ],
 )
 def test_a_page_that_shows_other_output_is_refused(text: str, fault: str, tmp_path: Path) -> None:
