@@ -28,6 +28,8 @@ def test_the_commands_of_a_page_run_as_shown(page: str, tmp_path: Path) -> None:
         ("```console\n$ seq 4\n1\n...\n4\n```\n", ""),
         ("```console\n$ seq 4\n...\n1\n...\n```\n", ""),
         ("```console\n$ seq 4\n1\n...\n5\n```\n", "printed:\n1\n"),
+        ("```console\n$ echo .....; seq 4\n.....\n1\n...\n4\n```\n", ""),
+        ("```console\n$ echo ....\n.....\n```\n", "printed:\n....\n"),
         ('```console\n$ false; echo "exit $?"\nexit 1\n```\n', ""),
         ("```\nplumb gird      # a comment\n```\n", "exit 2:"),
         ("```\nplumb diagnose groundcontrol.ini marks.toml\n```\n", ""),
