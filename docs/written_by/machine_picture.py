@@ -9,7 +9,7 @@ from plumb.pictures.drawing import INK, WOOD
 PICTURE = "docs/pictures/machine/numbers.svg"
 SCALE = 0.22  # [px/mm]
 MIDDLE, TOP = 400.0, 70.0  # [px] of the sheet's middle from the left; of the motors from above
-SLED = (-430.0, -60.0)  # [mm] from mid sheet
+SLED = (-430.0, -60.0)  # [mm] from the middle of the sheet
 STEEL, RULE = "#555555", "#0b62a4"
 
 

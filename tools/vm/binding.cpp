@@ -201,7 +201,8 @@ NB_MODULE(_vm, module) {
       .def("take_said", &VirtualMachine::takeSaid, "All that was said since this was last asked.")
       .def_prop_rw("eeprom", &VirtualMachine::eeprom, &VirtualMachine::setEeprom)
       .def_prop_ro("seconds", &VirtualMachine::seconds, "Since the world began.")
-      .def_prop_ro("sled", &VirtualMachine::sled, "(x, y) [mm] of the bit from mid sheet.")
+      .def_prop_ro("sled", &VirtualMachine::sled,
+                   "(x, y) [mm] of the bit from the middle of the sheet.")
       .def_prop_ro("chains", &VirtualMachine::chains, "[mm] of nominal links, left and right.")
       .def_prop_ro("tensions", &VirtualMachine::tensions, "[N] at the sprockets.")
       .def_prop_ro("across", &VirtualMachine::across,

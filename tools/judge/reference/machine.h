@@ -20,7 +20,8 @@ struct ChainSide : Links {
   Eigen::Vector2d eccentricity = Eigen::Vector2d::Zero();
 };
 
-/// Frame, sled and both chains. Origin mid sheet, x right, y up along the sheet, z off the sheet.
+/// Frame, sled and both chains. Origin in the middle of the sheet, x right, y up along it, z off
+/// it.
 struct Machine {
   double motor_gap = 2978.4;     ///< [mm] between the sprocket axes
   double motor_height = 1072.6;  ///< [mm] mean of both axes above the middle of the sheet

@@ -99,7 +99,7 @@ SHARED: Mapping[str, Mapping[str, Any]] = {
         "type": place,
         "default": (0.0, 0.0),
         "help": "where the bit is when the program begins, "
-        "mm or like 4in,-2in from mid sheet [0,0]",
+        "mm or like 4in,-2in from the middle of the sheet [0,0]",
     },
     "--set": {
         "metavar": "N=VALUE",

@@ -91,8 +91,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--at",
         metavar="X,Y",
         type=place,
-        help="go on in the middle of the cut that passes here, mm from mid sheet; of several "
-        "passes the first, or that of --line",
+        help="go on in the middle of the cut that passes here, mm from the middle of the sheet; "
+        "of several passes the first, or that of --line",
     )
     parser.add_argument(
         "-o",
