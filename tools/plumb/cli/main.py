@@ -23,6 +23,7 @@ from plumb.text.values import shown_in
 
 DESCRIPTION = "Find and cure the errors of a hanging CNC: grid, cut, measure, then calibrate."
 EPILOG = "Lengths are mm, forces N, angles rad. plumb COMMAND --help explains each command."
+NO_OPTION, NO_ARGUMENT = "there is no option", "there is no argument"
 
 # In the order of `plumb --help`. To add a command, write its file and give it a line.
 GROUPS: Mapping[str, Mapping[str, str]] = {
@@ -180,22 +181,22 @@ class Parser(argparse.ArgumentParser):
         for word in takewhile(self._is_own, words):
             name = word.partition("=")[0]
             if name.startswith("--") and name not in self._option_string_actions:
-                self._refuse("option", name)
+                self._refuse(NO_OPTION, name)
         parsed, extra = super().parse_known_args(args, namespace)
         if extra:
             unknown = next((word for word in extra if word.startswith("-")), extra[0])
-            self._refuse("option" if unknown.startswith("-") else "argument", unknown)
+            self._refuse(NO_OPTION if unknown.startswith("-") else NO_ARGUMENT, unknown)
         return parsed, extra
 
     def _is_own(self, word: str) -> bool:
         """Whether this parser reads the word, and what may follow: no command and no `--` yet."""
         return word != "--" and (word.startswith("-") or not self.groups)
 
-    def _refuse(self, what: str, word: str) -> NoReturn:
+    def _refuse(self, why: str, word: str) -> NoReturn:
         known = [each for each in self._option_string_actions if each.startswith("--")]
         name = word.partition("=")[0]
         near = meant(name, known, begin="--")
-        raise InputError(f"there is no {what} {name} here{near}; see {self.prog} --help")
+        raise InputError(f"{why} {name} here{near}; see {self.prog} --help")
 
     def _check_value(self, action: argparse.Action, value: Any) -> None:
         """Refuse a word that is no choice, with the nearest choice."""
