@@ -114,5 +114,5 @@ def test_the_lab_is_built_again_when_the_machine_or_the_sources_change(build, tm
 def test_an_unknown_set_is_refused_before_anything_happens():
     done = subprocess.run([ROOT / "tools/setup", "lba"], capture_output=True, text=True)
     assert (done.returncode, done.stdout) == (1, "")
-    sets = "tools/setup, tools/setup lab or tools/setup senders"
-    assert done.stderr == f'setup: knows no set "lba"; use {sets}\n'
+    remedy = "use tools/setup, alone or with lab, senders or windows"
+    assert done.stderr == f'setup: knows no set "lba"; {remedy}\n'
