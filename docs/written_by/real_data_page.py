@@ -5,11 +5,14 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import combinations
 from pathlib import Path
 
 import numpy as np
 from plumb.cure.add import Addition, Parameter, add
+from plumb.cure.decision import Decision, decide
 from plumb.diagnosis import Diagnosis, diagnose
+from plumb.diagnosis.nearest import left_out, left_out_refitted
 from plumb.fit.compare import Comparison, compare
 from plumb.fit.inputs import Inputs
 from plumb.fit.observations import rms
@@ -21,7 +24,9 @@ from plumb.text.errors import InputError
 from template import filled
 
 PAGE = "docs/real-data.md"
-EXAMPLES = Path(__file__).resolve().parents[2] / "tools/plumb/examples"
+TOOLS = Path(__file__).resolve().parents[2] / "tools"
+EXAMPLES = TOOLS / "plumb/examples"
+BOARDS = TOOLS / "tests/data/boards"
 HOLES = (
     "madgrizzle-2018-08-30",
     "madgrizzle-2018-09-01",
@@ -30,6 +35,8 @@ HOLES = (
 )
 CUTS = "madgrizzle-2018-08-27"
 PAIRS = ((HOLES[0], HOLES[1]), (HOLES[2], HOLES[3]))  # before and after a fit of the owner
+MOST_FORCED = 3  # effects of a set that is tried by force
+REFITTED = 25  # of these sets, the best by the slopes at the frame's fit
 BRACKETS = ("gero-2017-04-26", "blsteinhauer88-2017-06-18")
 
 
@@ -52,6 +59,34 @@ class RealSet:
         return diagnose(Inputs(self.settings, self.marks))
 
     @cached_property
+    def decision(self) -> Decision:
+        """What `plumb add --effect auto` does."""
+        return decide(Inputs(self.settings, self.marks), diagnosis=self.diagnosis)
+
+    @property
+    def written(self) -> str:
+        """The effects that are written."""
+        decision = self.decision
+        if decision.addition is None:
+            return "nothing"
+        return ", ".join(decision.chosen) or "the frame"
+
+    @property
+    def left_out(self) -> float:
+        """Error [mm] of readings left out by what is written; as set where nothing is."""
+        addition = self.decision.addition
+        return addition.after.left_out_rms if addition else self.raw.rms
+
+    @cached_property
+    def forced(self) -> tuple[float, Sequence[str]]:
+        """Least error [mm] of readings left out, and the set of effects that has it."""
+        readings = self.diagnosis.readings
+        frame, felt = readings.frame, readings.posterior.felt
+        every = [few for size in range(MOST_FORCED + 1) for few in combinations(felt, size)]
+        best = sorted(every, key=lambda few: left_out(frame, few))[:REFITTED]
+        return min((left_out_refitted(frame, few), few) for few in best)
+
+    @cached_property
     def pitched(self) -> Addition:
         """Frame and chain pitch fitted."""
         return _with_pitch(self.settings, self.marks)
@@ -72,11 +107,18 @@ class Pooled:
     errors: Mapping[str, np.ndarray]  # errors [mm] of each set's distances
 
 
-def real_set(name: str, marks: str = "marks.toml", settings: str = "groundcontrol.ini") -> RealSet:
-    """Return a set of examples/ by its folder."""
-    folder, known = EXAMPLES / name, known_effects()
-    machine = read_settings(folder / settings, known=known)
-    return RealSet(name, machine, read_marks(folder / marks, sheet=machine.sheet, known=known))
+def real_set(
+    name: str,
+    marks: str = "marks.toml",
+    settings: str = "groundcontrol.ini",
+    *,
+    folder: Path = EXAMPLES,
+) -> RealSet:
+    """Return a set by its folder, of examples/ unless it is said otherwise."""
+    known = known_effects()
+    machine = read_settings(folder / name / settings, known=known)
+    marks_path = folder / name / marks
+    return RealSet(name, machine, read_marks(marks_path, sheet=machine.sheet, known=known))
 
 
 def refusal_of(name: str) -> str:
@@ -115,6 +157,8 @@ def pages() -> dict[str, str]:
     text = filled(
         "real-data.md",
         sets=[*holes.values(), *boards],
+        left_out=left_out,
+        every=[*holes.values(), *boards, real_set("real-25", folder=BOARDS)],
         pairs=[(holes[before], holes[after]) for before, after in PAIRS],
         together=together,
         in_force=cuts.raw.distances,

@@ -1,6 +1,6 @@
 """Effects to hide in boards, drawn by chance or in turns, and slips of the pen."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -79,11 +79,12 @@ def outside(source: Source, index: int, plan: Plan) -> Hidden:
     return Hidden(outside=list(OUTSIDE)[index % len(OUTSIDE)], outside_mm=2.0)
 
 
-def besides(millimetres: float, draw: Draw) -> Draw:
-    """Return the same with a bump that the library has no word for."""
+def besides(millimetres: float, draw: Draw, patterns: Sequence[str]) -> Draw:
+    """Return the same with one of some patterns of OUTSIDE, in turns."""
 
     def both(source: Source, index: int, plan: Plan) -> Hidden:
-        return replace(draw(source, index, plan), outside="bump", outside_mm=millimetres)
+        pattern = patterns[index % len(patterns)]
+        return replace(draw(source, index, plan), outside=pattern, outside_mm=millimetres)
 
     return both
 

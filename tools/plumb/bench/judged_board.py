@@ -8,7 +8,7 @@ import numpy as np
 
 from plumb.bench.causes import HALF
 from plumb.bench.hiding import SMALLEST
-from plumb.bench.kinds import KINDS, board_of
+from plumb.bench.kinds import Kind, board_of
 from plumb.bench.shown import Truth, truth_of
 from plumb.cure.decision import decide
 from plumb.diagnosis import Diagnosis, diagnose
@@ -44,26 +44,28 @@ class JudgedBoard:
     after: float  # by those that `plumb add --effect auto` leaves
     fitted: float  # by a fit of what is there
     worse: bool
+    promised: float | None  # that the sled errs then [mm]; None: nothing is promised
     cpu: float  # [s] of diagnosing and adding
 
 
-def judge_board(kind: str, index: int, *, marks: int, seed: int) -> JudgedBoard:
+def judge_board(kind: Kind, index: int, *, marks: int, seed: int) -> JudgedBoard:
     """Return the result of board number `index` of one kind."""
-    hidden = board_of(KINDS[kind], index, marks=marks, seed=seed)
+    hidden = board_of(kind, index, marks=marks, seed=seed)
     settings, truth = hidden.kind.settings, truth_of(hidden)
     inputs = Inputs(settings, hidden.board.measurements)
     start = time.process_time()
     diagnosis = diagnose(inputs)
-    addition = decide(inputs, diagnosis=diagnosis).addition
+    decision = decide(inputs, diagnosis=diagnosis)
     cpu = time.process_time() - start
     best = set(diagnosis.explanations[0].effects) if diagnosis.explanations else set[str]()
     said = best if diagnosis.verdict in NAMED or diagnosis.is_finding else set[str]()
     outliers = tuple(outlier.name for outlier in diagnosis.outliers)
     sleds = hidden.board.machine.sleds
     before = shape_error(settings, sleds)
+    addition = decision.addition
     after = shape_error(addition.settings, sleds) if addition else before
     return JudgedBoard(
-        kind=kind,
+        kind=kind.name,
         index=index,
         effects=truth.effects,
         verdict=diagnosis.verdict,
@@ -79,6 +81,7 @@ def judge_board(kind: str, index: int, *, marks: int, seed: int) -> JudgedBoard:
         after=after,
         fitted=shape_error(_with_what_is_there(inputs, diagnosis, truth), sleds),
         worse=after > before + WORSE,
+        promised=decision.expected_mm,
         cpu=cpu,
     )
 

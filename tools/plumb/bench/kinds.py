@@ -40,7 +40,8 @@ class Kind:
     name: str  # the world first: known/one
     what: str  # is hidden
     draw: Draw
-    noise: float = 0.5  # [mm] of a coordinate, and stated so
+    noise: float = 0.5  # [mm] of a coordinate
+    is_stated: bool = True  # whether the file of marks says so
     repeats: bool = False  # three marks are read three times
     slips: tuple[PenSlip, ...] = ()  # of a reading, in turns
 
@@ -84,7 +85,7 @@ def board_of(kind: Kind, index: int, *, marks: int, seed: int) -> HiddenBoard:
                 layout,
                 seed=source,
                 noise=kind.noise,
-                tape_sigma=kind.noise,
+                tape_sigma=kind.noise if kind.is_stated else None,
                 settings=kind.settings,
             )
         except ValueError as error:
@@ -106,16 +107,21 @@ def _kinds_of(world: str) -> Iterator[Kind]:
         ("beyond", "one effect, larger than the largest that was met", beyond),
         ("two", f"two effects {usual}", several(2)),
         ("several", f"three effects {usual}", several(3)),
+        ("four", f"four effects {usual}", several(4)),
         ("field", "2 mm of no effect", outside),
     ):
         yield Kind(f"{world}/{name}", what, draw)
     what = "one effect on a machine that rubs and has backlash"
     yield Kind(f"{world}/usual", what, usual_machine, 0.4, repeats=True)
-    for count in (1, 2, 3):
-        for bump in (0.3, 0.7):
-            what = f"{count} {usual}, and a bump of {bump:g} mm of no effect"
-            draw = besides(bump, several(count))
-            yield Kind(f"{world}/bump-{count}-{bump:g}", what, draw, 0.2)
+    for count in (1, 2, 3, 4):
+        for pattern in (0.3, 0.7):
+            what = f"{count} {usual}, and a bump of {pattern:g} mm of no effect"
+            draw = besides(pattern, several(count), ["bump"])
+            yield Kind(f"{world}/bump-{count}-{pattern:g}", what, draw, 0.2)
+    for pattern in (0.3, 0.7):
+        what = f"two effects {usual}, and {pattern:g} mm of no effect: a cubic or a sled that tips"
+        draw = besides(pattern, several(2), ["cubic", "tipping sled"])
+        yield Kind(f"{world}/other-2-{pattern:g}", what, draw, 0.2)
     slips = tuple(PenSlip(mm, where) for where in ("once", "repeated") for mm in (5.0, 10.0, 30.0))
     what = f"one effect {usual}, and a slip of 5, 10 or 30 mm"
     yield Kind(f"{world}/slip", what, several(1), 0.4, repeats=True, slips=slips)

@@ -2,14 +2,14 @@
 
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Annotated
 
 import joblib  # type: ignore[import-untyped]  # it brings no types
 import numpy as np
 
 from plumb.bench.judged_board import JudgedBoard, judge_board
-from plumb.bench.kinds import KINDS
+from plumb.bench.kinds import KINDS, Kind
 from plumb.text.answers import Number, key
 from plumb.text.errors import InputError
 
@@ -25,6 +25,22 @@ class WantedBoards:
     boards: int  # of each kind
     marks: int
     seed: int
+    noise: float | None = None  # [mm] of a coordinate; None: what the kind has
+    is_stated: bool = True  # whether the file of marks says so
+
+    def kind(self, name: str) -> Kind:
+        """Return a kind, read with the noise that is wanted."""
+        kind = KINDS[name]
+        return replace(kind, noise=self.noise or kind.noise, is_stated=self.is_stated)
+
+
+@dataclass(frozen=True)
+class Promises:
+    """The error over the sheet that was promised, and what came true; means over some boards."""
+
+    boards: int
+    promised: Annotated[Number, key("promised_mm")]
+    came_true: Annotated[Number, key("came_true_mm")]
 
 
 @dataclass(frozen=True)
@@ -52,6 +68,7 @@ class Report:
     """All rates, and how to draw the same boards again."""
 
     rows: tuple[Row, ...]
+    promises: Promises | None  # None: on no board was anything promised
     marks: int
     seed: int
     interrupted: bool = False
@@ -92,11 +109,20 @@ def play(
         if not any(done.values()):
             raise
     rows = tuple(row_of(kind, boards) for kind, boards in done.items() if boards)
-    return Report(rows, wanted.marks, wanted.seed, interrupted)
+    every = [each for boards in done.values() for each in boards]
+    return Report(rows, _promises(every), wanted.marks, wanted.seed, interrupted)
+
+
+def _promises(boards: Sequence[JudgedBoard]) -> Promises | None:
+    both = [(each.promised, each.after) for each in boards if each.promised is not None]
+    return Promises(len(both), *np.mean(both, axis=0).tolist()) if both else None
 
 
 def _some(kind: str, indices: Sequence[int], wanted: WantedBoards) -> list[JudgedBoard]:
-    return [judge_board(kind, each, marks=wanted.marks, seed=wanted.seed) for each in indices]
+    return [
+        judge_board(wanted.kind(kind), each, marks=wanted.marks, seed=wanted.seed)
+        for each in indices
+    ]
 
 
 @contextmanager

@@ -5,16 +5,24 @@ from collections.abc import Callable, Sequence
 
 from plumb.bench.kinds import GRIDS, KINDS
 from plumb.bench.report import Report, Row, WantedBoards, play
-from plumb.cli.arguments import add_shared, count
+from plumb.cli.arguments import add_shared, count, positive
 from plumb.cli.output import INTERRUPTED
 from plumb.cli.screen import Bar, print_json, sentences, table
 from plumb.text.errors import InputError
+from plumb.text.values import worded
 
 
 def run(arguments: argparse.Namespace) -> int:
     """Run the bench, print its table, and return the exit code."""
     kinds = chosen_of(arguments.kinds)
-    wanted = WantedBoards(kinds, arguments.boards, arguments.marks, arguments.seed)
+    wanted = WantedBoards(
+        kinds,
+        arguments.boards,
+        arguments.marks,
+        arguments.seed,
+        arguments.noise,
+        not arguments.unstated,
+    )
     report = play(
         wanted,
         progress=counted(len(kinds) * wanted.boards),
@@ -81,10 +89,24 @@ def as_text(report: Report) -> str:
         table(HEADER, [cells(row) for row in report.rows], gap=1),
         sentences(LEGEND, mark=""),
         sentences([f"Boards of {report.marks} marks, seed {report.seed}."], mark=""),
+        _promises_sentence(report),
     ]
     if report.interrupted:
         parts.append("Interrupted: what is done is counted.")
-    return "\n\n".join(parts)
+    return "\n\n".join(filter(None, parts))
+
+
+def _promises_sentence(report: Report) -> str:
+    said = report.promises
+    if said is None:
+        return ""
+    return sentences(
+        [
+            f"Promised over the sheet: {worded(said.promised)}, the mean of {said.boards} boards; "
+            f"{worded(said.came_true)} came true."
+        ],
+        mark="",
+    )
 
 
 def cells(row: Row) -> list[str]:
@@ -124,6 +146,15 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument(
         "--marks", type=int, choices=GRIDS, default=25, help="marks on each board [25]"
+    )
+    parser.add_argument(
+        "--noise",
+        metavar="MM",
+        type=positive,
+        help="of each coordinate, instead of what the kinds have",
+    )
+    parser.add_argument(
+        "--unstated", action="store_true", help="the files of marks do not state the noise"
     )
     parser.add_argument(
         "--seed",

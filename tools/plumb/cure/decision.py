@@ -24,6 +24,7 @@ from plumb.text.answers import Internal, among, in_json, key, part
 from plumb.text.errors import to_do
 from plumb.text.values import bare, worded
 
+AS_GOOD = 0.95  # of an error at marks left out, below which another is clearly less
 STATES = ("read_again", "good", "impossible", "better", "measure_first", "unknown_cause")
 
 
@@ -146,9 +147,9 @@ def decide(inputs: Inputs, *, patch: bool = False, diagnosis: Diagnosis | None =
     that of these inputs, if it is known.
 
     Where the library has no account, the nearest is added if marks left out are predicted better
-    with it: to leave out a large effect because a small effect is unknown would help nobody. A
-    residual patch is offered then, and added only if `patch` asks for it. Raises InputError as
-    diagnose() and add() do.
+    with it: to leave out a large effect because a small effect is unknown would help nobody. What
+    every machine has is not added to it where it predicts them worse. A residual patch is offered
+    then, and added only if `patch` asks for it. Raises InputError as diagnose() and add() do.
     """
     diagnosis = diagnosis or diagnose(inputs)
     inputs = replace(inputs, checked=(*inputs.checked, *diagnosis.usual))
@@ -166,6 +167,9 @@ def decide(inputs: Inputs, *, patch: bool = False, diagnosis: Diagnosis | None =
         return Decision(diagnosis, inputs, f"nothing was added: {error}")
     chosen, offer = diagnosis.to_add, None
     if not is_known:
+        bare_addition = add(inputs, effects=diagnosis.likely, noise=diagnosis.noise)
+        if bare_addition.after.left_out_rms < AS_GOOD * addition.after.left_out_rms:
+            chosen, addition = diagnosis.likely, bare_addition
         if not addition.pays:
             chosen, addition = (), add(inputs, effects=(), noise=diagnosis.noise)
         patched = add(inputs, effects=chosen, patch=True, noise=diagnosis.noise)

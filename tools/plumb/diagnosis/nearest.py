@@ -39,24 +39,11 @@ def nearest(frame: Explanation, posterior: Posterior) -> Effects:
             if more not in few
         )
         sets = ranked(larger, lambda few: left_out(frame, few))[:BEAM]
-        fitted = [(_fitted(frame, few), few) for few in sets[:REFITTED]]
+        fitted = [(left_out_refitted(frame, few), few) for few in sets[:REFITTED]]
         left, first = ranked(fitted, lambda each: each[0])[0]
         if np.isfinite(left) and left <= least * (1 - WORTH) ** (len(first) - len(best)):
             best, least = first, left
     return best
-
-
-def _fitted(frame: Explanation, effects: Effects) -> float:
-    """Return the RMS [mm] of readings by a fit without each, linear about the fit of all."""
-    fit = explain_account(frame, effects, effects)
-    board, problem = fit.board, fit.board.problem
-    columns = board.columns(effects)
-    sizes = problem.start[columns] / problem.scale[columns] + fit.unknowns[columns]
-    is_held = any(
-        size < HELD and plausible_range(problem.names[column]).low == 0
-        for column, size in zip(columns, sizes, strict=True)
-    )
-    return left_out(fit, effects) if fit.settled and not is_held else np.inf
 
 
 def left_out(at: Explanation, effects: Effects) -> float:
@@ -82,3 +69,18 @@ def left_out(at: Explanation, effects: Effects) -> float:
         each = residual[start:end].reshape(-1, size, 1)
         off.append((np.linalg.pinv(kept, rcond=1e-6, hermitian=True) @ each).ravel())
     return board.rows.rms_of(np.concatenate(off) * board.sigma)
+
+
+def left_out_refitted(frame: Explanation, effects: Effects) -> float:
+    """Return the same linear about the fit of these effects; infinite too where none comes to rest,
+    or where a size that cannot be negative was held at zero.
+    """
+    fit = explain_account(frame, effects, effects)
+    board, problem = fit.board, fit.board.problem
+    columns = board.columns(effects)
+    sizes = problem.start[columns] / problem.scale[columns] + fit.unknowns[columns]
+    is_held = any(
+        size < HELD and plausible_range(problem.names[column]).low == 0
+        for column, size in zip(columns, sizes, strict=True)
+    )
+    return left_out(fit, effects) if fit.settled and not is_held else np.inf

@@ -43,11 +43,10 @@ def test_a_board_hides_what_its_kind_describes(name):
     marks = board.board.measurements.marks
     assert len(marks) == 9 + 6 * kind.repeats and len(board.slipped) == bool(kind.slips)
     assert bool(board.hidden.usual) == (name.startswith("stock") or "usual" in name)
-    assert bool(board.hidden.outside) == ("bump" in name or "field" in name)
-    count = {"none": 0, "field": 0, "two": 2, "several": 3, "bump-2": 2, "bump-3": 3}
-    begins = name.partition("/")[2]
-    expected = next((count[each] for each in count if begins.startswith(each)), 1)
-    assert len(set(board.hidden.effects)) == expected
+    assert bool(board.hidden.outside) == any(part in name for part in ("bump", "field", "other"))
+    count = {"none": 0, "field": 0, "two": 2, "several": 3, "four": 4}
+    _, begins, several = (*name.replace("-", "/").split("/"), "1")[:3]
+    assert len(set(board.hidden.effects)) == count.get(begins, int(several))
 
 
 @pytest.mark.parametrize(
