@@ -121,9 +121,7 @@ class Decision:
         """
         if not self.done:
             return None
-        both = zip(self.diagnosis.fits, self.diagnosis.explanations, strict=True)
-        rivals = [(fit, each.share) for fit, each in both if fit is not self.diagnosis.best]
-        expected = expected_error(self.diagnosis.best, rivals)
+        expected = expected_error(self.diagnosis.best, self.diagnosis.rivals)
         is_known = self.diagnosis.verdict != "not_in_library"
         return expected if is_known else hypot(expected, self.diagnosis.pattern_mm)
 

@@ -91,6 +91,7 @@ class Diagnosis:
     readings: Internal[CleanReadings]  # with the posterior that all of this is read from
     fits: Internal[tuple[Explanation, ...]]  # of the explanations, in their order
     best: Internal[Explanation]  # with the effects to go on with
+    rivals: Internal[tuple[tuple[Explanation, float], ...]]  # that may be right instead, and shares
     likely: Internal[tuple[str, ...]]  # those of the account behind it, without what was left out
     rms_before: Annotated[float, key("rms_mm", "With the frame fitted.")]
     noise_rms: Annotated[float, key("noise_rms_mm", "What noise alone leaves of that fit.")]
@@ -352,8 +353,9 @@ class Judgement:
 
     verdict: str  # one of answer.VERDICTS
     posterior: Posterior  # with all that is named
-    listed: tuple[Listed, ...]  # likeliest first
+    listed: tuple[Listed, ...]  # that are named, likeliest first
     best: Account  # to go on with
+    possible: tuple[Listed, ...]  # all that may be right, named or not
 
 
 def judge(readings: CleanReadings, stated: Stated | None) -> Judgement:
@@ -361,7 +363,7 @@ def judge(readings: CleanReadings, stated: Stated | None) -> Judgement:
     posterior = readings.posterior
     best = posterior.accounts[0]
     if readings.outliers:
-        return Judgement("slip", posterior, (), best)
+        return Judgement("slip", posterior, (), best, ())
     unknown = posterior.field_chance + sum(posterior.moved_chances.values())
     if unknown > UNKNOWN or misfit_chance(readings.explained(best), stated) < MISFIT:
         if posterior.with_fields.spot:
@@ -370,16 +372,17 @@ def judge(readings: CleanReadings, stated: Stated | None) -> Judgement:
             # Where the sled sticks, no fit may come to rest.
             first = nearest(readings.frame, posterior) or posterior.likeliest_with_field
             posterior = posterior.weighing(first)
-        listed = tuple(posterior.listed_nearest_first(first))
+        possible = listed = tuple(posterior.listed_nearest_first(first))
         best = listed[0].account
         if first and not posterior.apart and _takes_most(readings.explained(best), readings.frame):
             listed = listed[:1]
-        return Judgement("not_in_library", posterior, listed, best)
+        return Judgement("not_in_library", posterior, listed, best, possible)
     listed = tuple(posterior.listed())
     if is_silent(posterior.nothing_chance()):
-        return Judgement("nothing_provable", posterior, (), _likelier(posterior, listed[0]))
+        best = _likelier(posterior, listed[0])
+        return Judgement("nothing_provable", posterior, (), best, listed)
     verdict = "one_suspect" if len(listed) == 1 else "cannot_tell"
-    return Judgement(verdict, posterior, listed, listed[0].account)
+    return Judgement(verdict, posterior, listed, listed[0].account, listed)
 
 
 def _likelier(posterior: Posterior, first: Listed) -> Account:

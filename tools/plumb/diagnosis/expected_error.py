@@ -2,7 +2,7 @@
 
 Two things are counted: how well the marks and the priors settle the numbers of the explanation
 that is used, and how far its rivals would lead elsewhere, each by its share. What no explanation
-has is not counted.
+has is not counted, nor where the sheet lies: that is no error among the holes of a job.
 """
 
 from collections.abc import Sequence
@@ -14,39 +14,31 @@ from plumb.diagnosis.drawn import model_by
 from plumb.diagnosis.explanation import Explanation
 from plumb.fit.compare import best_pose
 from plumb.fit.expected import places_over
-from plumb.fit.observations import Observations, visited
+from plumb.fit.observations import Observations, rms, visited
 from plumb.model.plain import ranked
 from plumb.model.predict import FOUND, NAMES, Array, lengths
 from plumb.text.answers import in_json
 from plumb.text.values import worded
 
-COLUMNS, ROWS = 41, 21  # places of the sheet
-
 
 def expected_error(used: Explanation, rivals: Sequence[tuple[Explanation, float]] = ()) -> float:
-    """Return the error [mm RMS] to expect over the sheet of a machine set as `used` says; rivals
-    with their shares of what is likely, the rest being the share of `used`.
+    """Return the error [mm RMS] to expect over the sheet, laid at its best, of a machine set as
+    `used` says; rivals with their shares of what is likely, the rest being the share of `used`.
     """
-    width, height = model_by(used).sheet
-    x = np.linspace(-width / 2, width / 2, COLUMNS)
-    y = np.linspace(height / 2, -height / 2, ROWS)
-    places = np.stack(np.meshgrid(x, y), axis=-1).reshape(-1, 2)
-    return float(np.sqrt(np.nanmean(sigmas(used, rivals, places) ** 2)))
-
-
-def sigmas(used: Explanation, rivals: Sequence[tuple[Explanation, float]], places: Array) -> Array:
-    """Return one standard deviation (n,) [mm] of the sled's places (n, 2), x and y together; nan
-    where no chain reaches.
-    """
-    chains, outcome = lengths(model_by(used), places)
-    where, slopes, hanging = hung(used, chains)
-    variance = _variance(used, slopes)
-    good = (outcome == FOUND) & (hanging == FOUND)
+    problem, free = used.board.problem, used.free
+    # The sheet's rotation, the tape and the like do not move the sled.
+    machine = [i for i, column in enumerate(free) if problem.names[column] in NAMES]
+    moved = _among_each_other(used, [int(free[i]) for i in machine])
+    inside = used.covariance[np.ix_(machine, machine)]
+    square = float(np.einsum("rij,jk,rik->", moved, inside, moved)) / len(moved)
+    chains, outcome = lengths(model_by(used), places_over(model_by(used).sheet))
+    where, _, hanging = hung(used, chains)
     for rival, share in rivals:
         elsewhere, _, reached = hung(rival, chains)
-        variance += share * np.sum((elsewhere - where) ** 2, axis=1)
-        good &= reached == FOUND
-    return np.where(good, np.sqrt(variance), np.nan)
+        good = (outcome == FOUND) & (hanging == FOUND) & (reached == FOUND)
+        pose = best_pose(where[good], elsewhere[good])
+        square += share * rms(pose.errors) ** 2 if pose else 0.0
+    return float(np.sqrt(square))
 
 
 def hung(explanation: Explanation, chains: Array) -> tuple[Array, Array, Array]:
@@ -62,20 +54,6 @@ def hung(explanation: Explanation, chains: Array) -> tuple[Array, Array, Array]:
         over_top=problem.settings.feed == "top",
         usual_weight=usual,
     )
-
-
-def _variance(explanation: Explanation, slopes: Array) -> Array:
-    """Return the variance of places (n,) [mm²] by the machine's numbers as the explanation settles
-    them.
-    """
-    problem, free = explanation.board.problem, explanation.free
-    # The sheet's rotation, the tape and the like do not move the sled.
-    machine = [i for i, column in enumerate(free) if problem.names[column] in NAMES]
-    by_name = slopes[:, :, [NAMES.index(problem.names[free[i]]) for i in machine]]
-    moved = by_name * problem.scale[free[machine]]
-    inside = explanation.covariance[np.ix_(machine, machine)]
-    variance: Array = np.einsum("nij,jk,nik->n", moved, inside, moved)
-    return variance
 
 
 def _visits(chains: Array, weight: float) -> Observations:
@@ -201,12 +179,12 @@ def left_open(explanation: Explanation) -> LeftOpen:
     typical[board.frame] = 0.0  # its priors are among what is known
     before = known.T @ known + np.diag(typical)
 
-    def rms(precision: Array) -> float:
+    def error(precision: Array) -> float:
         covariance = np.linalg.inv(precision)[np.ix_(machine, machine)]
         variance = np.einsum("rij,jk,rik->", moved, covariance, moved)
         return float(np.sqrt(variance / len(moved)))
 
-    return LeftOpen(rms(before), rms(before + measured.T @ measured))
+    return LeftOpen(error(before), error(before + measured.T @ measured))
 
 
 def _among_each_other(explanation: Explanation, columns: list[int]) -> Array:

@@ -21,7 +21,9 @@ def one():
 
 def rates(kind, boards, *, marks=25):
     """The rates of some boards of one kind."""
-    return row_of(kind, [judge_board(KINDS[kind], index, marks=marks, seed=SEED) for index in boards])
+    return row_of(
+        kind, [judge_board(KINDS[kind], index, marks=marks, seed=SEED) for index in boards]
+    )
 
 
 def test_nine_marks_still_name_most():
