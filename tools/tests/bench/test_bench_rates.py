@@ -46,6 +46,18 @@ def test_the_diagnosis_is_right_on_boards_of_each_kind():
     assert bump.after < 0.5 * bump.before and bump.worse == 0
 
 
+@pytest.mark.parametrize(
+    ("kind", "index"),
+    [
+        pytest.param("stock/bump-3-0.3", 15, id="where the sheet lies is no error of a job"),
+        pytest.param("stock/bump-3-0.7", 9, id="an account that is not named may be right"),
+    ],
+)
+def test_what_is_promised_over_the_sheet_comes_true(kind, index):
+    board = judge_board(KINDS[kind], index, marks=25, seed=5001)
+    assert 0.5 < board.promised / board.after < 1.5
+
+
 def test_rates_are_means_over_boards(one):
     wrong = replace(one, named=True, exact=False, needless=2, after=one.after + 1, worse=True)
     row = row_of(NONE, [one, one, one, wrong])
