@@ -11,7 +11,6 @@ from typing import Any
 
 from plumb.bench.report import Report
 from plumb.cli.add import AddAnswer
-from plumb.cli.as_fitted import RecheckAnswer
 from plumb.cli.calibrate import CalibrateAnswer
 from plumb.cli.check import JobAnswer
 from plumb.cli.diagnose import DiagnosisAnswer
@@ -29,6 +28,7 @@ from plumb.cli.send import SendAnswer
 from plumb.cli.settings import SettingLines
 from plumb.cli.slip import SlipAnswer
 from plumb.cli.vm import VmAnswer
+from plumb.diary.recheck import Recheck
 from plumb.fit.compare import Comparison
 from plumb.text.answers import schema_of
 from plumb.vm.practice import Score
@@ -48,7 +48,7 @@ ANSWERS: dict[str, Any] = {
     "refusal": RefusalAnswer,
     "add": AddAnswer,
     "bench": Report,
-    "calibrate": CalibrateAnswer | RecheckAnswer,
+    "calibrate": CalibrateAnswer | Recheck,
     "check": JobAnswer,
     "compare": Comparison,
     "diagnose": DiagnosisAnswer,
