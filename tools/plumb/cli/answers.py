@@ -20,7 +20,7 @@ from plumb.cli.grid import PlannedGrid
 from plumb.cli.home import HomeAnswer
 from plumb.cli.inverse import ChainLengths
 from plumb.cli.next import ProposalsAnswer
-from plumb.cli.reach import ReachAnswer
+from plumb.cli.reach import ReachMap
 from plumb.cli.read import MachineNumbers
 from plumb.cli.report import ReportAnswer
 from plumb.cli.resume import ResumeAnswer
@@ -58,7 +58,7 @@ ANSWERS: dict[str, Any] = {
     "inverse": ChainLengths,
     "next": ProposalsAnswer,
     "practice": Score,
-    "reach": ReachAnswer,
+    "reach": ReachMap,
     "read": MachineNumbers,
     "recover": HomeAnswer | SlipAnswer,
     "report": ReportAnswer,

@@ -61,11 +61,6 @@ def known_effects() -> dict[str, list[str]]:
     }
 
 
-def parameter_names(effect: str) -> tuple[str, ...]:
-    """Return the entries of NAMES that belong to an effect."""
-    return tuple(name for name in NAMES if name.startswith(f"{effect}."))
-
-
 def values_of(settings: MachineSettings) -> Array:
     """Our model of a machine as the values array (len(NAMES),) [mm, N, rad]."""
     return np.array([_value(settings, name) for name in NAMES], dtype=float)
