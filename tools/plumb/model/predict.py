@@ -110,10 +110,9 @@ def places(settings: MachineSettings, chains: Array) -> tuple[Array, Codes]:
     return _core.places(values_of(settings), settings.feed == "top", _pairs(chains))
 
 
-def reach(settings: MachineSettings, points: Array, **limits: float) -> Reached:
-    """Return whether places (n, 2) [mm] are usable, by our model; limits as in REACH_LIMITS."""
-    reached = _core.reach(values_of(settings), settings.feed == "top", _pairs(points), **limits)
-    return Reached(**reached)
+def reach(settings: MachineSettings, points: Array) -> Reached:
+    """Return whether places (n, 2) [mm] are usable, by our model."""
+    return Reached(**_core.reach(values_of(settings), settings.feed == "top", _pairs(points)))
 
 
 def places_with_slopes(

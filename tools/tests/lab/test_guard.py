@@ -21,6 +21,7 @@ from served_lab import serve
 from websockets.exceptions import InvalidStatus
 from websockets.sync.client import connect
 
+
 @pytest.fixture
 def measured(lab):
     """The lab on a machine that was measured."""
