@@ -11,7 +11,6 @@ from collections.abc import Sequence
 from pathlib import Path
 
 import effects_page
-import machine_picture
 import real_data_page
 import settings_page
 from plumb.text.compiled import refuse_stale
@@ -19,7 +18,7 @@ from plumb.text.errors import InputError
 from plumb.text.files import write_all
 
 # Each gives texts by their names below the project's root: a page, and its pictures.
-PAGES = (effects_page.pages, machine_picture.pages, real_data_page.pages, settings_page.pages)
+PAGES = (effects_page.pages, real_data_page.pages, settings_page.pages)
 
 
 def main(arguments: Sequence[str] | None = None) -> int:

@@ -115,14 +115,10 @@ nb::dict strands(const Values& values, bool over_top, const Pairs& points) {
 }
 
 /// Verdicts (n,), tensions (n, 2) [N] and compliance (n, 2, 2) [mm/N] of places (n, 2) [mm].
-nb::dict reachOf(const Values& values, bool over_top, const Pairs& points, double most_tension,
-                 double least_tension, double least_free, double most_give) {
+nb::dict reachOf(const Values& values, bool over_top, const Pairs& points, double least_free) {
   const Machine<double> machine = machineOf(numbers<double>(values), over_top);
   ReachLimits<double> limits;
-  limits.most_tension = most_tension;
-  limits.least_tension = least_tension;
   limits.least_free = least_free;
-  limits.most_give = most_give;
   uint8_t* verdict;
   double *tension, *give;
   const size_t count = points.shape(0);
@@ -165,8 +161,7 @@ NB_MODULE(_core, module) {
   const ReachLimits<double> usual;
   module.def(
       "reach", &reachOf, nb::arg("values"), nb::arg("over_top"), nb::arg("points"), nb::kw_only(),
-      nb::arg("most_tension") = usual.most_tension, nb::arg("least_tension") = usual.least_tension,
-      nb::arg("least_free") = usual.least_free, nb::arg("most_give") = usual.most_give,
+      nb::arg("least_free") = usual.least_free,
       "Where places (n, 2) [mm] are usable: verdict (n,) (0 usable, 1 too tight, 2 too slack,\n"
       "3 too vertical, 4 cannot hang), tension (n, 2) [N] of left and right chain at its\n"
       "sprocket, compliance (n, 2, 2) [mm/N] of the sled, [[xx, xy], [xy, yy]].");

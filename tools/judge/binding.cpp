@@ -1,5 +1,6 @@
 // The judge for Python: where a sled with hidden faults comes to rest. It knows nothing of lib/, so
 // it generates test data with hidden effects.
+#include <nanobind/eigen/dense.h>
 #include <nanobind/nanobind.h>
 #include <nanobind/ndarray.h>
 #include <nanobind/stl/map.h>
@@ -18,6 +19,7 @@ namespace {
 
 using Pairs = nb::ndarray<const double, nb::shape<-1, 2>, nb::c_contig, nb::device::cpu>;
 using Column = nb::ndarray<const double, nb::shape<-1>, nb::c_contig, nb::device::cpu>;
+using Places = Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor>;
 
 /// The judge's default machine with some of its numbers replaced.
 reference::Machine machineWith(const std::map<std::string, double>& given) {
@@ -28,26 +30,23 @@ reference::Machine machineWith(const std::map<std::string, double>& given) {
 }
 
 /// Where a machine's sled comes to rest for each row: (n, 2) [mm]; NaN where it cannot hang.
-nb::ndarray<nb::numpy, double> places(const std::map<std::string, double>& numbers,
-                                      const Pairs& chains, const Pairs& pushes,
-                                      const Column& weights, bool over_top) {
+Places places(const std::map<std::string, double>& numbers, const Pairs& chains,
+              const Pairs& pushes, const Column& weights, bool over_top) {
   const size_t count = chains.shape(0);
   if (pushes.shape(0) != count || weights.shape(0) != count)
     throw nb::value_error("chains, pushes and weights must have the same number of rows");
   reference::Machine machine = machineWith(numbers);
   machine.over_top = over_top;
   const Eigen::Vector2d always = machine.push;
-  double* data = new double[2 * count];
-  nb::capsule owner(data, [](void* p) noexcept { delete[] static_cast<double*>(p); });
+  Places result = Places::Constant(count, 2, std::numeric_limits<double>::quiet_NaN());
   for (size_t i = 0; i < count; ++i) {
     machine.sled_weight = weights(i);
     machine.push = always + Eigen::Vector2d(pushes(i, 0), pushes(i, 1));
     const reference::Hang rest =
         reference::settle(machine, Eigen::Vector2d(chains(i, 0), chains(i, 1)));
-    for (int k = 0; k < 2; ++k)
-      data[2 * i + k] = rest.solved ? rest.bit[k] : std::numeric_limits<double>::quiet_NaN();
+    if (rest.solved) result.row(i) = rest.bit;
   }
-  return nb::ndarray<nb::numpy, double>(data, {count, 2}, owner);
+  return result;
 }
 
 }  // namespace

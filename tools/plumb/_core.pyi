@@ -43,10 +43,7 @@ def reach(
     over_top: bool,
     points: Numbers,
     *,
-    most_tension: float = ...,
-    least_tension: float = ...,
     least_free: float = ...,
-    most_give: float = ...,
 ) -> dict[str, NDArray[Any]]: ...  # the fields of Reached in plumb/model
 def reach_limits() -> dict[str, float]: ...
 def settings_table() -> list[dict[str, Any]]: ...  # rows of Setting in plumb/firmware

@@ -1,22 +1,32 @@
 """Fixtures that run a command, and ask it for JSON."""
 
 import json
+import os
 import shutil
+import tempfile
 from importlib import resources
 
+import asked_again
 import pytest
 from chromium import QUIET
 from jsonschema import Draft202012Validator
+from plumb.cli import output
 from plumb.cli.main import main
 from plumb.text.compiled import stale_source
 
 SCHEMA = json.loads(resources.files("plumb.cli").joinpath("answers.schema.json").read_text("utf-8"))
 
 
-def pytest_configure():
+def pytest_configure(config):
     """Old modules would be tested in place of the sources that are here."""
     if source := stale_source():
         pytest.exit(f"{source}: the lab was built without this change; run tools/setup", 2)
+    output.refuse_stale = lambda: None  # no command of this process has to look again
+    if asked_again.FOLDER not in os.environ:  # else the run has begun in another process
+        folder = tempfile.TemporaryDirectory()
+        os.environ[asked_again.FOLDER] = folder.name
+        config.add_cleanup(folder.cleanup)
+    asked_again.remember()
 
 
 @pytest.fixture

@@ -11,7 +11,8 @@ FEW = 8  # simulations of a plan: their number changes its chance, and not the w
 if __name__ == "__main__":
     Watch.speed = SPEED
     if sys.argv[1] == "lab":  # others would load the numerics for nothing
-        from plumb.plan.outlook import Outlooks
+        import asked_again
 
-        Outlooks.__init__.__defaults__ = (FEW,)
+        asked_again.Outlooks.__init__.__defaults__ = (FEW,)
+        asked_again.remember()
     sys.exit(main(sys.argv[1:]))

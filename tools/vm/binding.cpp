@@ -50,7 +50,6 @@ std::unique_ptr<brain::Brain> megaFor(world::World& world, const std::string& el
 
 std::unique_ptr<brain::Brain> brainFor(world::World& world, const std::optional<std::string>& elf,
                                        const std::string& bootloader, int shield) {
-  if (shield != 2 && shield != 3) throw nb::value_error("a shield is 2 or 3");
   if (!elf) return std::make_unique<brain::HostBrain>(world);
   std::unique_ptr<brain::Brain> mega = megaFor(world, *elf, bootloader);
   mega->setShield(shield);
@@ -122,7 +121,6 @@ class VirtualMachine {
   }
   void replaceSheet() { world_.sheet().replace(); }
 
-  void hangAt(double x, double y) { world_.hangAt({x, y}); }
   void hookAcross(const std::string& axis, double slack, double beyond) {
     world_.hookAcross(axisNamed(axis), slack, beyond);
   }
@@ -152,8 +150,6 @@ class VirtualMachine {
 void bindFaults(nb::class_<VirtualMachine>& machine) {
   using nb::arg;
   machine
-      .def("hang_at", &VirtualMachine::hangAt, arg("x"), arg("y"),
-           "Lays the chains so that the bit is there [mm].")
       .def("hook_across", &VirtualMachine::hookAcross, arg("axis"), arg("slack"),
            arg("beyond") = 12.7,
            "Takes the sled off and hooks a chain on the other sprocket, so many mm of links past "

@@ -11,7 +11,6 @@ from typing import Any
 
 from plumb.bench.report import Report
 from plumb.cli.add import AddAnswer
-from plumb.cli.as_fitted import RecheckAnswer
 from plumb.cli.calibrate import CalibrateAnswer
 from plumb.cli.check import JobAnswer
 from plumb.cli.diagnose import DiagnosisAnswer
@@ -21,7 +20,7 @@ from plumb.cli.grid import PlannedGrid
 from plumb.cli.home import HomeAnswer
 from plumb.cli.inverse import ChainLengths
 from plumb.cli.next import ProposalsAnswer
-from plumb.cli.reach import ReachAnswer
+from plumb.cli.reach import ReachMap
 from plumb.cli.read import MachineNumbers
 from plumb.cli.report import ReportAnswer
 from plumb.cli.resume import ResumeAnswer
@@ -29,6 +28,7 @@ from plumb.cli.send import SendAnswer
 from plumb.cli.settings import SettingLines
 from plumb.cli.slip import SlipAnswer
 from plumb.cli.vm import VmAnswer
+from plumb.diary.recheck import Recheck
 from plumb.fit.compare import Comparison
 from plumb.text.answers import schema_of
 from plumb.vm.practice import Score
@@ -48,7 +48,7 @@ ANSWERS: dict[str, Any] = {
     "refusal": RefusalAnswer,
     "add": AddAnswer,
     "bench": Report,
-    "calibrate": CalibrateAnswer | RecheckAnswer,
+    "calibrate": CalibrateAnswer | Recheck,
     "check": JobAnswer,
     "compare": Comparison,
     "diagnose": DiagnosisAnswer,
@@ -58,7 +58,7 @@ ANSWERS: dict[str, Any] = {
     "inverse": ChainLengths,
     "next": ProposalsAnswer,
     "practice": Score,
-    "reach": ReachAnswer,
+    "reach": ReachMap,
     "read": MachineNumbers,
     "recover": HomeAnswer | SlipAnswer,
     "report": ReportAnswer,

@@ -52,7 +52,6 @@ def _place(text: str) -> tuple[float, float]:
 any_length = kind(typed_length, "a length, like 100 or 4in")
 length = kind(typed_length, "a length above zero, like 100 or 4in", lambda size: size > 0)
 positive = kind(float, "a number above zero", lambda number: number > 0)
-limit = kind(float, "a number of zero or more", lambda number: number >= 0)
 count = kind(int, "a whole number from 1 on, like 100", lambda number: number > 0)
 prior = kind(_named, "NAME=SIGMA, like motor_gap=1.5", lambda named: named[1] >= 0)
 held_size = kind(_named, "NAME=SIZE, a name and a number")

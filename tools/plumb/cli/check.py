@@ -33,7 +33,7 @@ from plumb.job.wood import Piece
 from plumb.model.predict import CANNOT_HANG, REACH_WORDS
 from plumb.pictures.drawing import BAD as WRONG
 from plumb.pictures.drawing import GOOD as CUT
-from plumb.pictures.drawing import NOWHERE, QUIET, Corners, Panel, Spot, Ways, draw, shades_of
+from plumb.pictures.drawing import NOWHERE, QUIET, Corners, Dot, Panel, Ways, draw, shades_of
 from plumb.settings.machine import GRAVITY, MachineSettings
 from plumb.text.answers import Internal, in_json, part
 from plumb.text.values import bare, brief, signed, time_text, unit, worded
@@ -131,7 +131,7 @@ def _picture(checked: CheckedJob, settings: MachineSettings, name: str, *, form:
     piece = checked.piece
     depth = f"; brown: the wood, cut up to {worded(piece.deepest)} deep." if piece else "."
     near = replace(sheet, title="From near", view=near_view(checked))
-    panels = [replace(sheet, spots=()), near]
+    panels = [replace(sheet, dots=()), near]
     words = [f"{meaning}{depth}"]
     return draw(panels, sheet=settings.sheet, words=words, columns=1, form=form)
 
@@ -152,12 +152,12 @@ def sheet_of(checked: CheckedJob, settings: MachineSettings, name: str) -> Panel
         for kind in ("rapid", "cut", "bad")
     }
     labels = [
-        Spot((part.low[0] + part.high[0]) / 2, (part.low[1] + part.high[1]) / 2, f"{i}", size=0)
+        Dot((part.low[0] + part.high[0]) / 2, (part.low[1] + part.high[1]) / 2, f"{i}", size=0)
         for i, part in enumerate(checked.parts[:NAMED], start=1)
     ]
     # Straight down is no line from above.
     down = [way[0] for way in of["bad"] if np.ptp(way, axis=0).max() < POINT]
-    dots = [Spot(x, y, colour=WRONG) for x, y in down]
+    dots = [Dot(x, y, colour=WRONG) for x, y in down]
     verdict = "nothing is wrong" if checked.is_good else "something is wrong"
     return Panel(
         title=f"{Path(name).name}: {verdict}",
@@ -167,7 +167,7 @@ def sheet_of(checked: CheckedJob, settings: MachineSettings, name: str) -> Panel
             Ways(of["cut"], CUT, 0.7),
             Ways(of["bad"], WRONG, 2.4),
         ],
-        spots=[*labels, *dots],
+        dots=[*labels, *dots],
         shades=shades_of(-piece.heights / (piece.deepest or 1.0)) if piece else None,
         shaded=_corners(piece.corners) if piece else NOWHERE,
     )

@@ -23,7 +23,6 @@ from plumb.vm.garage import RANDOM, described, hide, random_garage
 from plumb.vm.loop import Loop, closed_loop
 from plumb.vm.owner import VirtualOwner
 
-PICTURE = "error-falls"
 BUILT = str(Path(__file__).resolve().parents[3] / ".pio/build/megaatmega2560/firmware.elf")
 
 

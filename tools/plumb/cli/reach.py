@@ -21,7 +21,7 @@ CUT = 10.0  # [N] the side force of a light cut
 
 
 @dataclass(frozen=True, kw_only=True)
-class ReachAnswer(SheetReach):
+class ReachMap(SheetReach):
     """The usable part of the sheet, and the files that were written."""
 
     written: list[str]
@@ -34,7 +34,7 @@ def run(arguments: argparse.Namespace) -> int:
     priors_with(arguments.prior)  # refuses a number that is none
     survey, expected = reach_of(settings, dict(arguments.prior))
     written = [arguments.output] if arguments.output else []
-    answer = ReachAnswer(survey=survey, expected=expected, written=written)
+    answer = ReachMap(survey=survey, expected=expected, written=written)
     if arguments.output:
         write_outputs({arguments.output: drawn_map(survey, form=form)}, inputs=[arguments.settings])
     if arguments.json:

@@ -12,17 +12,17 @@ from typing import Annotated
 import numpy as np
 import scipy
 
-from plumb.cure.check_marks import LEVEL
 from plumb.diary.file import FIT, Diary, Entry
 from plumb.fit.sighting import SHEET_ROTATION
-from plumb.job.home import TOUCH_SIGMA, HomeTouch, believed_chains, turned_back
-from plumb.model.plain import ranked
+from plumb.job.home import TOUCH_SIGMA, HomeTouch, Point, believed_chains, turned_back
+from plumb.model.plain import in_feet, plain_change, plain_name, ranked, words_of
 from plumb.model.predict import FOUND, NAMES, Array, places_with_slopes, values_of
 from plumb.settings.machine import MachineSettings
 from plumb.settings.toml import machine_in
-from plumb.text.answers import Internal, in_json, key
-from plumb.text.errors import InputError
+from plumb.text.answers import Internal, Moment, in_json, key, part
+from plumb.text.values import signed, worded
 
+LEVEL = 0.99  # of the rechecks of an unchanged machine hold
 STEP = 0.1  # [mm] of chain
 # Changes that need no new fit: how much longer a chain is than the machine believes, where the
 # sheet lies, and the frame.
@@ -41,17 +41,44 @@ class LikelyChange:
     chi_square: Internal[float]  # that it leaves
     explains: bool  # whether what it leaves is within the interval
 
+    @property
+    def words(self) -> str:
+        """The change with its size."""
+        size = f"{signed(self.size)} +- {worded(self.sigma)}"
+        if self.name in (LEFT, RIGHT):
+            return f"the {self.name} is {size} longer than the machine believes"
+        if self.name in (SHEET_X, SHEET_Y):
+            return f"the sheet has moved by {size} along {self.name[-1]}"
+        words = words_of(self.name)
+        if "." not in self.name and words["unit"] == "mm":
+            return f"{plain_name(self.name)} by {size}"
+        now = self.before + self.size
+        said = plain_change(self.name, self.before, now, now - self.sigma, now + self.sigma)
+        by = f"by {said.shift} +- {said.margin} {said.unit}"
+        return in_feet(words["more"]).replace("by #", "#").replace("#", by)
+
+
+@dataclass(frozen=True)
+class RecheckedMark:
+    """A mark against what the fit promised [mm]."""
+
+    name: str
+    hole: Point
+    error: Point
+    expected_mm: float  # an unchanged machine rarely errs by more
+
+    @property
+    def off(self) -> float:
+        """The length of the error."""
+        return float(np.hypot(*self.error))
+
 
 @dataclass(frozen=True)
 class Recheck:
     """Marks against what the fit promised."""
 
     fit: Internal[Entry]
-    touches: Internal[tuple[HomeTouch, ...]]
-    errors: Internal[Array]  # (n, 2) [mm] hole - place by the settings
-    expected: Internal[
-        Array
-    ]  # (n,) [mm] length that an error of an unchanged machine rarely exceeds
+    marks: tuple[RecheckedMark, ...]  # in the order in which they were read
     chi_square: float
     limit: float  # of chi-square
     # [rad] of the sheet, counter-clockwise: as it was fitted, or 0 if it hangs straight
@@ -63,26 +90,45 @@ class Recheck:
         """Whether the marks lie within the interval of the fit."""
         return self.chi_square <= self.limit
 
+    at = part("fit.at", Moment, "Of the diary.", name="fit")
+
+    @in_json
+    def sentence(self) -> str:
+        """The verdict in a sentence or two."""
+        worst = worded(max(mark.off for mark in self.marks))
+        of_date = f"the fit of {self.fit.at:%Y-%m-%d}"
+        if self.holds:
+            return (
+                f"The machine is as it was fitted: by {of_date}, errors up to {worst} are to be "
+                "expected."
+            )
+        best = self.changes[0]
+        said = (
+            f"Something changed since {of_date}. The likeliest: {best.words}."
+            if best.explains
+            else f"Errors up to {worst} are more than {of_date} allows; no single change explains "
+            "them."
+        )
+        far = [mark.name for mark in self.marks if mark.off > mark.expected_mm]
+        return f"{said} First read mark {far[0]} again: it alone is off." if len(far) == 1 else said
+
 
 def recheck(
-    diary: Diary,
+    fit: Entry,
     settings: MachineSettings,
     touches: Sequence[HomeTouch],
     *,
+    cut_with: MachineSettings | None = None,
     sigma: float | None = None,
 ) -> Recheck:
-    """Hold marks against the newest fit that gave these settings. sigma [mm] of a coordinate.
+    """Hold marks against the fit that gave these settings. sigma [mm] of a coordinate.
 
     The sheet hangs as it was fitted, or somebody has hung it straight since, as the lab advises:
-    whichever fits the marks better counts. Raises InputError where the diary does not know the
-    settings.
+    whichever fits the marks better counts.
     """
-    fit = fit_of(diary, settings)
-    if fit is None:
-        remedy = "give the machine.toml that plumb add wrote next to this diary"
-        raise InputError(diary.path, "knows no fit that gave these settings", remedy=remedy)
+    chains = believed_chains(cut_with or settings, touches)
     fitted = settings.fitted.last_sheet_rotation if settings.fitted else 0.0
-    turned = [_recheck(fit, settings, touches, turn, sigma) for turn in (fitted, 0.0)]
+    turned = [_recheck(fit, settings, touches, chains, turn, sigma) for turn in (fitted, 0.0)]
     return ranked(turned, lambda checked: checked.chi_square)[0]
 
 
@@ -90,25 +136,27 @@ def _recheck(
     fit: Entry,
     settings: MachineSettings,
     touches: Sequence[HomeTouch],
+    chains: Array,
     turn: float,
     sigma: float | None,
 ) -> Recheck:
     """Hold marks on a sheet that is turned [rad] against a fit."""
-    chains = believed_chains(settings, touches)
     holes = turned_back(np.array([touch.hole for touch in touches], dtype=float), turn)
     where, slopes = _places(settings, chains)
     errors = holes - where
-    noise = sigma or TOUCH_SIGMA
+    noise = sigma or max(TOUCH_SIGMA, fit.content.get("sigma_mm", 0.0))
     covariance = noise**2 * np.eye(errors.size) + _known(fit, where, slopes)
     left = errors.ravel()
     limit = float(scipy.special.chdtri(errors.size, 1 - LEVEL))
     spread = covariance.reshape(len(touches), 2, len(touches), 2)
     widest = [np.linalg.eigvalsh(spread[i, :, i])[-1] for i in range(len(touches))]
+    expected = np.sqrt(scipy.special.chdtri(2, 1 - LEVEL) * np.array(widest))
+    each = zip(touches, errors.tolist(), expected.tolist(), strict=True)
     return Recheck(
         fit=fit,
-        touches=tuple(touches),
-        errors=errors,
-        expected=np.sqrt(scipy.special.chdtri(2, 1 - LEVEL) * np.array(widest)),
+        marks=tuple(
+            RecheckedMark(touch.name, touch.hole, (x, y), most) for touch, (x, y), most in each
+        ),
         chi_square=float(left @ np.linalg.solve(covariance, left)),
         limit=limit,
         turn=turn,

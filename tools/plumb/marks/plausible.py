@@ -211,8 +211,6 @@ def _refuse_odd(measurements: Measurements, distance: Distance) -> None:
 
 # Places counted from two edges of the sheet, as a tape measures them [mm].
 
-CORNERS = ("top-left", "top-right", "bottom-left", "bottom-right")
-
 
 def from_edges(place: Point, *, sheet: Sheet, corner: str) -> Point:
     """Return a place of the machine frame, counted from the two edges that meet in a corner."""

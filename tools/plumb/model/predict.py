@@ -61,11 +61,6 @@ def known_effects() -> dict[str, list[str]]:
     }
 
 
-def parameter_names(effect: str) -> tuple[str, ...]:
-    """Return the entries of NAMES that belong to an effect."""
-    return tuple(name for name in NAMES if name.startswith(f"{effect}."))
-
-
 def values_of(settings: MachineSettings) -> Array:
     """Our model of a machine as the values array (len(NAMES),) [mm, N, rad]."""
     return np.array([_value(settings, name) for name in NAMES], dtype=float)
@@ -115,10 +110,9 @@ def places(settings: MachineSettings, chains: Array) -> tuple[Array, Codes]:
     return _core.places(values_of(settings), settings.feed == "top", _pairs(chains))
 
 
-def reach(settings: MachineSettings, points: Array, **limits: float) -> Reached:
-    """Return whether places (n, 2) [mm] are usable, by our model; limits as in REACH_LIMITS."""
-    reached = _core.reach(values_of(settings), settings.feed == "top", _pairs(points), **limits)
-    return Reached(**reached)
+def reach(settings: MachineSettings, points: Array) -> Reached:
+    """Return whether places (n, 2) [mm] are usable, by our model."""
+    return Reached(**_core.reach(values_of(settings), settings.feed == "top", _pairs(points)))
 
 
 def places_with_slopes(

@@ -34,7 +34,7 @@ STEPS = (1, 2, 3, 5)  # a factor is such a number times a power of ten
 
 
 @dataclass(frozen=True)
-class Spot:
+class Dot:
     """A place with its words."""
 
     x: float  # [mm]
@@ -62,7 +62,7 @@ class Panel:
     predicted: Array = field(default_factory=lambda: np.zeros((0, 2)))
     errors: Array = field(default_factory=lambda: np.zeros((0, 2)))  # measured - predicted
     good: bool = False  # drawn in the colour of success
-    spots: Sequence[Spot] = ()
+    dots: Sequence[Dot] = ()
     ways: Sequence[Ways] = ()
     shades: Array | None = None  # (rows, columns, 4) colours from the lower left
     shaded: Corners = NOWHERE  # where they lie
@@ -187,13 +187,13 @@ def _draw_panel(
         _draw_arrows(axis, panel, factor=factor, small=small)
         if small == 1.0:
             _draw_lengths(axis, panel)
-    for spot in panel.spots:
-        axis.plot(spot.x, spot.y, "o", color=spot.colour, mec=INK, ms=small * spot.size, zorder=5)
+    for dot in panel.dots:
+        axis.plot(dot.x, dot.y, "o", color=dot.colour, mec=INK, ms=small * dot.size, zorder=5)
         # Towards the middle of the sheet, where there is room.
-        shift = (9 if spot.x < 0 else -9, -9 if spot.y > 0 else 9) if spot.size else (0, 0)
+        shift = (9 if dot.x < 0 else -9, -9 if dot.y > 0 else 9) if dot.size else (0, 0)
         axis.annotate(
-            spot.words,
-            (spot.x, spot.y),
+            dot.words,
+            (dot.x, dot.y),
             shift,
             textcoords="offset points",
             color=INK,

@@ -46,7 +46,7 @@ class MachineTable(Table):
     published: PublishedSettings = part()
 
 
-class Fit(Table):
+class FitTable(Table):
     """The table [fit]: errors of the marks [mm], and what was fitted."""
 
     start_rms: Number  # with the settings before
@@ -87,7 +87,7 @@ class BoardTable(Table):
 class MachineFile(MachineTable):
     """A machine.toml."""
 
-    fit: Fit | None = None
+    fit: FitTable | None = None
     board: tuple[BoardTable, ...] = ()
 
 
@@ -107,7 +107,7 @@ class FittedBoard:
     zeros: tuple[float, float] = (0.0, 0.0)  # [mm] more chain left and right than at the first
 
 
-class FitRecord(Fit):
+class FitRecord(FitTable):
     """The fit that gave these settings."""
 
     boards: tuple[FittedBoard, ...] = ()

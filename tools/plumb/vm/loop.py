@@ -172,11 +172,6 @@ def _read_again(owner: VirtualOwner, measurements: Measurements, name: str) -> M
     return replace(measurements, marks=tuple(marks))
 
 
-def shape(comparison: Comparison) -> float:
-    """[mm] RMS of marks, the sheet laid at its best."""
-    return comparison.rms if comparison.shape_rms is None else comparison.shape_rms
-
-
 def read(owner: VirtualOwner, form: str) -> Measurements:
     """Return the filled form as the lab reads it."""
     with tempfile.TemporaryDirectory() as folder:

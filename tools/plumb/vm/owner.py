@@ -45,19 +45,13 @@ class VirtualOwner:
         """noise [mm] of the tape; slip [mm] by which it reads one mark of the first sheet wrongly;
         elf: the flashed program, else the firmware for the host."""
         self.garage = garage
-        self._first_garage, self._noise, self._elf = garage, noise, elf
+        self._elf = elf
         self.settings = garage.settings
         self._sheets = 1  # that lay on this machine so far
         self.machine: VirtualMachine = garage.machine(elf=elf)
         self.sender = Sender(InProcessPort(self.machine))
         self._source = np.random.default_rng([garage.seed, 5])
         self.tape = Tape(garage, self._source, noise=noise, slip=slip)
-
-    def again(self) -> VirtualOwner:
-        """Return the same machine on its first day, switched on."""
-        same = VirtualOwner(self._first_garage, noise=self._noise, elf=self._elf)
-        same.switch_on()
-        return same
 
     def switch_on(self) -> None:
         """Power on; the owner's numbers go to the machine and the chains are declared."""

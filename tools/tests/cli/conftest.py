@@ -1,7 +1,7 @@
 """Tests of this room ask the same of the same boards."""
 
 import pytest
-from asked_again import asked_again, tried_in_full  # noqa: F401
+from asked_again import tried_in_full, tried_less  # noqa: F401
 from plumb.settings.toml import write_machine_toml
 from synthetic import BELIEVED
 

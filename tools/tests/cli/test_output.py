@@ -48,14 +48,6 @@ def test_a_second_run_replaces_its_result_and_no_other_file(command, name, run):
     assert run(*command, name)[0] == 0
 
 
-def test_a_form_with_readings_is_not_replaced(run):
-    grid = (*GRID, "--marks", "form.toml", "--output", "grid.nc")
-    assert run(*grid)[0] == 0
-    code, _, complaint = run(*grid)
-    assert code == 2 and "exists" in complaint
-    assert run(*grid, "--force")[0] == 0
-
-
 def read_from(pipe, into):
     into.append(Path(pipe).read_bytes())
 

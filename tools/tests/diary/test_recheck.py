@@ -7,7 +7,7 @@ import pytest
 from plumb.cure.add import add
 from plumb.cure.machine_file import record_of
 from plumb.diary.file import FIT, append, fit_entry, read_diary
-from plumb.diary.recheck import LEFT, RIGHT, recheck
+from plumb.diary.recheck import LEFT, RIGHT, fit_of, recheck
 from plumb.fit.inputs import Inputs
 from plumb.job.home import HomeTouch
 from plumb.marks.read import Measurements
@@ -49,29 +49,29 @@ def touched(settings, *, longer=(0.0, 0.0), true=TRUE, noise=(0, 0), turn=0.0):
 def machine(tmp_path_factory):
     folder = tmp_path_factory.mktemp("machine")
     settings = fitted_to(1, folder)
-    return settings, read_diary(folder)
+    return settings, fit_of(read_diary(folder), settings)
 
 
 @pytest.mark.parametrize("turn", [0.004, -0.004])
 def test_a_turned_sheet_is_no_change_of_the_machine(tmp_path, turn):
     settings = fitted_to(1, tmp_path, turn=turn)
-    diary = read_diary(tmp_path)
-    still = recheck(diary, settings, touched(settings, turn=turn))
+    fit = fit_of(read_diary(tmp_path), settings)
+    still = recheck(fit, settings, touched(settings, turn=turn))
     assert still.holds and still.turn == pytest.approx(turn, abs=0.001)
     # The lab says how far to raise its right end; somebody did.
-    straight = recheck(diary, settings, touched(settings))
+    straight = recheck(fit, settings, touched(settings))
     assert straight.holds and straight.turn == 0
     for now in (turn, 0.0):
-        slipped = recheck(diary, settings, touched(settings, turn=now, longer=(4.0, 0)))
+        slipped = recheck(fit, settings, touched(settings, turn=now, longer=(4.0, 0)))
         assert not slipped.holds and slipped.changes[0].name == LEFT
     # Turned the other way it is another sheet.
-    assert not recheck(diary, settings, touched(settings, turn=-turn)).holds
+    assert not recheck(fit, settings, touched(settings, turn=-turn)).holds
 
 
 @pytest.mark.parametrize(("longer", "name"), [((4.0, 0), LEFT), ((0, -4.0), RIGHT)])
 def test_a_chain_that_became_longer_is_named_with_its_size(machine, longer, name):
-    settings, diary = machine
-    checked = recheck(diary, settings, touched(settings, longer=longer))
+    settings, fit = machine
+    checked = recheck(fit, settings, touched(settings, longer=longer))
     assert not checked.holds
     best = checked.changes[0]
     assert best.name == name and best.explains
@@ -79,15 +79,15 @@ def test_a_chain_that_became_longer_is_named_with_its_size(machine, longer, name
 
 
 def test_a_motor_that_moved_is_among_what_explains_it(machine):
-    settings, diary = machine
+    settings, fit = machine
     moved = replace(TRUE, motor_gap=TRUE.motor_gap + 8.0)
-    checked = recheck(diary, settings, touched(settings, true=moved))
+    checked = recheck(fit, settings, touched(settings, true=moved))
     assert not checked.holds
     gap = next(change for change in checked.changes if change.name == "motor_gap")
     assert gap.explains and gap.size == pytest.approx(8.0, abs=3 * gap.sigma)
 
 
 def test_less_certain_numbers_allow_larger_errors(machine):
-    settings, diary = machine
-    checked = recheck(diary, settings, touched(settings))
-    assert (checked.expected > 3.03 * 0.5).all() and (checked.expected < 6).all()
+    settings, fit = machine
+    checked = recheck(fit, settings, touched(settings))
+    assert all(3.03 * 0.5 < mark.expected_mm < 6 for mark in checked.marks)

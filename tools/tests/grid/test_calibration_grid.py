@@ -215,13 +215,15 @@ def test_a_bad_request_gets_one_line_exit_code_2_and_no_file(words, hint, tmp_pa
     assert list(tmp_path.iterdir()) == []
 
 
-def test_readings_already_written_are_never_overwritten(tmp_path, run):
+def test_readings_already_written_are_overwritten_by_force_alone(tmp_path, run):
     readings = tmp_path / "marks.toml"
     readings.write_text("an hour's work")
-    code, _, complaint = run("grid", "--marks", readings, "--output", tmp_path / "g.nc")
+    words = ("grid", "--marks", readings, "--output", tmp_path / "g.nc")
+    code, _, complaint = run(*words)
     assert code == 2 and "exists" in complaint
     assert readings.read_text() == "an hour's work"
     assert list(tmp_path.iterdir()) == [readings]
+    assert run(*words, "--force")[0] == 0
 
 
 def test_the_list_of_marks_holds_every_target_and_approach_in_the_sheet_frame():

@@ -97,8 +97,10 @@ class Workshop:
 
     def put_bit_at(self, place):
         """Motors without power; the owner holds the bit in the hole until the gears rest."""
-        for _ in range(12):
-            self.machine.hang_at(*place)
+        for _ in range(24):
+            (there, here), _ = lengths(MAKER, np.array([place, self.machine.sled]))
+            for side, missing in zip(("left", "right"), there - here, strict=True):
+                self.machine.slip(side, missing)
             self.machine.advance(200)
 
 

@@ -4,7 +4,7 @@ from contextlib import contextmanager, suppress
 from urllib.parse import urljoin
 
 import pytest
-from asked_again import asked_again  # noqa: F401
+from asked_again import tried_less  # noqa: F401
 from folder import with_settings
 from garage_at_port import Garage
 from playwright.sync_api import Error, expect

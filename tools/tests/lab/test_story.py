@@ -128,7 +128,7 @@ def check_two_marks(visit):
     visit.go_to("Check")
     visit.press("Cut both marks: the sled moves")
     visit.press("Let the tape read them")
-    visit.see(re.compile("The settings hold."))
+    visit.see(re.compile("The machine is as it was fitted"))
     rows = visit.page.locator("table.checked tbody tr")
     return [
         tuple(visit.millimetres(row.locator("td").nth(i)) for i in (0, 1)) for row in rows.all()
@@ -164,7 +164,7 @@ def test_from_an_empty_folder_to_a_machine_whose_error_has_fallen(lab, page):
     rounds = page.locator(".off-target tr")
     expect(rounds).to_have_count(3, timeout=PATIENCE)
     assert [visit.millimetres(row) for row in rounds.all()][:2] == [first, second]
-    visit.see(re.compile("The settings hold."))
+    visit.see(re.compile("The machine is as it was fitted"))
     visit.go_to("Diary")
     expect(page.locator(".rounds tbody tr")).to_have_count(1)
     expect(page.get_by_text(re.compile(r"\d+ numbers changed by machine-2\.toml"))).to_have_count(2)

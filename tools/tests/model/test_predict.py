@@ -14,7 +14,6 @@ from plumb.model.predict import (
     known_effects,
     lengths,
     library,
-    parameter_names,
     places_with_slopes,
     values_of,
 )
@@ -27,7 +26,7 @@ SIZES |= {f"{e['name']}.{p['name']}": abs(p["typical"]) for e in library() for p
 
 
 def test_every_parameter_of_the_library_has_its_place_among_the_values():
-    names = {name for effect in known_effects() for name in parameter_names(effect)}
+    names = {f"{effect}.{name}" for effect, several in known_effects().items() for name in several}
     assert names == {name for name in NAMES if "." in name}
 
 

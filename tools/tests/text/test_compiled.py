@@ -52,6 +52,7 @@ def an_edit(monkeypatch):
     """The build noted another chain_sag.h."""
     noted = compiled.digests() | {SAG: "0"}
     monkeypatch.setattr(compiled, "_note", lambda: noted)
+    monkeypatch.setattr("plumb.cli.output.refuse_stale", compiled.refuse_stale)
 
 
 def test_every_program_refuses_in_one_line(an_edit, run):

@@ -38,7 +38,6 @@ World::World(const Parts& parts, double paid_out)
       motors_{{{chainMotor(parts, kLeft), parts.seed},
                {chainMotor(parts, kRight), parts.seed + 1},
                {zMotor(parts), parts.seed + 2}}},
-      per_turn_{{parts.chain_per_turn, parts.chain_per_turn, parts.z_per_turn}},
       senses_{{parts.over_top ? 1 : -1, parts.over_top ? 1 : -1, 1}},
       laid_{{paid_out, paid_out, 0}},
       hang_every_(parts.hang_every),

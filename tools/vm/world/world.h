@@ -23,8 +23,6 @@ struct Parts {
   std::map<std::string, double> numbers;  ///< of the judge's machine, where they differ
   double friction = 0;                    ///< [N] of the sled on the sheet
   unsigned seed = 0;                      ///< for random motors; 0: nominal motors
-  double chain_per_turn = 63.5;           ///< [mm] of nominal links that a sprocket pays out
-  double z_per_turn = 3.17;               ///< [mm] of the z axis' screw
   double motor_step = 1e-4;               ///< [s] of the motors' computation
   double hang_every = 0.01;               ///< [s] in which a chain moves at most 0.3 mm
   bool over_top = true;  ///< the chains leave over the top of the sprockets, else below
@@ -98,9 +96,10 @@ class World {
   Sheet sheet_;
   std::array<Motor, kAxisCount> motors_;
   std::array<int, kAxisCount> duties_ = {{0, 0, 0}};
-  std::array<double, kAxisCount> per_turn_;  // [mm]
-  std::array<int, kAxisCount> senses_;       // +1, or -1 for a motor that turns the other way
-  std::array<double, kAxisCount> laid_;      // [mm] of travel when the motors began
+  // [mm] of nominal links that a sprocket pays out, and of the z axis' screw
+  std::array<double, kAxisCount> per_turn_ = {{63.5, 63.5, 3.17}};
+  std::array<int, kAxisCount> senses_;   // +1, or -1 for a motor that turns the other way
+  std::array<double, kAxisCount> laid_;  // [mm] of travel when the motors began
   Eigen::Vector2d hung_on_ = Eigen::Vector2d::Zero();  // [mm] both chains when the sled was hung
   double seconds_ = 0, hung_ = 0, looked_ = 0, probe_height_ = -1e9;
   double lacking_ = 0;  // [V] of the motors' supply

@@ -22,8 +22,7 @@ template <class Real>
 struct ChainSag : Effect<Real> {
   enum { kWeightRatioSquared, kParamCount };
   enum { kPerCurl, kPerCurlAndLength, kLean, kLeanAndCurl, kCurl, kCoefficientCount };
-  enum { kNeedsForces = 1 };
-  enum { kBends = 1 };
+  enum { kNeedsForces = 1, kBends = 1 };
   enum { kWeightPower = -2 };
 
   static EffectInfo info() {

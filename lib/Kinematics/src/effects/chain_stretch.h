@@ -14,8 +14,7 @@ template <class Real>
 struct ChainStretch : Effect<Real> {
   enum { kCompliance, kParamCount };
   enum { kPerPull, kCoefficientCount };
-  enum { kNeedsForces = 1 };
-  enum { kBends = 1 };
+  enum { kNeedsForces = 1, kBends = 1 };
   enum { kClientNumber = 45 };  // chainElasticity of WebControl
 
   static EffectInfo info() {

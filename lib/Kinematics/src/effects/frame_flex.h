@@ -18,8 +18,7 @@ template <class Real>
 struct FrameFlex : Effect<Real> {
   enum { kInward, kDownward, kParamCount };
   enum { kInwardByPull, kDownwardByPull, kDownwardByLength, kPerHalfGap, kCoefficientCount };
-  enum { kNeedsForces = 1 };
-  enum { kMovesEnds = 1 };
+  enum { kNeedsForces = 1, kMovesEnds = 1 };
   enum { kExampleCount = 3 };
 
   static EffectInfo info() {

@@ -22,8 +22,7 @@ template <class Real>
 struct SledSwing : Effect<Real> {
   enum { kBitRight, kBitUp, kParamCount };
   enum { kEndTurn = kParamCount, kCoefficientCount };
-  enum { kNeedsForces = 1 };  // for the directions
-  enum { kMovesEnds = 1 };
+  enum { kNeedsForces = 1, kMovesEnds = 1 };  // forces for the directions
   enum { kExampleCount = 3 };
   enum { kChainMicrometres = 12, kBitMicrometres = 20 };
 

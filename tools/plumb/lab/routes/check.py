@@ -1,17 +1,21 @@
 """Two check marks: where to cut them, and whether they are where the settings promise."""
 
 from collections.abc import Mapping, Sequence
+from datetime import datetime
+from math import dist
 from typing import Any
 
 import numpy as np
 from fastapi import APIRouter
 from pydantic import BaseModel
 
-from plumb.cure.check_marks import CheckedMark, CheckRound, check_marks, check_sentence
+from plumb.cure.add import add
 from plumb.diary.file import CHECK as NOTED
-from plumb.diary.file import append, read_diary
+from plumb.diary.file import FIT, Entry, append, fit_entry, read_diary
+from plumb.diary.recheck import Recheck, fit_of, recheck
 from plumb.fit.inputs import Inputs, settings_in
 from plumb.grid import program
+from plumb.job.home import HomeTouch
 from plumb.lab.broken_cut import HowFar, OnSheet, begin, go_on, how_far
 from plumb.lab.machine_line import TheLine, refuse_other_machine, refuse_unknown_place
 from plumb.lab.project import Choices, Project, save_choices
@@ -30,9 +34,9 @@ from plumb.lab.rounds import (
 from plumb.lab.routes.machine import MachineAnswer, machine
 from plumb.lab.routes.project import ProjectAnswer, TheProject, show
 from plumb.lab.routes.readings import CHECK, ENDING, form_of
+from plumb.marks.model import Measurements
 from plumb.marks.plausible import from_edges
-from plumb.marks.read import read_marks
-from plumb.model.predict import known_effects
+from plumb.model.catalogue import effect_names
 from plumb.plan.planned_visits import check_places
 from plumb.text.errors import InputError
 
@@ -45,6 +49,19 @@ class RoundError(BaseModel):
     form: str
     off_target: float  # [mm] RMS
     is_check: bool
+
+
+class CheckedMark(BaseModel):
+    """A check mark [mm]."""
+
+    name: str
+    target: tuple[float, float]
+    predicted: tuple[float, float]  # where the fit says that it is
+    measured: tuple[float, float]
+    promised: float  # how far off 99 of 100 such readings are at most
+    off: float  # how far the reading is from the prediction
+    error: float  # how far it is from its target
+    is_within: bool
 
 
 class CheckAnswer(HowFar):
@@ -80,7 +97,6 @@ def show_check(project: TheProject, line: TheLine) -> CheckAnswer:
     places = _places(project, choices, form) if is_saved else of_plan
     corner, sheet = choices.edges, inputs.settings.sheet
     checked = None if trouble or not is_saved else _checked(project, inputs, form)
-    sentence = check_sentence(checked) if checked else ""
     far = HowFar() if checked else how_far(project, line, file, _text(project, file))
     return CheckAnswer(
         **vars(far),
@@ -91,8 +107,8 @@ def show_check(project: TheProject, line: TheLine) -> CheckAnswer:
         form=form,
         program=file,
         is_saved=is_saved,
-        marks=checked.marks if checked else (),
-        sentence=sentence,
+        marks=_marks(project, form, checked) if checked else (),
+        sentence=checked.sentence if checked else "",
         rounds=_rounds(project, choices, form) if checked else [],
         holds=checked is not None and checked.holds,
         is_used=form in choices.marks,
@@ -204,16 +220,15 @@ def _promising(project: Project) -> list[str]:
     return names[: next(later, len(names))]
 
 
-def _entry(choices: Choices, form: str, checked: CheckRound) -> dict[str, Any]:
+def _entry(choices: Choices, form: str, checked: Recheck) -> dict[str, Any]:
     """Return the result of a round of check marks as the diary has it. mm."""
-    sentence = check_sentence(checked)
     return {
         "form": form,
         "machine": choices.settings,
-        "sentence": sentence,
+        "sentence": checked.sentence,
         "holds": checked.holds,
         "marks": [
-            {"name": mark.name, "promised": round(mark.promised, 3), "off": round(mark.off, 3)}
+            {"name": mark.name, "promised": round(mark.expected_mm, 3), "off": round(mark.off, 3)}
             for mark in checked.marks
         ],
     }
@@ -287,16 +302,45 @@ def _cut_before(project: Project, choices: Choices, form: str) -> list[tuple[flo
 
 
 def _places(project: Project, choices: Choices, form: str) -> list[tuple[float, float]]:
-    return [mark.target for mark in form_of(project, choices, form).measurements.marks]
+    return [mark.target for mark in _measured(project, form).marks]
 
 
-def _checked(project: Project, inputs: Inputs, form: str) -> CheckRound | None:
+def _checked(project: Project, inputs: Inputs, form: str) -> Recheck | None:
     """Return the check marks against the fit; None before all are read."""
-    choices = project.choices
-    waiting = [
-        mark for mark in form_of(project, choices, form).measurements.marks if not mark.measured
-    ]
-    if waiting:
+    marks = _measured(project, form)
+    touches = [HomeTouch(mark.name, where, mark.target) for mark, where in marks.readings]
+    if len(touches) < len(marks.marks):
         return None
-    marks = read_marks(project.path(form), sheet=inputs.settings.sheet, known=known_effects())
-    return check_marks(inputs, marks)
+    fit = fit_of(read_diary(project.folder), inputs.settings) or _fitted_now(project, inputs)
+    cut_with = marks.rounds[0].cut_with
+    return recheck(fit, inputs.settings, touches, cut_with=cut_with, sigma=marks.tape_sigma)
+
+
+def _fitted_now(project: Project, inputs: Inputs) -> Entry:
+    """Return the fit of settings that came without their diary: the same once more."""
+    record = inputs.settings.fitted
+    effects = [name for name in effect_names() if record and name in record.effects]
+    name = project.choices.settings
+    entry = fit_entry(add(inputs, effects=effects), inputs, machine=name, settings="")
+    return Entry(FIT, datetime.now().astimezone(), entry)
+
+
+def _marks(project: Project, form: str, checked: Recheck) -> tuple[CheckedMark, ...]:
+    """Return the check marks as the page shows them."""
+    return tuple(
+        CheckedMark(
+            name=mark.name,
+            target=sent.target,
+            predicted=(mark.hole[0] - mark.error[0], mark.hole[1] - mark.error[1]),
+            measured=mark.hole,
+            promised=mark.expected_mm,
+            off=mark.off,
+            error=dist(mark.hole, sent.target),
+            is_within=mark.off <= mark.expected_mm,
+        )
+        for mark, sent in zip(checked.marks, _measured(project, form).marks, strict=True)
+    )
+
+
+def _measured(project: Project, form: str) -> Measurements:
+    return form_of(project, project.choices, form).measurements
