@@ -1,5 +1,6 @@
 """plumb flash against the bootloader of a real Mega, on the simulated one."""
 
+import os
 import re
 import struct
 import subprocess
@@ -47,15 +48,21 @@ def silent(tmp_path):
     return str(program)
 
 
-@pytest.mark.slow
-def test_a_board_is_flashed_although_its_cable_was_pulled_and_takes_its_settings_over(
-    served, elf, silent, tmp_path, monkeypatch
-):
-    firmware, port = Path(elf).with_suffix(".hex"), str(tmp_path / "maslow")
+@pytest.fixture
+def port(served, silent, tmp_path):
+    """The port of a board with its bootloader, and what the published firmware left in it."""
     (tmp_path / "memory.bin").write_bytes(published_memory())
     # Any faster, the bootloader would not wait for avrdude.
     board = ["--mega", silent, "--bootloader", BOOTLOADER, "--eeprom", "memory.bin"]
     served(*board, "--speed", "1")
+    return str(tmp_path / "maslow")
+
+
+@pytest.mark.slow
+def test_a_board_is_flashed_although_its_cable_was_pulled_and_takes_its_settings_over(
+    port, elf, tmp_path, monkeypatch
+):
+    firmware = Path(elf).with_suffix(".hex")
 
     def pull(share):
         if share > PULLED:
@@ -97,6 +104,26 @@ def await_board(line):
         assert line.state.phase == "connecting" and time.monotonic() < end, line.state
         time.sleep(0.1)
     return line.state.firmware
+
+
+@pytest.mark.slow
+def test_a_windows_python_flashes_it_through_com5(port, elf, tmp_path):
+    subprocess.run([ROOT / "tools/setup", "windows"], check=True)
+
+    def windows(*words):
+        command = [ROOT / "tools/windows/plumb", *words]
+        done = subprocess.run(command, cwd=tmp_path, input="", stdout=subprocess.PIPE, text=True)
+        assert done.returncode == 0, done.stdout
+        return done.stdout
+
+    windows("--version")  # Wine makes its folder
+    com5 = ROOT / ".build/windows/prefix/dosdevices/com5"
+    com5.unlink(missing_ok=True)
+    com5.symlink_to(os.path.realpath(port))
+    said = windows("flash", "--port", "COM5", str(Path(elf).with_suffix(".hex")))
+    before, now = "On the board: no firmware that answers.", "Written and read back. Now: Plumb v"
+    assert said.startswith(f"{before}\n{now}")
+    assert re.search(r"motor_gap +3602.6", windows("read", "--port", "COM5"))
 
 
 def test_the_firmware_before_and_after_is_named(tmp_path, monkeypatch):
