@@ -115,23 +115,21 @@ class MachineLine:
 
     def flash(self) -> None:
         """Write our firmware to the board, then connect it again. Raises InputError."""
-        file, path = hex_file(), self.name
-        if not path or self.virtual:
-            raise InputError("no board is connected: connect it first")
-        if self.state.phase not in ("ready", "lost") or self.state.moves:
-            raise InputError("the machine works: wait until it is done")
+        file, state = hex_file(), self.worker.state
+        if state.phase not in ("ready", "lost") or state.moves:
+            raise InputError("the machine moves: wait until it stands")
 
         def progress(share: float) -> None:
             self.written = share
 
         def write(port: str) -> None:
+            progress(0.0)
             try:
                 write_program(port, file, progress)
             finally:
                 self.written = None
 
-        self.written = 0.0
-        self.connect_board(path, first=write)
+        self.connect_board(self.name, first=write)
 
     def connect_virtual(self, owner: VirtualOwner, *, speed: float) -> None:
         """Switch on a virtual machine and connect it. Its time runs `speed` times as fast at work.

@@ -118,4 +118,4 @@ def test_a_board_with_another_firmware_is_offered_ours_and_the_owner_asked_first
     write.click()
     now = fresh_page.get_by_role("button", name="Write it now")
     now.click()
-    expect(fresh_page.get_by_role("alert")).to_contain_text("no board is connected")
+    expect(fresh_page.get_by_role("alert")).to_contain_text("no machine is connected")
