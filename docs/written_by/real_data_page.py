@@ -121,6 +121,14 @@ def real_set(
     return RealSet(name, machine, read_marks(marks_path, sheet=machine.sheet, known=known))
 
 
+def other_boards() -> list[RealSet]:
+    """Return the sets of marks whose places were read."""
+    return [
+        real_set("mibproj", "Calibration Measurements.ini"),
+        real_set("c0depr1sm-2019-01-03", "marks.csv", "machine.toml"),
+    ]
+
+
 def refusal_of(name: str) -> str:
     """Return what the lab says of the groundcontrol.ini of a set; empty if it takes it."""
     path = EXAMPLES / name / "groundcontrol.ini"
@@ -148,10 +156,7 @@ def predicted(settings: MachineSettings, other: RealSet) -> Comparison:
 def pages() -> dict[str, str]:
     """Return the page by its name below the project's root."""
     holes = {name: real_set(name) for name in HOLES}
-    boards = [
-        real_set("mibproj", "Calibration Measurements.ini"),
-        real_set("c0depr1sm-2019-01-03", "marks.csv", "machine.toml"),
-    ]
+    boards = other_boards()
     together = pooled(list(holes.values()))
     cuts = real_set(CUTS)
     text = filled(

@@ -75,10 +75,16 @@ class TrueMachine:
         """Return where marks would be read (n, 2) [mm] without noise; NaN where the sled cannot
         hang.
         """
+        return self.hidden.read(self.on_sheet(chains, approaches=approaches, weights=weights))
+
+    def on_sheet(self, chains: Array, *, approaches: Array, weights: Array) -> Array:
+        """Return the same by a tape that is right, from edges that are square."""
         where = self.sleds(chains, approaches=approaches, weights=weights)
         where = where - self.hidden.backlash * approaches
-        turned = where @ np.array([[cos(self.turn), self.turn], [-self.turn, cos(self.turn)]])
-        return self.hidden.read(turned)
+        turned: Array = where @ np.array(
+            [[cos(self.turn), self.turn], [-self.turn, cos(self.turn)]]
+        )
+        return turned
 
     def sleds(
         self, chains: Array, *, approaches: Array | None = None, weights: Array | None = None
@@ -140,7 +146,7 @@ def cut(
     )
     machine = replace(machine, field=hidden.field(plan.targets, source))
     where = read(machine, plan, settings)
-    return BoardCut(machine, _measured(where, plan, source, noise, tape_sigma))
+    return BoardCut(machine, measured(where, plan, source, noise, tape_sigma))
 
 
 def read(machine: TrueMachine, plan: Plan, settings: MachineSettings = MAKER) -> Array:
@@ -155,7 +161,7 @@ def read(machine: TrueMachine, plan: Plan, settings: MachineSettings = MAKER) ->
     return where
 
 
-def _measured(
+def measured(
     where: Array, plan: Plan, source: np.random.Generator, noise: float, tape_sigma: float | None
 ) -> Measurements:
     """Return what is written down of places (n, 2) [mm]."""

@@ -111,9 +111,11 @@ def shape_error(settings: MachineSettings, landed: Callable[[Array], Array]) -> 
     """RMS [mm] of how far the judge's sled, sent by these settings to places all over the sheet,
     is from them once the sheet is laid at its best; `landed` says where it is by its chains.
     Nothing rubs: no setting knows of friction."""
-    wanted = sheet()
-    chains, outcome = lengths(settings, wanted)
-    if not (outcome == FOUND).all():
-        return float("inf")
-    pose = best_pose(wanted, landed(chains))
+    chains, outcome = lengths(settings, sheet())
+    return shape_of(landed(chains)) if (outcome == FOUND).all() else float("inf")
+
+
+def shape_of(places: Array) -> float:
+    """RMS [mm] of how far places (n, 2) [mm] are from those of `sheet`, laid at its best."""
+    pose = best_pose(sheet(), places)
     return rms(pose.errors) if pose else 0.0

@@ -40,7 +40,7 @@ def _run(arguments: Sequence[str] | None) -> int:
     write_outputs(files, inputs=[])
     print(loop_text(made.loop))
     print("\nWritten:")
-    print(sentences([os.path.relpath(path) for path in files], mark="  "))
+    print(sentences([*files], mark="  "))
     print(f"\n{reveal(made.loop)}")
     return int(not made.fell)
 

@@ -1,28 +1,25 @@
 """`plumb flash`: writes the firmware to the Mega, and says what was on it before and is now."""
 
 import argparse
-from pathlib import Path
+import shutil
 
 from plumb.cli.arguments import add_shared
 from plumb.cli.screen import bar, sentences
 from plumb.firmware.hex_file import program_in
-from plumb.line.bootloader import firmware_on, write_program
+from plumb.line.bootloader import firmware_on, hex_file, write_program
 from plumb.line.port import port_for
 from plumb.line.sender import WRONG
 from plumb.text.errors import InputError
 
-BUILT = Path(".pio/build/megaatmega2560/firmware.hex")
-BROUGHT = Path(__file__).parents[1] / "firmware.hex"  # by the package
-
 
 def run(arguments: argparse.Namespace) -> int:
     """Write it, and return the exit code."""
-    hex_file = _hex_file(arguments.hex)
-    program = program_in(hex_file)
+    file = hex_file(arguments.hex)
+    program_in(file)  # refused before the board is touched
     port = port_for(arguments.port)
     before, _ = firmware_on(port)
     print(f"On the board: {before or 'no firmware that answers'}.", flush=True)
-    write_program(port, hex_file, program, bar(f"writing {hex_file.name}"))
+    write_program(port, file, bar(f"writing {file.name}"), avrdude=shutil.which("avrdude"))
     now, greeting = firmware_on(port)
     if not now:
         raise InputError(
@@ -32,15 +29,6 @@ def run(arguments: argparse.Namespace) -> int:
     if odd := [line for line in greeting if line.startswith(WRONG)]:
         print(sentences(odd))
     return 0
-
-
-def _hex_file(named: str | None) -> Path:
-    """Return the file to write; InputError if there is none."""
-    there = [Path(named)] if named else [path for path in (BUILT, BROUGHT) if path.is_file()]
-    if not there:
-        remedy = "build it with .venv/bin/pio run -e megaatmega2560"
-        raise InputError(BUILT, "there is no such file", remedy=remedy)
-    return there[0]
 
 
 # The arguments of `plumb flash`.

@@ -26,6 +26,7 @@ from plumb.firmware.settings import (
 from plumb.fit.inputs import settings_in
 from plumb.lab.project import Project
 from plumb.lab.rounds import opened, taken_marks
+from plumb.line.bootloader import hex_file, write_program
 from plumb.line.port import SerialPort
 from plumb.line.sender import Sender, StoppedError
 from plumb.line.worker import LineState, LineWorker
@@ -78,6 +79,7 @@ class MachineLine:
         self.name = ""  # of what is connected
         self.virtual: VirtualOwner | None = None  # what hangs on the line, if it is virtual
         self._port: PacedPort | None = None
+        self.written: float | None = None  # share of our firmware, while it is written
 
     @property
     def state(self) -> LineState:
@@ -91,9 +93,9 @@ class MachineLine:
         worker = self._worker
         return worker.silence if worker and not self.virtual else 0.0
 
-    def connect_board(self, path: str) -> None:
-        """Connect the board at a serial port, or at a link to a port. Raises InputError for what
-        is no port.
+    def connect_board(self, path: str, *, first: Callable[[str], None] = lambda port: None) -> None:
+        """Connect the board at a serial port, or at a link to a port; `first` is done at the port
+        before. Raises InputError for what is no port.
         """
         port = _port_at(path)
         with self._lock:
@@ -106,9 +108,28 @@ class MachineLine:
             def opened() -> SerialPort:
                 if before:
                     before.await_end()
+                first(port)
                 return SerialPort(port)
 
             self._worker = LineWorker(opened, knows_place=knows_place)
+
+    def flash(self) -> None:
+        """Write our firmware to the board, then connect it again. Raises InputError."""
+        file, state = hex_file(), self.worker.state
+        if state.phase not in ("ready", "lost") or state.moves:
+            raise InputError("the machine moves: wait until it stands")
+
+        def progress(share: float) -> None:
+            self.written = share
+
+        def write(port: str) -> None:
+            progress(0.0)
+            try:
+                write_program(port, file, progress)
+            finally:
+                self.written = None
+
+        self.connect_board(self.name, first=write)
 
     def connect_virtual(self, owner: VirtualOwner, *, speed: float) -> None:
         """Switch on a virtual machine and connect it. Its time runs `speed` times as fast at work.

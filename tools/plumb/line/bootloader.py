@@ -6,7 +6,7 @@ leaves the EEPROM alone. So a board whose cable was pulled in the middle can be 
 
 from __future__ import annotations
 
-import shutil
+import re
 import subprocess
 import time
 from collections.abc import Callable
@@ -16,7 +16,8 @@ from pathlib import Path
 import serial
 from arduinobootloader import ArduinoBootloader
 
-from plumb.line.memory import version_of
+from plumb.firmware.hex_file import program_in
+from plumb.line.memory import OURS, firmware_of
 from plumb.line.port import SerialPort
 from plumb.line.sender import Sender
 from plumb.text.errors import InputError
@@ -27,7 +28,23 @@ MEGA = "ATmega2560"
 WAITS = (0.1, 0.3, 0.6, 0.3, 0.1)  # [s] from a reset until the bootloader is asked, in turns
 SILENT, PATIENCE = 0.1, 3.0  # [s] to wait for a byte: of the first answer, and of all others
 AVRDUDE = ("-p", "atmega2560", "-c", "wiring", "-b", str(BAUD), "-D")
-OURS = "Plumb v"  # how our firmware greets
+BUILT = Path(".pio/build/megaatmega2560/firmware.hex")
+BROUGHT = Path(__file__).parents[1] / "firmware.hex"  # by the package
+
+
+def hex_file(named: str | None = None) -> Path:
+    """Return the file to write; InputError if there is none."""
+    there = [Path(named)] if named else [path for path in (BUILT, BROUGHT) if path.is_file()]
+    if not there:
+        remedy = "build it with .venv/bin/pio run -e megaatmega2560"
+        raise InputError(BUILT, "there is no such file", remedy=remedy)
+    return there[0]
+
+
+def version_in(program: bytes) -> str:
+    """Return how a program will greet; empty if it is not our firmware."""
+    greeting = re.search(OURS.encode() + rb"[\w.]+", program)
+    return greeting[0].decode() if greeting else ""
 
 
 def firmware_on(path: str) -> tuple[str, tuple[str, ...]]:
@@ -39,23 +56,21 @@ def firmware_on(path: str) -> tuple[str, tuple[str, ...]]:
     try:
         with suppress(InputError):  # an empty board is silent
             sender.await_start()
-            ours = [line for line in sender.greeting if line.startswith(OURS)]
-            # Ours answers with the version that clients expect.
-            name = ours[0].partition(",")[0] if ours else version_of(sender)
+            name = firmware_of(sender)
     finally:
         port.close()
     return name, sender.greeting
 
 
 def write_program(
-    path: str, hex_file: Path, program: bytes, progress: Callable[[float], None]
+    path: str, file: Path, progress: Callable[[float], None], *, avrdude: str | None = None
 ) -> None:
-    """Write a program and read it back: by avrdude where it is, else by a library. Raises
+    """Write a program and read it back: by avrdude if its path is given, else by a library. Raises
     InputError.
     """
-    avrdude = shutil.which("avrdude")
+    program = program_in(file)
     if avrdude:
-        _by_avrdude(avrdude, path, hex_file)
+        _by_avrdude(avrdude, path, file)
         return
     try:
         _by_library(path, program, progress)
@@ -65,9 +80,9 @@ def write_program(
         ) from None
 
 
-def _by_avrdude(avrdude: str, path: str, hex_file: Path) -> None:
+def _by_avrdude(avrdude: str, path: str, file: Path) -> None:
     """Let avrdude write it, which shows how far it is."""
-    if subprocess.run([avrdude, *AVRDUDE, "-P", path, "-U", f"flash:w:{hex_file}:i"]).returncode:
+    if subprocess.run([avrdude, *AVRDUDE, "-P", path, "-U", f"flash:w:{file}:i"]).returncode:
         raise InputError(
             path,
             "avrdude could not write it",

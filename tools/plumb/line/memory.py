@@ -15,6 +15,7 @@ from plumb.text.files import read_text
 ROW = re.compile(r"\$(\d+)=([-+\d.eE]+)")
 SETTING = re.compile(r"\$(\d+)\s*=\s*(\S+)")
 SAME = 1e-5  # of a value: the machine prints seven digits
+OURS = "Plumb v"  # how our firmware greets
 STORING = 10.0  # [s] of the machine; a new board takes three
 
 
@@ -40,6 +41,13 @@ def version_of(sender: Sender) -> str:
     nothing.
     """
     return next((line for line in sender.ask("B05") if line.startswith("Firmware")), "")
+
+
+def firmware_of(sender: Sender) -> str:
+    """Return the firmware's name with its version; empty if the machine says neither."""
+    ours = [line for line in sender.greeting if line.startswith(OURS)]
+    # Ours answers with the version that clients expect.
+    return ours[0].partition(",")[0] if ours else version_of(sender)
 
 
 def write_numbers(

@@ -14,7 +14,7 @@ from threading import Event, Lock, Thread
 from time import monotonic
 from typing import Any, Literal, TypeVar
 
-from plumb.line.memory import read_numbers
+from plumb.line.memory import firmware_of, read_numbers
 from plumb.line.port import LinePort, LostError
 from plumb.line.progress import SAID_PAUSED, Progress, waits_in
 from plumb.line.reached import Came, LineCourse
@@ -59,6 +59,7 @@ class LineState:
     trouble: str = ""  # what went wrong last
     program: Progress | None = None
     said: tuple[str, ...] = ()  # the machine's last lines
+    firmware: str = ""  # its name with its version, if a start said it
     # All that it last listed.
     numbers: Internal[Mapping[int, float]] = field(default_factory=dict)
 
@@ -227,6 +228,8 @@ class LineWorker:
             sender = self._sender = Sender(port, said=self._hear, attend=self._attend)
             sender.await_start()
             self._read_first(sender)
+            if sender.greeting:  # else it was on already, and says only what clients expect
+                self._note(firmware=firmware_of(sender))
             self._note(phase="ready")
             while not self._end.is_set():
                 self._serve(sender)

@@ -25,8 +25,7 @@ def cut_with_lines(settings: str | None, form: str) -> str:
     """Return the lines of a form at that path that name the settings' file and keep its digest."""
     if settings is None:
         return ""
-    near = os.path.relpath(settings, os.path.dirname(os.path.abspath(form)))
-    name = json.dumps(near.replace(os.sep, "/"))
+    name = json.dumps(_near(settings, form))
     return f'\ncut_with = {name}\ncut_with_digest = "{digest_of(settings)}"'
 
 
@@ -34,11 +33,20 @@ def with_form(program: str, form: str, path: str) -> str:
     """Return a program at that path with a comment that names the form for its readings, so that
     whoever sends it knows what it is to be cut with; without, where no comment can hold the name.
     """
-    near = os.path.relpath(form, os.path.dirname(os.path.abspath(path))).replace(os.sep, "/")
+    near = _near(form, path)
     if not near.isascii() or not near.isprintable() or set(near) & set("()") or len(near) > LONGEST:
         return program
     first, rest = program.split("\n", 1)
     return f"{first}\n(form: {near})\n{rest}"
+
+
+def _near(path: str, other: str) -> str:
+    """Return how a file beside the other would name a path: whole if it is on another drive."""
+    try:
+        near = os.path.relpath(path, os.path.dirname(os.path.abspath(other)))
+    except ValueError:
+        near = os.path.abspath(path)
+    return near.replace(os.sep, "/")
 
 
 def form_of(program: str, path: str) -> str | None:

@@ -219,21 +219,20 @@ def _staged(target: Path, content: bytes) -> tuple[int | None, str]:
     except (AttributeError, OSError):
         is_nameless = False
         handle, name = tempfile.mkstemp(dir=target.parent, prefix=f".{target.name}.")
-    is_kept = False
+    is_whole = False
     try:
         with os.fdopen(handle, "wb", closefd=False) as file:
             file.write(content)
             file.flush()
             os.fsync(handle)
         os.chmod(handle if os.chmod in os.supports_fd else name, _mode_for(target))
-        is_kept = is_nameless
-    except OSError:
-        Path(name).unlink(missing_ok=True)
-        raise
+        is_whole = True
     finally:
-        if not is_kept:
+        if not (is_whole and is_nameless):
             os.close(handle)
-    return (handle if is_kept else None), name
+        if not is_whole:
+            Path(name).unlink(missing_ok=True)
+    return (handle if is_nameless else None), name
 
 
 def _mode_for(target: Path) -> int:

@@ -113,3 +113,11 @@ def test_a_program_says_which_form_is_its_own(form):
     text = with_form("(Plumb calibration grid)\nG21\n", f"jobs/{form}", "jobs/grid.nc")
     assert text.splitlines()[1] == f"(form: {form})"
     assert Path(form_of(text, "jobs/grid.nc")) == Path("jobs", form)
+
+
+def test_a_form_on_another_drive_is_named_whole(monkeypatch):
+    def no_way(*_):
+        raise ValueError("path is on mount 'D:', start on mount 'C:'")
+
+    monkeypatch.setattr("os.path.relpath", no_way)
+    assert form_of(with_form("G21\nM2\n", "/form.toml", "grid.nc"), "grid.nc") == "/form.toml"

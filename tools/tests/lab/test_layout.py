@@ -1,12 +1,11 @@
 """The picture stays in view while the controls scroll next to it; a phone has one column."""
 
-import json
 import re
 from functools import partial
 
 import pytest
 from folder import asked, finished, got
-from lab_machine import PATIENCE
+from lab_machine import AT_REST, PATIENCE, with_machine
 from playwright.sync_api import expect
 from plumb.lab.broken_cut import NOTES, BrokenCut, digest_of_sent
 from plumb.lab.project import CUT
@@ -150,25 +149,9 @@ def none_out_of_view(page, wanted):
 
 
 LOST = "Connect /dev/ttyACM0 again"  # which has a bar with all ports
-AT_REST = {"kind": "board", "name": "/dev/ttyACM0", "phase": "ready"}
 WITH_MACHINE = {**WANTED, "cut": "Move the sled and cut 9 marks"}
 WITH_MACHINE.pop("practice")
 RUNS = {"title": "grid-2.nc", "done": 25, "total": 62, "outcome": "running"}
-
-
-def with_machine(page, **state):
-    """Whatever the lab says of its machine, the page hears this."""
-
-    def heard(line):
-        server = line.connect_to_server()
-
-        def changed(message):
-            said = json.loads(message)
-            line.send(json.dumps({**said, **AT_REST, **state} if "kind" in said else said))
-
-        server.on_message(changed)
-
-    page.route_web_socket("**/api/live*", heard)
 
 
 @pytest.fixture

@@ -9,6 +9,7 @@ from contextlib import ExitStack
 from threading import Event
 from types import SimpleNamespace
 
+import folder
 import pytest
 from attacks import Try, answered, status
 from folder import asked, got
@@ -59,7 +60,7 @@ def live(lab, token=None, **more):
 
 def test_without_a_machine_there_is_a_clear_line(ask):
     assert ask("GET", "machine")["kind"] == "none"
-    for way in ("hold", "go-on", "stop", "settings"):
+    for way in ("hold", "go-on", "stop", "settings", "firmware"):
         assert "connect it first" in ask("POST", f"machine/{way}", 422)["error"]
 
 
@@ -201,6 +202,35 @@ def test_a_port_is_opened_again_when_the_machine_that_moved_has_stopped(monkeypa
     stands.set()
     wait_for(line, "ready")
     line.disconnect()
+
+
+def test_another_firmware_is_named_and_ours_is_written_over_it(client, monkeypatch):
+    on_board, shares = ["Firmware Version 1.29"], []
+
+    def board(path):
+        board = SlowBoard()
+        board.greeting = f"{on_board[-1]}\r\nready\r\n".encode()
+        board.says["B05"] = b"Firmware Version 1.29\r\nok"
+        return board
+
+    def write(port, file, progress):
+        progress(0.4)
+        state = got(client.get("/api/machine"))
+        shares.append(state["written"])
+        on_board.append(f"{state['brought']}, firmware for the Maslow CNC")
+
+    def ready():
+        return folder.until(client, lambda state: state["phase"] == "ready")
+
+    monkeypatch.setattr(machine_line, "SerialPort", board)
+    monkeypatch.setattr(machine_line, "write_program", write)
+    got(client.post("/api/machine/board", json={"port": "/dev/ttyACM0"}))
+    before = ready()
+    assert before["firmware"] == "Firmware Version 1.29" != before["brought"]
+    assert got(client.post("/api/machine/firmware"))["phase"] == "connecting"
+    after = ready()
+    assert after["firmware"] == after["brought"] and after["written"] is None and shares == [0.4]
+    got(client.post("/api/machine/disconnect"))
 
 
 def test_a_cable_pulled_in_mid_cut_is_reported(ask, cable):

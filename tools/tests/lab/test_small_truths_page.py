@@ -4,7 +4,7 @@ import re
 
 import pytest
 from folder import got, until
-from lab_machine import PATIENCE, bar, start_virtual
+from lab_machine import PATIENCE, bar, start_virtual, with_machine
 from playwright.sync_api import expect
 from screens import at_rest, await_question, measured_machine
 
@@ -106,3 +106,16 @@ def test_the_page_reveals_what_its_virtual_machine_hides(lab, page):
     expect(score).to_contain_text("Hidden was sled_swing (right and up). You missed")
     expect(score).not_to_contain_text("You added")  # its numbers are as it listed them
     expect(score).to_contain_text("2.13 → 2.13 mm error all over the sheet")
+
+
+def test_a_board_with_another_firmware_is_offered_ours_and_the_owner_asked_first(lab, fresh_page):
+    with_machine(fresh_page, firmware="Firmware Version 1.29", brought="Plumb v1.0.0")
+    fresh_page.goto(lab.url)
+    expect(fresh_page.get_by_text("On the board: Firmware Version 1.29")).to_be_visible()
+    write = fresh_page.get_by_role("button", name="Write Plumb v1.0.0 to this board")
+    write.click()
+    fresh_page.get_by_role("button", name="Leave it as it is").click()
+    write.click()
+    now = fresh_page.get_by_role("button", name="Write it now")
+    now.click()
+    expect(fresh_page.get_by_role("alert")).to_contain_text("no machine is connected")

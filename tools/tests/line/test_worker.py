@@ -119,10 +119,10 @@ def test_stop_is_passed_on_when_nothing_is_sent(worker, board):
 def test_a_machine_that_holds_takes_no_work_because_no_line_would_be_answered(worker, board):
     worker.hold()
     until(lambda state: state.holds, worker)
-    for begin in (lambda: worker.do(lambda sender: sender.ask("B05")), lambda: send(worker)):
+    for begin in (lambda: worker.do(lambda sender: sender.ask("B10 L")), lambda: send(worker)):
         with pytest.raises(InputError, match="the machine holds: press Go on, or Stop"):
             begin()
-    assert worker.state.phase == "ready" and b"B05" not in board.written
+    assert worker.state.phase == "ready" and b"B10" not in board.written
     worker.go_on()
     until(lambda state: not state.holds, worker)
     assert worker.do(lambda sender: sender.ask("B05")).result(10) == []

@@ -1,15 +1,18 @@
 """plumb flash against the bootloader of a real Mega, on the simulated one."""
 
+import os
 import re
 import struct
 import subprocess
+import time
 from pathlib import Path
 
 import pytest
 from intelhex import IntelHex
 from numbers_machine import NumbersMachine
-from plumb.firmware.hex_file import hex_bytes
-from plumb.line.bootloader import write_program
+from plumb.firmware.hex_file import hex_bytes, program_in
+from plumb.lab.machine_line import MachineLine
+from plumb.line.bootloader import hex_file, version_in, write_program
 from plumb.text.errors import InputError
 from served_machine import plumb
 
@@ -45,24 +48,30 @@ def silent(tmp_path):
     return str(program)
 
 
-@pytest.mark.slow
-def test_a_board_is_flashed_although_its_cable_was_pulled_and_takes_its_settings_over(
-    served, elf, silent, tmp_path, monkeypatch
-):
-    firmware, port = Path(elf).with_suffix(".hex"), str(tmp_path / "maslow")
+@pytest.fixture
+def port(served, silent, tmp_path):
+    """The port of a board with its bootloader, and what the published firmware left in it."""
     (tmp_path / "memory.bin").write_bytes(published_memory())
     # Any faster, the bootloader would not wait for avrdude.
     board = ["--mega", silent, "--bootloader", BOOTLOADER, "--eeprom", "memory.bin"]
     served(*board, "--speed", "1")
+    return str(tmp_path / "maslow")
+
+
+@pytest.mark.slow
+def test_a_board_is_flashed_although_its_cable_was_pulled_and_takes_its_settings_over(
+    port, elf, tmp_path, monkeypatch
+):
+    firmware = Path(elf).with_suffix(".hex")
 
     def pull(share):
         if share > PULLED:
             raise OSError("the cable was pulled")
 
+    with pytest.raises(InputError, match="the line was lost; check the cable"):
+        write_program(port, firmware, pull)
     with monkeypatch.context() as without_avrdude:
         without_avrdude.setattr("shutil.which", lambda name: None)
-        with pytest.raises(InputError, match="the line was lost; check the cable"):
-            write_program(port, firmware, hex_bytes(firmware), pull)
         said = plumb("flash", "--port", port, str(firmware), folder=tmp_path)
     assert said.startswith("On the board: no firmware that answers.\nWritten and read back. Now: ")
     numbers = plumb("read", "--port", port, folder=tmp_path)
@@ -73,13 +82,54 @@ def test_a_board_is_flashed_although_its_cable_was_pulled_and_takes_its_settings
     other.write_hex_file(tmp_path / "other.hex")
     said = plumb("flash", "--port", port, "other.hex", folder=tmp_path)
     assert re.search(r"On the board: Plumb v(\d).*\nWritten and read back. Now: Plumb v9", said)
+    written_by_the_lab(port, monkeypatch)
+
+
+def written_by_the_lab(port, monkeypatch):
+    """The page's Machine names a firmware that is not ours, and writes ours."""
+    monkeypatch.chdir(ROOT)  # where it was built
+    line = MachineLine()
+    line.connect_board(port)
+    assert await_board(line).startswith("Plumb v9")
+    line.flash()
+    assert await_board(line) == version_in(program_in(hex_file()))
+    line.disconnect()
+
+
+def await_board(line):
+    """The firmware on the board of a lab, once it is ready."""
+    end = time.monotonic() + 300
+    while line.state.phase != "ready":
+        assert line.state.phase == "connecting" and time.monotonic() < end, line.state
+        time.sleep(0.1)
+    return line.state.firmware
+
+
+@pytest.mark.slow
+def test_a_windows_python_flashes_it_through_com5(port, elf, tmp_path):
+    subprocess.run([ROOT / "tools/setup", "windows"], check=True)
+
+    def windows(*words):
+        command = [ROOT / "tools/windows/plumb", *words]
+        done = subprocess.run(command, cwd=tmp_path, input="", stdout=subprocess.PIPE, text=True)
+        assert done.returncode == 0, done.stdout
+        return done.stdout
+
+    windows("--version")  # Wine makes its folder
+    com5 = ROOT / ".build/windows/prefix/dosdevices/com5"
+    com5.unlink(missing_ok=True)
+    com5.symlink_to(os.path.realpath(port))
+    said = windows("flash", "--port", "COM5", str(Path(elf).with_suffix(".hex")))
+    before, now = "On the board: no firmware that answers.", "Written and read back. Now: Plumb v"
+    assert said.startswith(f"{before}\n{now}")
+    assert re.search(r"motor_gap +3602.6", windows("read", "--port", "COM5"))
 
 
 def test_the_firmware_before_and_after_is_named(tmp_path, monkeypatch):
     board = NumbersMachine()
     board.says = ["Firmware Version 1.29"]
 
-    def flashed(*_):
+    def flashed(*_, avrdude):
         at_once = board.read
         greeting = [b"Plumb v2.0.0, firmware for the Maslow CNC\r\nready\r\n"]
         board.read = lambda: greeting.pop() if greeting else at_once()

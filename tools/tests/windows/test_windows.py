@@ -13,8 +13,13 @@ import pytest
 
 pytestmark = pytest.mark.slow
 ROOT = Path(__file__).resolve().parents[3]
-PLUMB = ROOT / "tools/windows/plumb"
+PLUMB, PYTHON = ROOT / "tools/windows/plumb", ROOT / "tools/windows/python"
 HEARD = {"stdout": subprocess.PIPE, "stderr": subprocess.STDOUT}  # Wine knows not all files
+SUITES = ("text settings marks", "fit", "diagnosis")
+NOT_UNDER_WINE = (
+    "diagnosis/test_evidence_by_force.py",  # asks SciPy for what that of Wine 8 lacks
+    "text/test_compiled.py",  # of the tree, not of a package
+)
 START = 120  # [s] in which a program under Wine must have begun
 
 
@@ -71,6 +76,15 @@ def test_the_diagnosis_is_that_of_linux(folder):
     here = plumb(folder, *words, code=linux.returncode)
     # A Windows console is a column narrower, so a table may break its words elsewhere.
     assert sorted(here.split()) == sorted(linux.stdout.split())
+
+
+@pytest.mark.parametrize("suite", SUITES)
+def test_a_suite_that_needs_no_port_passes(folder, suite):
+    paths = [f"tools/tests/{name}" for name in suite.split()]
+    left_out = [f"--ignore=tools/tests/{name}" for name in NOT_UNDER_WINE]
+    command = [PYTHON, "-m", "pytest", "-q", "-p", "no:cacheprovider", "-m", "not slow"]
+    done = subprocess.run([*command, *left_out, *paths], cwd=ROOT, input="", text=True, **HEARD)
+    assert done.returncode == 0, done.stdout[-3000:]
 
 
 def test_the_error_falls_and_all_is_written(folder):

@@ -7,6 +7,7 @@ import { Do } from "../shell/doing";
 import { type Machine, subject, useMachine } from "../shell/machine";
 import { Ports } from "../shell/Ports";
 import { useProject, useTell } from "../shell/project";
+import { Firmware } from "./Firmware";
 import "./connection.css";
 
 export function Connection() {
@@ -116,6 +117,7 @@ function Connected({ machine }: { machine: Machine }) {
       <Do work={() => send("POST", "machine/disconnect")}>
         {isLost ? "Let go of it" : "Disconnect"}
       </Do>
+      <Firmware machine={machine} />
       {machine.said.length > 0 && (
         <details>
           <summary>What the machine said</summary>

@@ -5,6 +5,7 @@ import json
 import re
 from contextlib import suppress
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
 from time import monotonic
 from typing import Annotated, Literal
@@ -13,6 +14,7 @@ from fastapi import APIRouter, Body, WebSocket, WebSocketDisconnect
 from pydantic import BaseModel, Field, TypeAdapter
 
 from plumb.diary.file import write_and_keep
+from plumb.firmware.hex_file import program_in
 from plumb.firmware.settings import called, digest_of_numbers, machine_of_numbers
 from plumb.job.dry_run import refuse_what_is_no_program
 from plumb.lab.broken_cut import end_virtual
@@ -20,6 +22,7 @@ from plumb.lab.guard import PROTOCOL
 from plumb.lab.machine_line import MachineLine, Port, TheLine, line_of, ports, refuse_foreign_fit
 from plumb.lab.project import Project, save_choices
 from plumb.lab.routes.project import ProjectAnswer, TheProject, show
+from plumb.line.bootloader import hex_file, version_in
 from plumb.line.memory import WrittenNumbers, kept_before, lines_for
 from plumb.line.sender import Sender
 from plumb.line.worker import LineState
@@ -44,6 +47,8 @@ class MachineAnswer(LineState):
     name: str
     silent_s: int  # since the machine last reported; 0 while it does
     numbers_digest: str  # of those that it last listed; empty if it listed none
+    brought: str  # our firmware, which can be written to a board; empty if there is none
+    written: float | None  # share of it, while it is written
 
 
 class VirtualRequest(BaseModel):
@@ -103,7 +108,16 @@ def machine(line: TheLine) -> MachineAnswer:
         name=line.name,
         silent_s=int(line.silence) if line.silence >= SILENT else 0,
         numbers_digest=digest_of_numbers(state.numbers) if state.numbers else "",
+        brought=_brought(),
+        written=line.written,
     )
+
+
+@cache
+def _brought() -> str:
+    with suppress(InputError):
+        return version_in(program_in(hex_file()))
+    return ""
 
 
 @router.get("/machine/ports")
@@ -118,6 +132,13 @@ def connect_board(
 ) -> MachineAnswer:
     """Connect a board."""
     line.connect_board(port)
+    return machine(line)
+
+
+@router.post("/machine/firmware")
+def write_firmware(line: TheLine) -> MachineAnswer:
+    """Begin to write our firmware to the board; its settings and chain lengths stay."""
+    line.flash()
     return machine(line)
 
 
