@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
-from fields import Picture, drawing
 from fingerprints import (
     COLUMNS,
     FRAME_STEPS,
@@ -19,6 +16,7 @@ from fingerprints import (
 )
 from plumb.fit.observations import rms
 from plumb.model.catalogue import NO_FIRMWARE, empirical_effects, every_effect
+from plumb.pictures.drawing import Panel, draw
 from template import filled
 
 PAGE = "docs/effects.md"
@@ -27,7 +25,7 @@ DRAWN_COLUMNS, DRAWN_ROWS = 9, 5
 
 
 def pages() -> dict[str, str]:
-    """Return the page and each picture by its name below the project's root."""
+    """Return the page by its name below the project's root."""
     effects, showings = every_effect(), every_showing()
     text = filled(
         "effects.md",
@@ -41,28 +39,28 @@ def pages() -> dict[str, str]:
         alike=lambda name: alike(name, showings),
         largest=lambda several: f"{max(map(worst, several)):.1f}",
     )
-    drawn = {picture_name(each["name"]): each["name"] for each in effects}
-    return {PAGE: text} | {at: picture(name, showings[name]) for at, name in drawn.items()}
+    return {PAGE: text}
 
 
-def picture_name(effect: str) -> str:
-    """Return where an effect's picture lies below the project's root."""
-    return f"{PICTURES}/{effect}.svg"
+def pictures() -> dict[str, bytes]:
+    """Return the picture of each effect by its name below the project's root."""
+    showings = every_showing()
+    return {
+        f"{PICTURES}/{effect['name']}.png": draw(
+            [_panel(case) for case in showings[effect["name"]]], sheet=SHEET
+        )
+        for effect in every_effect()
+    }
 
 
-def picture(effect: str, cases: Sequence[Showing]) -> str:
-    """Return the fingerprint: for each case what marks do, and the shape that is left of it."""
-    rows = []
-    for case in cases:
-        drawn = case.field_on(DRAWN_COLUMNS, DRAWN_ROWS)
-        grid = (DRAWN_ROWS, DRAWN_COLUMNS, 2)
-        sent, raw, shape = (places.reshape(grid) for places in (drawn.sent, drawn.raw, drawn.shape))
-        left = Picture(f"as it is: {_sizes(case.field.raw)}", sent, raw)
-        right = Picture(f"its shape: {_sizes(case.field.shape)}", sent, shape)
-        if not case.field.has_shape:
-            right = Picture("its shape", sent, None, "no shape: all marks shift and turn together")
-        rows.append((case.label_with_size, (left, right)))
-    return drawing(f"{effect}: what it does to marks on the sheet", rows, sheet=SHEET)
+def _panel(case: Showing) -> Panel:
+    """Return the shape that an effect draws; all that marks do, where they only shift and turn."""
+    drawn, whole = case.field_on(DRAWN_COLUMNS, DRAWN_ROWS), case.field
+    if not whole.has_shape:
+        said = f"{case.label_with_size}: no shape, {_sizes(whole.raw)}"
+        return Panel(said, drawn.sent, drawn.raw)
+    said = f"{case.label_with_size}: {_sizes(whole.shape)}; {rms(whole.raw):.2f} as it is"
+    return Panel(said, drawn.sent, drawn.shape)
 
 
 def alike(name: str, showings: Showings) -> str:

@@ -1,6 +1,6 @@
 """Writes pages of docs/ that show what the code holds: `docs/written_by/write.py`.
 
-With --check nothing is written; exit 1 if a page or a picture is not as it would be written.
+With --check nothing is written; exit 1 if a page is not as it would be written.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from plumb.text.compiled import refuse_stale
 from plumb.text.errors import InputError
 from plumb.text.files import write_all
 
-# Each gives texts by their names below the project's root: a page, and its pictures.
+# Each gives texts by their names below the project's root.
 PAGES = (effects_page.pages, real_data_page.pages, settings_page.pages)
 
 
@@ -36,9 +36,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
             if stale:
                 print(f"{', '.join(stale)}: stale; run .venv/bin/python docs/written_by/write.py")
             return int(bool(stale))
-        for name in texts:
+        files = {name: text.encode() for name, text in texts.items()} | effects_page.pictures()
+        for name in files:
             (root / name).parent.mkdir(parents=True, exist_ok=True)
-        write_all({str(root / name): text.encode() for name, text in texts.items()})
+        write_all({str(root / name): content for name, content in files.items()})
     except (InputError, OSError) as error:
         print(f"write.py: {error}", file=sys.stderr)
         return 2
