@@ -91,7 +91,6 @@ class Diagnosis:
     readings: Internal[CleanReadings]  # with the posterior that all of this is read from
     fits: Internal[tuple[Explanation, ...]]  # of the explanations, in their order
     best: Internal[Explanation]  # with the effects to go on with
-    rivals: Internal[tuple[tuple[Explanation, float], ...]]  # that may be right instead, and shares
     likely: Internal[tuple[str, ...]]  # those of the account behind it, without what was left out
     rms_before: Annotated[float, key("rms_mm", "With the frame fitted.")]
     noise_rms: Annotated[float, key("noise_rms_mm", "What noise alone leaves of that fit.")]
@@ -140,6 +139,14 @@ class Diagnosis:
             return False
         is_likely = bool(self.spot) and self.explanations[0].share > LIKELIER
         return is_likely or self.takes_most
+
+    @property
+    def rivals(self) -> list[tuple[Explanation, float]]:
+        """What may be right instead of what to go on with, named or not, and how likely each is."""
+        is_unknown = self.verdict == "not_in_library"
+        possible = self.readings.posterior.possible(with_field=is_unknown)
+        others = (each for each in possible if each.account.effects != self.likely)
+        return [(self.readings.explained(each.account), each.share) for each in others]
 
     @property
     def takes_most(self) -> bool:
@@ -353,9 +360,8 @@ class Judgement:
 
     verdict: str  # one of answer.VERDICTS
     posterior: Posterior  # with all that is named
-    listed: tuple[Listed, ...]  # that are named, likeliest first
+    listed: tuple[Listed, ...]  # likeliest first
     best: Account  # to go on with
-    possible: tuple[Listed, ...]  # all that may be right, named or not
 
 
 def judge(readings: CleanReadings, stated: Stated | None) -> Judgement:
@@ -363,7 +369,7 @@ def judge(readings: CleanReadings, stated: Stated | None) -> Judgement:
     posterior = readings.posterior
     best = posterior.accounts[0]
     if readings.outliers:
-        return Judgement("slip", posterior, (), best, ())
+        return Judgement("slip", posterior, (), best)
     unknown = posterior.field_chance + sum(posterior.moved_chances.values())
     if unknown > UNKNOWN or misfit_chance(readings.explained(best), stated) < MISFIT:
         if posterior.with_fields.spot:
@@ -372,17 +378,16 @@ def judge(readings: CleanReadings, stated: Stated | None) -> Judgement:
             # Where the sled sticks, no fit may come to rest.
             first = nearest(readings.frame, posterior) or posterior.likeliest_with_field
             posterior = posterior.weighing(first)
-        possible = listed = tuple(posterior.listed_nearest_first(first))
+        listed = tuple(posterior.listed_nearest_first(first))
         best = listed[0].account
         if first and not posterior.apart and _takes_most(readings.explained(best), readings.frame):
             listed = listed[:1]
-        return Judgement("not_in_library", posterior, listed, best, possible)
+        return Judgement("not_in_library", posterior, listed, best)
     listed = tuple(posterior.listed())
     if is_silent(posterior.nothing_chance()):
-        best = _likelier(posterior, listed[0])
-        return Judgement("nothing_provable", posterior, (), best, listed)
+        return Judgement("nothing_provable", posterior, (), _likelier(posterior, listed[0]))
     verdict = "one_suspect" if len(listed) == 1 else "cannot_tell"
-    return Judgement(verdict, posterior, listed, listed[0].account, listed)
+    return Judgement(verdict, posterior, listed, listed[0].account)
 
 
 def _likelier(posterior: Posterior, first: Listed) -> Account:

@@ -58,11 +58,6 @@ def diagnose(inputs: Inputs) -> Diagnosis:
         readings=readings,
         fits=explanations,
         best=best,
-        rivals=tuple(
-            (readings.explained(each.account), each.share)
-            for each in judgement.possible
-            if each.account != judgement.best
-        ),
         likely=judgement.best.effects,
         rms_before=frame.rms,
         noise_rms=left_by_noise(frame, noise),

@@ -74,7 +74,7 @@ class Account:
 
 @dataclass(frozen=True)
 class Listed:
-    """An account that is worth naming, and how likely it is with those that only add to it."""
+    """An account that is worth naming, and how likely it is, mostly with those that add to it."""
 
     account: Account
     share: float  # of all accounts
@@ -164,6 +164,17 @@ class Posterior:
         several = [account.effects for account in self.accounts]
         weights = self._weights(with_field)
         return [Listed(self.accounts[i], share) for i, share in listing(several, weights)]
+
+    def possible(self, *, with_field: bool) -> list[Listed]:
+        """Return the fewest accounts that hold LISTED of the weight, each with its own share of
+        what all of them hold.
+        """
+        chances = self._chances(with_field)
+        order = ranked(range(len(chances)), lambda i: -chances[i])[:MOST_LISTED]
+        held = np.cumsum([chances[i] for i in order])
+        kept = order[: 1 + int(np.count_nonzero(held < LISTED))]
+        whole = sum(chances[i] for i in kept)
+        return [Listed(self.accounts[i], chances[i] / whole) for i in kept]
 
     @property
     def likeliest_with_field(self) -> Effects:
