@@ -1,6 +1,7 @@
 """Where results go: files, devices and pipes, and `-` for the standard output."""
 
 import argparse
+import errno
 import json
 import os
 import sys
@@ -124,10 +125,12 @@ def ended(run: Callable[[], int], *, name: str, as_json: bool = False) -> int:
     except KeyboardInterrupt:
         _leave_quietly()
         return INTERRUPTED
-    except BrokenPipeError:
-        _leave_quietly()
-        return READER_GONE
     except OSError as error:
+        # So Windows says that nobody reads a pipe.
+        invalid = os.name == "nt" and error.errno == errno.EINVAL and not error.filename
+        if invalid or isinstance(error, BrokenPipeError):
+            _leave_quietly()
+            return READER_GONE
         reason = error.strerror or str(error)
         where = f"{error.filename}: " if error.filename else "the output cannot be written: "
         return _refused(f"{where}{reason}", name=name, as_json=as_json)

@@ -12,6 +12,7 @@ from pathlib import Path
 import pytest
 from plumb.cli.output import INTERRUPTED, ended
 from published_marks import MARKS, SETTINGS
+from systems import ON_POSIX
 
 TOOLS = Path(__file__).resolve().parents[2]
 PLUMB = [sys.executable, "-m", "plumb.cli.main"]
@@ -54,6 +55,7 @@ def test_a_wrong_word_is_answered_with_the_nearest_right_one(words, said, run):
     assert said in complaint
 
 
+@ON_POSIX
 def test_an_interrupt_while_the_package_loads_is_quiet(tmp_path):
     (tmp_path / "plumb/cli").mkdir(parents=True)
     (tmp_path / "plumb/__init__.py").write_text("import os, time; os.kill(os.getpid(), 2)\n")
@@ -68,6 +70,7 @@ def test_an_interrupt_while_the_package_loads_is_quiet(tmp_path):
     assert "No module named 'plumb.cli.start'" in done.stderr
 
 
+@ON_POSIX
 def test_ctrl_c_ends_quietly(tmp_path):
     pipe = tmp_path / "log"
     os.mkfifo(pipe)

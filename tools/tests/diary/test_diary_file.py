@@ -7,6 +7,7 @@ from datetime import UTC, datetime
 import pytest
 from plumb.diary.file import NAME, append, read_diary
 from plumb.text.errors import InputError
+from systems import ON_POSIX
 
 NOON = datetime(2026, 5, 1, 12, tzinfo=UTC)
 
@@ -27,6 +28,7 @@ def test_entries_come_back_as_they_were_written(tmp_path):
     assert diary.spoilt == ()
 
 
+@ON_POSIX
 def test_a_full_disk_leaves_the_diary_as_it_was(tmp_path):
     """A file may grow to so many bytes and no more, as on a disk that is nearly full."""
     append(tmp_path, "fit", {"rms_mm": 1.0}, at=NOON)

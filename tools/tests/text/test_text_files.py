@@ -11,8 +11,8 @@ import pytest
 from plumb.text import files as text_files
 from plumb.text.errors import InputError
 from plumb.text.files import read_text, write_all, write_whole
+from systems import ON_POSIX
 
-ON_POSIX = pytest.mark.skipif(os.name == "nt", reason="Windows kills and links otherwise")
 EXAMPLE = Path(__file__).resolve().parents[3] / "docs/example"
 
 

@@ -22,6 +22,7 @@ BOOTLOADER = (
 )
 # A row of the published firmware's settings in its EEPROM: its offset, bytes and value.
 ROW = re.compile(r"\{\d+, (\d+), (\d), ([-\d.]+)f?\}")
+HEARD = {"stdout": subprocess.PIPE, "stderr": subprocess.STDOUT}  # Wine knows not all files
 PULLED = 0.25  # of all that is done: half of it is written
 
 
@@ -111,7 +112,7 @@ def test_a_windows_python_flashes_it_through_com5(port, elf, tmp_path):
 
     def windows(*words):
         command = [ROOT / "tools/windows/plumb", *words]
-        done = subprocess.run(command, cwd=tmp_path, input="", stdout=subprocess.PIPE, text=True)
+        done = subprocess.run(command, cwd=tmp_path, input="", text=True, **HEARD)
         assert done.returncode == 0, done.stdout
         return done.stdout
 
