@@ -70,8 +70,12 @@ function Edges({ size: [width, height], zero: [x, y], to }: EdgesParts) {
   const [tx, ty] = at(to ?? [x, y]);
   return (
     <>
-      <path class="edges" d={`M${left} ${along}H${right}M${across} ${up}V${down}`} />
-      <path class="laid-tape" d={`M${across} ${ty}H${tx}V${along}`} />
+      <path
+        class="edges"
+        stroke-width={3}
+        d={`M${left} ${along}H${right}M${across} ${up}V${down}`}
+      />
+      <path class="edges" stroke-dasharray={4} d={`M${across} ${ty}H${tx}V${along}`} />
       {to && <circle class="lit" cx={tx} cy={ty} r={13} />}
     </>
   );

@@ -27,7 +27,7 @@ export function TapeAt({ form, open, others }: TapeAtParts) {
   const [upright, across] = form.edges.split("-");
   if (!mark || form.spans.length > 0) return null;
   return (
-    <section class="tape-at box" aria-label={`Tape at mark ${mark.name}`}>
+    <section class="tape-at box only-wide" aria-label={`Tape at mark ${mark.name}`}>
       <p>
         <b>Tape at mark {mark.name}</b>
         <small>against what the other marks say</small>
@@ -69,22 +69,22 @@ function Strip({ read, by, within }: { read: number; by: number | undefined; wit
   });
   return (
     <svg viewBox={`0 0 ${WIDE} ${HIGH}`} aria-hidden="true">
-      <rect class="of-tape" width={WIDE} height={HIGH} />
+      <rect width={WIDE} height={HIGH} fill="#f3d25a" />
       {by !== undefined && (
         <rect
-          class="by-others"
+          fill="#fdf3cc"
           x={x(by - within)}
           width={x(by + within) - x(by - within)}
           height={HIGH}
         />
       )}
-      <path d={lines.join("")} />
+      <path d={lines.join("")} stroke="#3a3000" />
       {ticks(low / unit, high / unit, 4).map((tick) => (
-        <text key={tick} x={x(tick * unit)} y={HIGH - 5} text-anchor="middle">
+        <text key={tick} x={x(tick * unit)} y={HIGH - 5} text-anchor="middle" style="fill: #201a00">
           {tickText(tick)}
         </text>
       ))}
-      <path class="read" d={`M${WIDE / 2} 0V${HIGH}`} />
+      <path d={`M${WIDE / 2} 0V${HIGH}`} stroke="#005a8c" stroke-width={3} />
     </svg>
   );
 }

@@ -11,9 +11,14 @@ const MIDDLE_X = (EDGE.left + WIDTH - EDGE.right) / 2;
 /** A number on an axis as a place of the drawing. */
 export type Along = (value: number) => number;
 
+const DOTS = {
+  left: { "stroke-width": 7, "stroke-linecap": "round" },
+  right: { "stroke-width": 4, "stroke-linecap": "square" },
+} as const;
+
 /** Dots of one style; each belongs to a mark. */
 export interface Dots {
-  kind: string; // of its style
+  kind: keyof typeof DOTS;
   places: readonly (Pair | null)[]; // as on the axes
   marks: readonly number[];
 }
@@ -79,7 +84,7 @@ export function Plot(parts: PlotParts) {
       </g>
       {below?.(x, y)}
       {placed.map(({ kind, places }) => (
-        <path key={kind} class={`dots ${kind}`} d={dotted(places)} />
+        <path key={kind} class={`dots ${kind}`} {...DOTS[kind]} d={dotted(places)} />
       ))}
       {selected !== undefined &&
         placed.map(({ kind, places, marks }) =>
@@ -87,7 +92,14 @@ export function Plot(parts: PlotParts) {
             (place, i) =>
               place &&
               marks[i] === selected && (
-                <circle key={`${kind}${i}`} class="lit" cx={place[0]} cy={place[1]} r={7} />
+                <circle
+                  key={`${kind}${i}`}
+                  class="lit"
+                  cx={place[0]}
+                  cy={place[1]}
+                  r={7}
+                  stroke-width={3}
+                />
               ),
           ),
         )}

@@ -72,7 +72,7 @@ function OpenCut({ grid }: { grid: Grid }) {
       why={<Why />}
       command={grid.command}
       stage={<CutMap grid={grid} />}
-      fieldsFirst={next === "chains" || (next === "go on" && grid.perhaps > 0)}
+      fieldsFirst={runs || next === "chains" || (next === "go on" && grid.perhaps > 0)}
       act={acts[next]}
     >
       <Trouble>{grid.trouble}</Trouble>

@@ -81,7 +81,8 @@ def show_check(project: TheProject, line: TheLine) -> CheckAnswer:
     corner, sheet = choices.edges, inputs.settings.sheet
     checked = None if trouble or not is_saved else _checked(project, inputs, form)
     sentence = check_sentence(checked) if checked else ""
-    far = HowFar() if checked else how_far(project, line, file, _text(project, file))
+    names = [str(number) for number in range(1, len(places) + 1)]
+    far = HowFar() if checked else how_far(project, line, file, _text(project, file), names)
     return CheckAnswer(
         **vars(far),
         trouble=trouble,

@@ -82,7 +82,7 @@ class GridAnswer(HowFar):
     is_proposed: bool = False  # somebody took them from the verdict; they go onto the sheet before
     pauses: tuple[Wait, ...] = ()  # where the program waits for somebody
     # [min] from the start until so many lines are done; empty without a machine's numbers
-    done_at: list[float] = []
+    done_at: tuple[float, ...] = ()
 
 
 @router.get("/grid")
@@ -91,7 +91,8 @@ def show_grid(project: TheProject, line: TheLine) -> GridAnswer:
     off.
     """
     answer = _shown(project)
-    far = how_far(project, line, answer.program, answer.text)
+    names = [mark.name for mark in answer.marks]
+    far = how_far(project, line, answer.program, answer.text, names)
     # What is to be done in a pause is asked again; nobody is to swap chains back by that.
     taken = taken_marks(project, project.choices)
     goes_on = far.goes_on and not (taken and (taken.swaps_chains or _pauses_between(answer)))
@@ -99,12 +100,12 @@ def show_grid(project: TheProject, line: TheLine) -> GridAnswer:
     return answer.model_copy(update={**vars(far), "goes_on": goes_on, "done_at": done_at})
 
 
-def _done_at(line: MachineLine, text: str) -> list[float]:
+def _done_at(line: MachineLine, text: str) -> tuple[float, ...]:
     """Return when the lines of a program are done, as the connected machine runs it dry."""
     numbers, place = line.state.numbers, line.state.place or (0.0, 0.0, 5.0)
     lines = list(cleaned(text.splitlines()))
     times = timetable(numbers, lines, place) if numbers and lines else None
-    return [round(float(seconds) / 60, 2) for seconds in times.done_at] if times else []
+    return tuple(round(float(seconds) / 60, 2) for seconds in times.done_at) if times else ()
 
 
 def _pauses_between(answer: GridAnswer) -> bool:

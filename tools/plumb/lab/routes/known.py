@@ -85,6 +85,7 @@ class HeldAnswer(BaseModel):
 
     file: str
     numbers: tuple[Difference, ...]
+    said: list[tuple[str, str, str]]  # each with its name, in the file and in the machine
     is_fit: bool  # the file was fitted to marks that the machine cut with what it holds
     is_written_here: bool  # the file's numbers can be written from here; a client sends others
 
@@ -92,10 +93,11 @@ class HeldAnswer(BaseModel):
 @router.get("/machine/held")
 def show_held(project: TheProject, line: TheLine) -> HeldAnswer:
     """Compare what the machine last listed with the open settings."""
-    choices = project.choices
+    choices, numbers = project.choices, held_otherwise(project, line)
     return HeldAnswer(
         file=choices.settings,
-        numbers=held_otherwise(project, line),
+        numbers=numbers,
+        said=[number.said for number in numbers],
         is_fit=is_fit_of_machine(project, line),
         is_written_here=choices.settings.endswith(".toml"),
     )

@@ -45,7 +45,7 @@ export function CutMap({ grid }: { grid: Grid }) {
   const sled = place && knows_place && kind !== "none" ? place : undefined;
   return (
     <>
-      <div class="row views">
+      <div class="row only-wide">
         <Segments legend="What is drawn" options={VIEWS} chosen={view} choose={look} />
         <span class="soft">
           {view === "reach" ? reach?.conclusion : "Filled: cut. Open: to come."}
@@ -67,7 +67,7 @@ export function CutMap({ grid }: { grid: Grid }) {
 function Way({ places, isNext }: { places: readonly Pair[]; isNext?: boolean }) {
   const { at } = useScale();
   const d = places.map((place, i) => `${i ? "L" : "M"}${at(place).join(" ")}`).join("");
-  return <path class={isNext ? "way next" : "way"} d={d} />;
+  return <path d={d} fill="none" stroke="var(--act)" stroke-dasharray={isNext ? 4 : undefined} />;
 }
 
 interface SledParts {
@@ -87,12 +87,17 @@ function Sled({ place: [x, y, z], old, next }: SledParts) {
     return `M${motor.join(" ")}L${cx} ${cy}`;
   });
   return (
-    <g class={old ? "sled old" : "sled"}>
+    <g
+      fill="var(--paper)"
+      fill-opacity={0.6}
+      stroke={old ? "var(--soft)" : "var(--ink)"}
+      stroke-dasharray={old ? 4 : undefined}
+    >
       <path d={chains.join("")} />
       <circle cx={cx} cy={cy} r={SLED * px} />
       <circle cx={cx} cy={cy} r={4} fill={z < DEEP ? "var(--ink)" : undefined} />
       {next && (
-        <text x={cx} y={cy + SLED * px + 16} text-anchor="middle">
+        <text class="name" x={cx} y={cy + SLED * px + 16} text-anchor="middle" font-weight={600}>
           going to mark {next}
         </text>
       )}

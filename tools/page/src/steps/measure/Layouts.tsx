@@ -1,13 +1,16 @@
 // The ways to measure, with their minutes, to choose from.
+
+import type { Schemas } from "../../api/client";
 import { Segments } from "../../controls/Segments";
-import type { Layout } from "./plan";
+
+export type LayoutId = Schemas["LayoutAnswer"]["id"];
 
 interface LayoutsParts {
-  layouts: Layout.Layout[];
-  chosen: Layout.Id;
+  layouts: Schemas["LayoutAnswer"][];
+  chosen: LayoutId;
   /** Marks that you place yourself. */
   count: number;
-  choose: (id: Layout.Id) => void;
+  choose: (id: LayoutId) => void;
 }
 
 export function Layouts({ layouts, chosen, count, choose }: LayoutsParts) {
