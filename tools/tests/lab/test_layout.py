@@ -103,6 +103,8 @@ MOVED = """() => {
   const steps = document.querySelector("nav").getBoundingClientRect().top;
   const units = document.querySelector(".segments").getBoundingClientRect().bottom;
   if (units > steps) return "the units lie over the steps";
+  const stage = document.querySelector(".stage");
+  if (stage && stage.scrollHeight > stage.clientHeight + 1) return "its picture scrolls";
   return scrollHeight > innerHeight || scrollWidth > innerWidth ? "it scrolls" : "";
 }"""
 # How much of the window the bars take that stay while the screen scrolls.

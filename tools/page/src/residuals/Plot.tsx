@@ -2,9 +2,9 @@
 
 import { nearest, type Pair, pointIn, ticks, tickText } from "../sheet/view";
 
-const WIDTH = 190;
-const HEIGHT = 136;
-const EDGE = { left: 34, right: 8, top: 8, bottom: 34 };
+const WIDTH = 148; // [px] as on a small screen: text is never smaller
+const HEIGHT = 108;
+const EDGE = { left: 26, right: 6, top: 6, bottom: 32 };
 const REACH = 44; // [px of the drawing] for a fingertip
 const MIDDLE_X = (EDGE.left + WIDTH - EDGE.right) / 2;
 

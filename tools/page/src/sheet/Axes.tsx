@@ -78,14 +78,15 @@ export function Legend({ units, factor, circle }: LegendParts) {
   if (factor === undefined) return null;
   const unit = units === "inch" ? INCH : 1;
   const arrow = rounded(50 / px / factor / unit) * unit; // [mm]
-  const end = plot.left + arrow * px * factor;
   const isNarrow = plot.right - plot.left + 60 < ROOMY;
+  const start = isNarrow ? plot.left : 10;
+  const end = start + arrow * px * factor;
   const y = plot.bottom + TICKS + 0.5 * (isNarrow ? LINE : ROW);
   const below = y + (isNarrow ? LINE : 0);
-  const noise = plot.left + (isNarrow ? 8 : 205);
+  const noise = isNarrow ? plot.left + 8 : 205;
   return (
     <g class="legend-of-sheet">
-      <path class="arrow beyond" d={arrowPath([plot.left, y], [end, y])} />
+      <path class="arrow beyond" d={arrowPath([start, y], [end, y])} />
       <text x={end + 8} y={y + 5}>
         {lengthText(arrow, units)} {units} off, {factor}× life
       </text>

@@ -16,9 +16,11 @@ export function StopFailed({ live: { machine, press } }: { live: LiveMachine }) 
     ["Stop pressed", `${ago} s ago, tried ${press.tries} times`],
   ];
   return (
-    <section class="stop-failed" role="alert">
-      <h2>Stop did not get through. Switch off machine and router by hand.</h2>
-      <p>The lab does not answer. The machine may still be cutting.</p>
+    <section class="stop-failed">
+      <div role="alert">
+        <h2>Stop did not get through. Switch off machine and router by hand.</h2>
+        <p>The lab does not answer. The machine may still be cutting.</p>
+      </div>
       <Table class="wide change" rows={facts.filter(([, said]) => said)} />
       <p>
         When it answers again, this page says what happened, and stops it if you still want that.

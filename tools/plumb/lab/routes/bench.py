@@ -52,15 +52,15 @@ NEW_MACHINE = "new.toml"
 MOST_EFFECTS = 32
 # What errors may depend on, in the order of the plots: most effects are a curve against the first.
 TITLES = {
-    "tension": "tension of the chain",
-    "length": "length of the chain",
+    "tension": "chain tension",
+    "length": "chain length",
     "x": "x on the sheet",
     "y": "y on the sheet",
-    "angle": "angle of the chain",
-    "wrap": "chain on the sprocket",
-    "phase": "turn of the sprocket",
+    "angle": "chain angle",
+    "wrap": "chain on sprocket",
+    "phase": "sprocket turn",
     "order": "order of cutting",
-    "approach": "way of the last move",
+    "approach": "last move",
 }
 SAME = 1e-3  # of what differs less between marks errors do not depend
 
