@@ -100,9 +100,9 @@ MOVED = """() => {
   const { scrollHeight, scrollWidth } = document.documentElement;
   const stop = document.querySelector(".stop")?.getBoundingClientRect();
   if (stop && (stop.bottom > 52 || innerWidth - stop.right > 16)) return "Stop has left its corner";
-  const steps = document.querySelector("nav").getBoundingClientRect().top;
-  const units = document.querySelector(".segments").getBoundingClientRect().bottom;
-  if (units > steps) return "the units lie over the steps";
+  const [steps, units] = ["nav", ".segments"].map((each) =>
+    document.querySelector(each).getBoundingClientRect());
+  if (units.bottom > steps.top) return "the units lie over the steps";
   const stage = document.querySelector(".stage");
   if (stage && stage.scrollHeight > stage.clientHeight + 1) return "its picture scrolls";
   return scrollHeight > innerHeight || scrollWidth > innerWidth ? "it scrolls" : "";
