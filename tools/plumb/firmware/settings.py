@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from decimal import Decimal
 from hashlib import sha256
 from math import inf, isclose, tau
 
@@ -195,6 +196,24 @@ class Difference:
     unit: str
     in_file: float
     in_machine: float
+
+    @property
+    def said(self) -> tuple[str, str, str]:
+        """Its name, and it as the file and as the machine say it."""
+        file, machine = (
+            setting_said(self.number, value, self.unit) for value in (self.in_file, self.in_machine)
+        )
+        return self.name, file, machine
+
+
+def setting_said(number: int, value: float, unit: str) -> str:
+    """Return a number as the machine lists it, with its unit: `$170 = 0.00000517 1/N`."""
+    return f"${number} = {number_said(value)} {unit}".strip()
+
+
+def number_said(value: float) -> str:
+    """Return a number as exact as the machine says it, without an exponent."""
+    return f"{Decimal(f'{value:.7g}'):f}"
 
 
 def differences(settings: MachineSettings, held: Mapping[int, float]) -> tuple[Difference, ...]:

@@ -9,7 +9,7 @@ from plumb.diagnosis import Checked
 from plumb.fit.by_hand import WEIGHED, WEIGHT, readings
 from plumb.fit.expected import WIDE, is_absurd, plausible_range, refuse_absurd
 from plumb.fit.problem import priors_with
-from plumb.lab.project import Choices
+from plumb.lab.project import Choices, Number
 from plumb.model.effect_words import RuleReading
 from plumb.plan.separation import FRAME_CHECKS, NumberCheck, effect_checks
 from plumb.settings.machine import GRAVITY, MachineSettings
@@ -77,6 +77,7 @@ class KnownNumber(RuleReading):
     marked: str  # the distance on the drawing; empty: none is
     by: str  # the number by whose square this is divided; empty: none is
     is_first: bool  # it belongs to what everybody measures
+    stated: tuple[float, float] | None  # as it was read, and how far that may be off
     refused: str = ""  # why what is stated cannot have been measured; empty if it can
 
     def said(self, value: float) -> str:
@@ -92,10 +93,34 @@ def known_numbers(settings: MachineSettings, choices: Choices) -> list[KnownNumb
     stated = choices.known.get(WEIGHT)
     by_hand = readings(settings, stated.value if stated else settings.sled_weight)
     checks = number_checks()
-    numbers = [_number(name, checks[name], by_hand[name], settings) for name in checks]
+    numbers = [
+        _number(name, checks[name], by_hand[name], settings, choices.known.get(name))
+        for name in checks
+    ]
     lines = _refused(numbers, settings, choices)
     numbers = [replace(each, refused=lines.get(each.name, "")) for each in numbers]
     return sorted(numbers, key=lambda number: not number.is_first)
+
+
+def with_known(
+    choices: Choices, settings: MachineSettings, name: str, stated: Number | None
+) -> Choices:
+    """Return the choices with a number as it is stated, or without it. What was divided by the
+    square of the old is divided by that of the new.
+    """
+    numbers = {each.name: each for each in known_numbers(settings, choices)}
+    known = {each: was for each, was in choices.known.items() if each != name}
+    number, before = numbers[name], choices.known.get(name)
+    usual = number.value(number.believed) if number.believed else 0.0
+    old, new = (each.value if each else usual for each in (before, stated))
+    by_it = {each.name for each in numbers.values() if each.by == name}
+    if old and new:
+        for other in known.keys() & by_it:
+            was, share = known[other], (old / new) ** 2
+            known[other] = Number(value=was.value * share, sigma=was.sigma * share)
+    if stated:
+        known[name] = stated
+    return choices.model_copy(update={"known": known})
 
 
 def number_checks() -> dict[str, NumberCheck]:
@@ -154,7 +179,11 @@ WEIGHING = NumberCheck(
 
 
 def _number(
-    name: str, check: NumberCheck, reading: RuleReading, settings: MachineSettings
+    name: str,
+    check: NumberCheck,
+    reading: RuleReading,
+    settings: MachineSettings,
+    stated: Number | None,
 ) -> KnownNumber:
     effect, _, part = name.rpartition(".")
     value = settings.effect(effect, part) if effect else settings.frame[part]
@@ -169,4 +198,9 @@ def _number(
         marked=("chain" if effect in ON_DRAWING else "") if effect else name,
         by=WEIGHT if reading.unit == "g" else "",
         is_first=is_first,
+        stated=(
+            (reading.read(stated.value), reading.read_within(stated.value, stated.sigma))
+            if stated
+            else None
+        ),
     )

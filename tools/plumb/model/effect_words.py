@@ -106,6 +106,19 @@ class RuleReading:
         """Return what would be read for a number."""
         return self.zero + CURVES[self.curve][1](value / self.factor)
 
+    def value_within(self, read: float, within: float) -> float:
+        """Return how far the number of a reading may be off that may be off so far."""
+        if self.curve == "straight":  # without the noise of a difference
+            return abs(self.factor) * within
+        return abs(self.value(self.zero + abs(read - self.zero) + within) - self.value(read))
+
+    def read_within(self, value: float, within: float) -> float:
+        """Return how far the reading of a number may be off that may be off so far."""
+        if self.curve == "straight":
+            return within / abs(self.factor)
+        away = abs(value) + within if self.factor > 0 else -abs(value) - within
+        return abs(self.read(away) - self.read(value))
+
 
 def _root(number: float) -> float:
     return math.sqrt(max(number, 0.0))

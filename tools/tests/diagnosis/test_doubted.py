@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from plumb.diagnosis.readings import doubted_readings
+from plumb.diagnosis.readings import look_over
 from plumb.fit.inputs import Inputs
 from plumb.marks.read import Mark, Measurements
 from synthetic import BELIEVED, distances_between, grid, marks_on, read_elsewhere
@@ -15,7 +15,7 @@ def board(columns=5, rows=3):
 
 
 def doubts(measurements, **how):
-    return doubted_readings(Inputs(BELIEVED, measurements, **how))
+    return look_over(Inputs(BELIEVED, measurements, **how)).doubts
 
 
 @pytest.mark.parametrize("sigma", [None, 0.3])

@@ -61,7 +61,7 @@ def test_a_chosen_mark_is_highlighted_in_every_plot_and_on_the_sheet(bench):
     dots = plots.first.locator("path.dots.left").get_attribute("d")
     x, y = map(float, re.match(r"M(\S+) (\S+)h0", dots).groups())
     box = plots.first.bounding_box()
-    scale = box["width"] / 190
+    scale = box["width"] / 148
     plots.first.click(position={"x": x * scale, "y": y * scale})
     expect(bench.locator(".sheet circle.lit")).to_have_count(1)
     for i in range(shown):

@@ -12,7 +12,7 @@ from plumb.lab.project import CUT
 from screens import at_rest, fitted_machine, measured_machine, with_check_marks
 
 WIDE, NARROW = {"width": 1280, "height": 800}, {"width": 390, "height": 844}
-SMALLER = {"width": 375, "height": 740}
+SMALLER, LEAST_WIDE = {"width": 375, "height": 740}, {"width": 1024, "height": 768}
 # What each screen of a machine that was measured has first: a field or a button.
 FIRST = {
     "open": ".pick",
@@ -96,10 +96,15 @@ HIDDEN = """(act) => {
 }"""
 # A computer's page does not scroll, and Stop is in the same corner of each screen.
 MOVED = """() => {
-  const { scrollHeight } = document.documentElement;
+  const { scrollHeight, scrollWidth } = document.documentElement;
   const stop = document.querySelector(".stop")?.getBoundingClientRect();
   if (stop && (stop.bottom > 52 || innerWidth - stop.right > 16)) return "Stop has left its corner";
-  return scrollHeight > innerHeight ? `it scrolls, ${scrollHeight} px` : "";
+  const [steps, units] = ["nav", ".segments"].map((each) =>
+    document.querySelector(each).getBoundingClientRect());
+  if (units.bottom > steps.top) return "the units lie over the steps";
+  const stage = document.querySelector(".stage");
+  if (stage && stage.scrollHeight > stage.clientHeight + 1) return "its picture scrolls";
+  return scrollHeight > innerHeight || scrollWidth > innerWidth ? "it scrolls" : "";
 }"""
 # How much of the window the bars take that stay while the screen scrolls.
 BARS = """() => [...document.querySelectorAll("header, nav, .act, .way-on, .machine-bar")]
@@ -121,7 +126,7 @@ def out_of_view(page, step, wanted):
             .or_(page.get_by_label(wanted))
         )
     )
-    for size in (WIDE, NARROW, SMALLER):
+    for size in (WIDE, LEAST_WIDE, NARROW, SMALLER):
         page.set_viewport_size(size)
         at_rest(page)
         page.evaluate("() => scrollTo(0, 0)")
@@ -137,7 +142,7 @@ def out_of_view(page, step, wanted):
             if page.locator(FIRST[step]).first.evaluate(HIDDEN):
                 yield f"{at}: {FIRST[step]} is below the first screen"
             expect(page.get_by_role("heading", level=1)).to_be_in_viewport(ratio=1)
-        if size == WIDE and (moved := page.evaluate(MOVED)):
+        if size in (WIDE, LEAST_WIDE) and (moved := page.evaluate(MOVED)):
             yield f"{at}: {moved}"
         bars = page.evaluate(BARS)
         if size == NARROW and wanted != LOST and bars > 0.15 * size["height"]:

@@ -85,7 +85,7 @@ def drawn_on(page):
     """
     legend = page.locator(".legend-of-sheet").text_content()
     wide = page.locator(".sheet .wood").evaluate("(wood) => wood.width.baseVal.value")
-    scale = float(re.search(r"arrows (\d+) times", legend)[1]) * wide / SHEET[0]
+    scale = float(re.search(r"(\d+)× life", legend)[1]) * wide / SHEET[0]
     marks = []
     for group in page.locator(".sheet svg g:has(> circle.place)").all():
         arrow = group.locator("path.arrow:not(.ghost)")
@@ -137,9 +137,7 @@ def test_a_reading_that_disagrees_is_ringed_and_scales_nothing(lab, page):
             as_set.check()
         said = " ".join(page.locator(".count, .states").all_inner_texts())
         figure = re.search(r"(?:off by|as set)\s+(\d+\.\d\d) mm", said)
-        factor = re.search(r"arrows (\d+) times", page.locator(".legend-of-sheet").text_content())[
-            1
-        ]
+        factor = re.search(r"(\d+)× life", page.locator(".legend-of-sheet").text_content())[1]
         return float(figure[1]) if figure else None, factor
 
     before = {step: seen(step) for step in ("verdict", "readings")}

@@ -1,6 +1,6 @@
 // Requests to the server, typed by its schema. A refusal becomes an error with the server's message.
 import { answers } from "./answers";
-import { inTime, READ_MS, SAVE_MS, WORK_MS } from "./patience";
+import { READ_MS, SAVE_MS, WORK_MS } from "./patience";
 import { begin } from "./rest";
 
 import type { components } from "./schema";
@@ -37,20 +37,21 @@ async function asked<Answer>(path: string, asking: Asking): Promise<Answer> {
 /** The whole answer. A refusal becomes an error. */
 async function answered(path: string, { patienceMs, ...request }: Asking): Promise<Blob> {
   const end = begin();
+  const giveUp = new AbortController();
+  const timer = setTimeout(() => giveUp.abort(), patienceMs);
   let response: Response;
   let content: Blob;
   try {
-    [response, content] = await inTime(patienceMs, async (signal) => {
-      const answer = await fetch(`api/${path}`, {
-        ...request,
-        signal,
-        headers: { ...request.headers, "X-Plumb-Token": token() },
-      });
-      return [answer, await answer.blob()];
+    response = await fetch(`api/${path}`, {
+      ...request,
+      signal: giveUp.signal,
+      headers: { ...request.headers, "X-Plumb-Token": token() },
     });
+    content = await response.blob();
   } catch {
     throw new Refusal("The lab does not answer. Is plumb lab still running in its terminal?", 0);
   } finally {
+    clearTimeout(timer);
     end();
   }
   if (response.ok) return content;

@@ -9,23 +9,3 @@ export const READ_MS = 60_000;
 export const SAVE_MS = 30_000;
 /** Computations, and answers from the machine [ms]. */
 export const WORK_MS = 180_000;
-
-/** The result of the work if it comes in time; otherwise aborts the work and fails. */
-export async function inTime<Answer>(
-  patienceMs: number,
-  work: (signal: AbortSignal) => Promise<Answer>,
-): Promise<Answer> {
-  const giveUp = new AbortController();
-  let timer: ReturnType<typeof setTimeout> | undefined;
-  const late = new Promise<never>((_, fail) => {
-    timer = setTimeout(() => {
-      fail(new Error(`no answer in ${patienceMs} ms`));
-      giveUp.abort();
-    }, patienceMs);
-  });
-  try {
-    return await Promise.race([work(giveUp.signal), late]);
-  } finally {
-    clearTimeout(timer);
-  }
-}

@@ -13,18 +13,12 @@ interface FallParts {
 export function Fall({ live, stairs }: FallParts) {
   const units = useUnits();
   const fit = live.now?.fit;
-  const before = live.frame?.fit_rms;
   return (
     <section class="fall-now" aria-busy={!fit} aria-label="The error that is left">
       <p class="soft">
         <output class="large">{fit ? namedLength(fit.fit_rms, units, 2) : "…"}</output> left
       </p>
-      {fit && (
-        <p class="soft">
-          Noise alone leaves {shownLength(fit.noise_rms ?? 0, units, 2)}
-          {before !== undefined && <>, the frame alone {shownLength(before, units, 2)}</>}.
-        </p>
-      )}
+      {fit && <p class="soft">Noise alone leaves {shownLength(fit.noise_rms ?? 0, units, 2)}.</p>}
       {stairs && <Staircase stairs={stairs} units={units} />}
     </section>
   );
@@ -38,23 +32,28 @@ function Staircase({ stairs, units }: { stairs: Stairs; units: Unit }) {
       class="wide stairs"
       caption={`How the error falls [${units}]`}
       names={["with", "", "fit", "noise", "checked"]}
-      tone={(row) => (stairs.stairs[row]?.only_fit ? "only-fit" : "")}
       rows={stairs.stairs.map((stair, i) => [
         <>
           {stair.noun} {stair.only_fit && <strong class="wrong">Only the fit got better.</strong>}
         </>,
         <svg key={i} viewBox="0 0 100 12" preserveAspectRatio="none" aria-hidden="true">
           <rect
-            class={i === 0 ? "fall as-set" : "fall"}
+            fill={`var(--${stair.only_fit ? "warn" : i === 0 ? "before" : "after"})`}
             width={(100 * stair.fit_rms) / highest}
             height="12"
           />
           {stair.noise_rms !== null && (
-            <rect class="by-noise" width={(100 * stair.noise_rms) / highest} height="12" />
+            <rect
+              fill="var(--ghost)"
+              opacity={0.6}
+              width={(100 * stair.noise_rms) / highest}
+              height="12"
+            />
           )}
           {stair.left_out_rms !== null && (
             <line
-              class="at-left-out"
+              stroke="var(--ink)"
+              stroke-width={1.5}
               x1={Math.min(99, (100 * stair.left_out_rms) / highest)}
               x2={Math.min(99, (100 * stair.left_out_rms) / highest)}
               y2="12"

@@ -9,11 +9,13 @@ import type { Form } from "./useReadings";
 interface MapParts {
   form: Form;
   doubted: ReadonlySet<number>;
+  /** The mark whose fields are open. */
+  open: number;
   /** Opens the fields of a mark. */
   pick: (index: number) => void;
 }
 
-export function ReadingsMap({ form, doubted, pick }: MapParts) {
+export function ReadingsMap({ form, doubted, open, pick }: MapParts) {
   const units = useUnits();
   const read = form.marks.filter((mark) => mark.place);
   const [width, height] = form.sheet;
@@ -54,18 +56,35 @@ export function ReadingsMap({ form, doubted, pick }: MapParts) {
         : {})}
       press={(mark) => pick(form.marks[mark]?.index ?? mark)}
     >
-      {fromEdges && <Edges size={form.sheet} zero={zero} />}
+      {fromEdges && <Edges size={form.sheet} zero={zero} to={form.marks[open]?.target} />}
       <Taped lines={form.spans.map((ends) => ends.map((name) => places.get(name)))} />
     </Sheet>
   );
 }
 
-/** The edges that the tape measures from. */
-function Edges({ size: [width, height], zero: [x, y] }: { size: Pair; zero: Pair }) {
+/** The edges that the tape measures from, and how it lies to a mark. */
+function Edges({ size: [width, height], zero: [x, y], to }: EdgesParts) {
   const { at } = useScale();
   const [[left, up], [right, down]] = [at([-width / 2, height / 2]), at([width / 2, -height / 2])];
   const [across, along] = at([x, y]);
-  return <path class="edges" d={`M${left} ${along}H${right}M${across} ${up}V${down}`} />;
+  const [tx, ty] = at(to ?? [x, y]);
+  return (
+    <>
+      <path
+        class="edges"
+        stroke-width={3}
+        d={`M${left} ${along}H${right}M${across} ${up}V${down}`}
+      />
+      <path class="edges" stroke-dasharray={4} d={`M${across} ${ty}H${tx}V${along}`} />
+      {to && <circle class="lit" cx={tx} cy={ty} r={13} />}
+    </>
+  );
+}
+
+interface EdgesParts {
+  size: Pair;
+  zero: Pair;
+  to: Pair | undefined;
 }
 
 type Pair = readonly [number, number];

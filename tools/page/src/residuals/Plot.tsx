@@ -2,18 +2,23 @@
 
 import { nearest, type Pair, pointIn, ticks, tickText } from "../sheet/view";
 
-const WIDTH = 190;
-const HEIGHT = 136;
-const EDGE = { left: 34, right: 8, top: 8, bottom: 34 };
+const WIDTH = 148; // [px] as on a small screen: text is never smaller
+const HEIGHT = 108;
+const EDGE = { left: 26, right: 6, top: 6, bottom: 32 };
 const REACH = 44; // [px of the drawing] for a fingertip
 const MIDDLE_X = (EDGE.left + WIDTH - EDGE.right) / 2;
 
 /** A number on an axis as a place of the drawing. */
 export type Along = (value: number) => number;
 
+const DOTS = {
+  left: { "stroke-width": 7, "stroke-linecap": "round" },
+  right: { "stroke-width": 4, "stroke-linecap": "square" },
+} as const;
+
 /** Dots of one style; each belongs to a mark. */
 export interface Dots {
-  kind: string; // of its style
+  kind: keyof typeof DOTS;
   places: readonly (Pair | null)[]; // as on the axes
   marks: readonly number[];
 }
@@ -79,7 +84,7 @@ export function Plot(parts: PlotParts) {
       </g>
       {below?.(x, y)}
       {placed.map(({ kind, places }) => (
-        <path key={kind} class={`dots ${kind}`} d={dotted(places)} />
+        <path key={kind} class={`dots ${kind}`} {...DOTS[kind]} d={dotted(places)} />
       ))}
       {selected !== undefined &&
         placed.map(({ kind, places, marks }) =>
@@ -87,7 +92,14 @@ export function Plot(parts: PlotParts) {
             (place, i) =>
               place &&
               marks[i] === selected && (
-                <circle key={`${kind}${i}`} class="lit" cx={place[0]} cy={place[1]} r={7} />
+                <circle
+                  key={`${kind}${i}`}
+                  class="lit"
+                  cx={place[0]}
+                  cy={place[1]}
+                  r={7}
+                  stroke-width={3}
+                />
               ),
           ),
         )}

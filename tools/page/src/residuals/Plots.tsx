@@ -1,29 +1,15 @@
 // Remaining errors against what they may depend on, with what an effect would draw below them.
 import type { Schemas } from "../api/client";
-import { shownLength, type Unit } from "../controls/lengths";
+import type { Unit } from "../controls/lengths";
 import type { Ends, State } from "../sheet/marks";
-import { tickText } from "../sheet/view";
 import { Plot } from "./Plot";
 import type { Drawn } from "./useDrawn";
 
 export type Covariate = Schemas["BenchCovariate"];
 export type Left = Schemas["State"];
 
-/** Most effects are a curve against the first two. */
-const TITLES: Record<string, string> = {
-  tension: "tension of the chain",
-  length: "length of the chain",
-  x: "x on the sheet",
-  y: "y on the sheet",
-  angle: "angle of the chain",
-  wrap: "chain on the sprocket",
-  phase: "turn of the sprocket",
-  order: "order of cutting",
-  approach: "way of the last move",
-};
 const STRIP = 4; // plots in view
 const BEYOND_NOISE = 1.96; // sigmas: noise alone makes a larger error in 5 % of the chains
-const ORDER = Object.keys(TITLES);
 const SIDES = ["left", "right"] as const;
 const INCH = 25.4;
 
@@ -44,10 +30,9 @@ export function Plots(parts: PlotsParts) {
   const unit = units === "inch" ? INCH : 1;
   const most =
     (1.1 * Math.max(...[scale, state].map(({ chains }) => largest(chains, doubted)), 0.1)) / unit;
-  const sorted = [...covariates].sort((a, b) => ORDER.indexOf(a.name) - ORDER.indexOf(b.name));
-  const same = sorted.filter(isSame);
-  const plots = sorted
-    .filter((each) => !isSame(each))
+  const same = covariates.map((each) => each.same).filter(Boolean);
+  const plots = covariates
+    .filter((each) => !each.same)
     .map((each) => <AgainstCovariate key={each.name} {...parts} covariate={each} most={most} />);
   return (
     <section class="plots" aria-labelledby="plots-title">
@@ -66,7 +51,7 @@ export function Plots(parts: PlotsParts) {
       <details>
         <summary>{plots.length - STRIP} more views</summary>
         <div class="grid tiles">{plots.slice(STRIP)}</div>
-        {same.length > 0 && <p>Not drawn: {same.map(saidSame).join("; ")}.</p>}
+        {same.length > 0 && <p>Not drawn: {same.join("; ")}.</p>}
       </details>
     </section>
   );
@@ -81,8 +66,9 @@ function AgainstCovariate(parts: CovariateParts) {
   const { covariate, state, drawn, sigma, units, most, selected, select } = parts;
   const unit = units === "inch" ? INCH : 1;
   const [by, name] = covariate.unit === "mm" ? [unit, units] : [1, covariate.unit];
-  const title = TITLES[covariate.name] ?? covariate.name;
-  const ends = extremes(covariate);
+  const { title, values } = covariate;
+  const known = values.flat().filter((value) => value !== null);
+  const ends = [Math.min(...known), Math.max(...known)] as const;
   const noise = (BEYOND_NOISE * sigma) / unit;
   return (
     <Plot
@@ -103,7 +89,9 @@ function AgainstCovariate(parts: CovariateParts) {
       below={(x, y) => (
         <>
           <path
-            class="noise band"
+            class="noise"
+            fill="currentColor"
+            opacity={0.2}
             d={`M${x(ends[0] / by)} ${y(noise)}H${x(ends[1] / by)}V${y(-noise)}H${x(ends[0] / by)}z`}
           />
           {drawn &&
@@ -111,6 +99,7 @@ function AgainstCovariate(parts: CovariateParts) {
               <path
                 key={kind}
                 class={`strokes ${kind}`}
+                stroke-width={3}
                 d={drawn.chains
                   .map((pair, i) => {
                     const [at, value] = [covariate.values[i]?.[side], pair[side]];
@@ -130,23 +119,4 @@ function AgainstCovariate(parts: CovariateParts) {
 function largest(chains: readonly Ends[] | undefined, doubted: readonly number[]): number {
   const sure = (chains ?? []).filter((_, i) => !doubted.includes(i));
   return Math.max(0, ...sure.flat().map((end) => Math.abs(end ?? 0)));
-}
-
-function extremes({ values }: Covariate): readonly [number, number] {
-  const known = values.flat().filter((value): value is number => value !== null);
-  return [Math.min(...known), Math.max(...known)];
-}
-
-/** Errors cannot depend on what is the same for all marks. */
-function isSame(covariate: Covariate): boolean {
-  const [least, most] = extremes(covariate);
-  return !(most - least > 1e-3);
-}
-
-function saidSame(covariate: Covariate): string {
-  const title = TITLES[covariate.name] ?? covariate.name;
-  const [value] = extremes(covariate);
-  if (!Number.isFinite(value)) return `${title} is not known`;
-  const said = covariate.unit === "mm" ? shownLength(value, "mm") : tickText(value);
-  return `${title} is ${said} ${covariate.unit} for all marks`;
 }

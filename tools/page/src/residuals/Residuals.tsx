@@ -6,7 +6,6 @@ import { Sheet } from "../sheet/Sheet";
 import { type Covariate, type Left, Plots } from "./Plots";
 import { endsOf, type Span, SpanLines, SpanTable } from "./Spans";
 import type { Drawn } from "./useDrawn";
-import { useRested } from "./useRested";
 import "./residuals.css";
 
 interface ResidualsParts {
@@ -50,18 +49,16 @@ export function Residuals(parts: ResidualsParts) {
     return [...all, ...endsOf(spans, new Set(marks.map(({ name }) => name)))];
   }, [marks, spans, doubted]);
   const laid = shown === FRAME ? drawn : undefined;
-  // A slider moves the arrows; the plots follow a few times a second.
-  const plotted = useRested(state);
   const frame = states[Math.min(FRAME, states.length - 1)];
   const plots = useMemo(
     () =>
       covariates &&
       marks.length > 0 &&
-      plotted &&
+      state &&
       frame && (
         <Plots
           covariates={covariates}
-          state={plotted}
+          state={state}
           scale={frame}
           drawn={laid}
           doubted={doubted}
@@ -71,7 +68,7 @@ export function Residuals(parts: ResidualsParts) {
           select={select}
         />
       ),
-    [covariates, marks, plotted, frame, laid, units, selected, doubted, sigma],
+    [covariates, marks, state, frame, laid, units, selected, doubted, sigma],
   );
   if (!state) return null;
   const taped = { spans, state, doubted: doubtedSpans, sigma, units };

@@ -46,7 +46,13 @@ export function SpanLines({ spans, state, doubted, sigma, scale }: LineParts) {
         const share = isDoubted ? 0 : Math.min(1, Math.abs(error ?? 0) / most);
         return (
           <g key={i} class={kindOf(error, isDoubted, sigma)}>
-            <line {...{ x1, y1, x2, y2 }} stroke-width={THIN + (THICK - THIN) * share} />
+            <line
+              {...{ x1, y1, x2, y2 }}
+              stroke="currentColor"
+              stroke-linecap="round"
+              stroke-dasharray={isDoubted ? "10 8" : undefined}
+              stroke-width={THIN + (THICK - THIN) * share}
+            />
             {isDoubted && <circle class="doubt" cx={(x1 + x2) / 2} cy={(y1 + y2) / 2} r={14} />}
           </g>
         );

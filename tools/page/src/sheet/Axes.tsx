@@ -61,41 +61,35 @@ const ROOMY = 560; // [px] in which the legend is a single line
 
 /** How high the legend is [px]. */
 export function legendHeight(wide: number, hasArrows: boolean): number {
-  return TICKS + (wide >= ROOMY ? ROW : hasArrows ? 2 * LINE : LINE);
+  return TICKS + (wide >= ROOMY ? ROW : hasArrows ? 2 * LINE : 0);
 }
 
 interface LegendParts {
   units: Unit;
   /** How many times longer than life arrows are; undefined without arrows. */
   factor: number | undefined;
-  /** What a circle around a mark means; undefined without circles. */
-  circle: "noise" | "promised" | 0 | undefined;
+  /** What a circle around a mark means; empty without circles. */
+  circle: string;
 }
 
-/** The legend below the drawing: arrows, circles and lines. */
+/** The legend below the drawing: what an arrow and a circle mean. */
 export function Legend({ units, factor, circle }: LegendParts) {
   const { plot, px } = useScale();
+  if (factor === undefined) return null;
   const unit = units === "inch" ? INCH : 1;
-  const long = (most: number) => rounded(most / unit) * unit; // [mm]
-  const bar = long(90 / px);
-  const arrow = factor === undefined ? 0 : long(50 / px / factor);
-  const end = plot.left + arrow * px * (factor ?? 0);
-  const isNarrow = factor !== undefined && plot.right - plot.left + 60 < ROOMY;
+  const arrow = rounded(50 / px / factor / unit) * unit; // [mm]
+  const isNarrow = plot.right - plot.left + 60 < ROOMY;
+  const start = isNarrow ? plot.left : 10;
+  const end = start + arrow * px * factor;
   const y = plot.bottom + TICKS + 0.5 * (isNarrow ? LINE : ROW);
   const below = y + (isNarrow ? LINE : 0);
-  const noise = isNarrow ? plot.left + 8 : plot.left + 265;
-  const from = plot.left + (factor === undefined ? 0 : isNarrow ? 120 : 345);
+  const noise = isNarrow ? plot.left + 8 : 205;
   return (
     <g class="legend-of-sheet">
-      {factor !== undefined && (
-        <>
-          <path class="arrow beyond" d={arrowPath([plot.left, y], [end, y])} />
-          <text x={end + 8} y={y + 5}>
-            {lengthText(arrow, units)} {units}:{" "}
-            {factor === 1 ? "arrows as long as life" : `arrows ${factor} times larger`}
-          </text>
-        </>
-      )}
+      <path class="arrow beyond" d={arrowPath([start, y], [end, y])} />
+      <text x={end + 8} y={y + 5}>
+        {lengthText(arrow, units)} {units} off, {factor}× life
+      </text>
       {circle && (
         <>
           <circle class="noise" cx={noise} cy={below} r={8} />
@@ -104,10 +98,6 @@ export function Legend({ units, factor, circle }: LegendParts) {
           </text>
         </>
       )}
-      <path class="bar" d={`M${from} ${below - 4}v8m0 -4h${bar * px}m0 -4v8`} />
-      <text x={from + bar * px + 6} y={below + 5}>
-        {lengthText(bar, units)} {units}
-      </text>
     </g>
   );
 }

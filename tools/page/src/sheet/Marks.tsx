@@ -53,7 +53,7 @@ export function Marks(parts: MarksParts) {
             ) : (
               <Spot look={mark.look ?? "waits"} at={[x, y]} />
             )}
-            {error && <circle class="place" cx={x} cy={y} r={2.5} />}
+            {error && <circle class="place" cx={x} cy={y} r={2.5} fill="var(--ink)" />}
             {mark.isDoubted && <circle class="doubt" cx={x} cy={y} r={14} />}
             {i === selected && <circle class="lit" cx={x} cy={y} r={13} />}
           </g>

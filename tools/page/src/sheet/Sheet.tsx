@@ -2,6 +2,7 @@
 // frame: the origin is the middle of the sheet, y runs up.
 import type { ComponentChildren } from "preact";
 import { useContext, useId, useLayoutEffect, useMemo, useRef, useState } from "preact/hooks";
+import { namedLength, type Unit } from "../controls/lengths";
 import { useUnits } from "../controls/units";
 import { Axes, Legend, legendHeight, MIDDLE, type Origin } from "./Axes";
 import { MarkCard } from "./MarkCard";
@@ -111,7 +112,7 @@ export function Sheet(parts: SheetParts) {
                 <Legend
                   units={units}
                   factor={factor}
-                  circle={!hasArrows ? undefined : state?.promised ? "promised" : sigma && "noise"}
+                  circle={state?.promised ? "promised" : noiseWords(sigma, units)}
                 />
               </ScaleContext.Provider>
             </svg>
@@ -147,6 +148,10 @@ export function Sheet(parts: SheetParts) {
       </figure>
     </>
   );
+}
+
+function noiseWords(sigma: number | undefined, units: Unit): string {
+  return sigma ? `noise: 95 % within ${namedLength(BEYOND_NOISE * sigma, units)}` : "";
 }
 
 /** The lines along which a tape is laid, from place to place [mm]. */

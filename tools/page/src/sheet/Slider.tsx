@@ -10,7 +10,14 @@ export function halves(marks: readonly Mark[], x: number, [left, right]: [State,
 
 export function Divide({ x }: { x: number }) {
   const { at, plot } = useScale();
-  return <path class="divide" d={`M${at([x, 0])[0]} ${plot.top}V${plot.bottom}`} />;
+  return (
+    <path
+      class="divide"
+      stroke="var(--act)"
+      stroke-width={2}
+      d={`M${at([x, 0])[0]} ${plot.top}V${plot.bottom}`}
+    />
+  );
 }
 
 interface SliderParts {

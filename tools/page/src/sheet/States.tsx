@@ -1,6 +1,6 @@
 // The states to compare, each with its error and a small sheet of its arrows; a press shows it.
-import { useId } from "preact/hooks";
 import { namedLength, shownLength, type Unit } from "../controls/lengths";
+import { Segments } from "../controls/Segments";
 import type { Mark, State } from "./marks";
 import type { Pair } from "./view";
 
@@ -18,24 +18,24 @@ interface StatesParts {
 }
 
 export function States({ states, shown, show, units, size, marks, factors }: StatesParts) {
-  const name = useId();
   return (
-    <fieldset class="segments states">
-      <legend>What is drawn</legend>
-      {states.map((state, i) => (
-        <label key={i}>
-          <input type="radio" name={name} checked={i === shown} onChange={() => show(i)} />
-          <span>
-            <span class="words">
-              <small>{state.title} </small>
-              {state.fit_rms !== undefined && <b>{namedLength(state.fit_rms, units, 2)}</b>}
-              {state.noise_rms != null && <i> noise {shownLength(state.noise_rms, units, 2)}</i>}
-            </span>
-            <Small {...{ size, marks, state }} factor={factors[i] ?? 1} />
+    <Segments
+      class="states"
+      legend="What is drawn"
+      chosen={shown}
+      choose={show}
+      options={states.map((state, i) => [
+        i,
+        <>
+          <span class="words">
+            <small>{state.title} </small>
+            {state.fit_rms !== undefined && <b>{namedLength(state.fit_rms, units, 2)}</b>}
+            {state.noise_rms != null && <i> noise {shownLength(state.noise_rms, units, 2)}</i>}
           </span>
-        </label>
-      ))}
-    </fieldset>
+          <Small {...{ size, marks, state }} factor={factors[i] ?? 1} />
+        </>,
+      ])}
+    />
   );
 }
 

@@ -1,8 +1,14 @@
 // The header: the folder, unsaved changes, and the unit of lengths.
+import { Segments } from "../controls/Segments";
 import { useOutbox } from "./kept";
 import { waitingPlaces } from "./outbox";
 import { SILENT, useProject } from "./project";
 import "./header.css";
+
+const UNITS = [
+  ["mm", "mm"],
+  ["inch", "inch"],
+] as const;
 
 export function Header() {
   const { project, trouble, choose } = useProject();
@@ -23,20 +29,12 @@ export function Header() {
       <span class="waits" role="status">
         {waits && "What you typed is kept in this browser until the lab answers."}
       </span>
-      <fieldset class="segments units">
-        <legend>Lengths in</legend>
-        {(["mm", "inch"] as const).map((unit) => (
-          <label key={unit}>
-            <input
-              type="radio"
-              name="units"
-              checked={units === unit}
-              onChange={() => void choose({ units: unit })}
-            />
-            <span>{unit}</span>
-          </label>
-        ))}
-      </fieldset>
+      <Segments
+        legend="Lengths in"
+        options={UNITS}
+        chosen={units}
+        choose={(units) => void choose({ units })}
+      />
     </header>
   );
 }

@@ -2,7 +2,6 @@
 // before that is answered.
 
 import { send } from "../api/client";
-import { setting } from "../controls/settings";
 import { Table } from "../controls/Table";
 import { Do } from "./doing";
 import { isReady, type Machine, subject, useMachine } from "./machine";
@@ -28,7 +27,7 @@ export function Held() {
 function Question({ held, machine }: { held: HeldAnswer; machine: Machine }) {
   const { reload } = useProject();
   const tell = useTell();
-  const { file, numbers } = held;
+  const { file, said } = held;
   const write = async () => {
     await send("POST", "machine/numbers", { file, replaces: machine.numbers_digest });
     await reload();
@@ -39,17 +38,8 @@ function Question({ held, machine }: { held: HeldAnswer; machine: Machine }) {
       <h2>
         {subject(machine)} holds other numbers than {file}. Which hold?
       </h2>
-      <Table
-        names={["number", file, "the machine"]}
-        rows={numbers
-          .slice(0, SHOWN)
-          .map(({ name, number, unit, in_file, in_machine }) => [
-            name,
-            setting(number, in_file, unit),
-            setting(number, in_machine, unit),
-          ])}
-      />
-      {numbers.length > SHOWN && <p>and {numbers.length - SHOWN} more.</p>}
+      <Table names={["number", file, "the machine"]} rows={said.slice(0, SHOWN)} />
+      {said.length > SHOWN && <p>and {said.length - SHOWN} more.</p>}
       <p class="row">
         <Do disabled={blocked} work={() => tell("machine/settings")}>
           The machine's: take them into the folder

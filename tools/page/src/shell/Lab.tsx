@@ -6,11 +6,12 @@ import { Hands } from "./Hands";
 import { Header } from "./Header";
 import { Held } from "./Held";
 import { MachineBar } from "./MachineBar";
-import { MachineContext, useLiveMachine } from "./machine";
+import { type LiveMachine, MachineContext, useLiveMachine } from "./machine";
 import { Pair } from "./Pair";
 import { type Loaded, type Shared, useSharedProject } from "./project";
 import { Screen as Framed } from "./Screen";
 import { Shares } from "./Shares";
+import { StopFailed } from "./StopFailed";
 import { ROOMS, STEPS, type Step } from "./steps";
 import { Way, WayOn } from "./Way";
 
@@ -60,13 +61,20 @@ export function Lab() {
         <Header />
         <MachineBar live={live} />
         <Way project={shared.project} here={step.id} />
-        <Main step={step} shared={shared} loaded={loaded} />
+        <Main {...{ step, shared, loaded, live }} />
       </MachineContext.Provider>
     </Shares>
   );
 }
 
-function Main({ step, shared, loaded }: { step: Step; shared: Shared; loaded: Loaded }) {
+interface MainParts {
+  step: Step;
+  shared: Shared;
+  loaded: Loaded;
+  live: LiveMachine;
+}
+
+function Main({ step, shared, loaded, live }: MainParts) {
   const { project } = shared;
   const trouble = loaded.trouble || project.trouble;
   const missing = step.needs(project);
@@ -86,6 +94,7 @@ function Main({ step, shared, loaded }: { step: Step; shared: Shared; loaded: Lo
   return (
     <main ref={place} id="screen" tabIndex={-1}>
       <div class="above">
+        <StopFailed live={live} />
         <Trouble>{trouble}</Trouble>
         {isPhone && <Hands />}
         <Held />

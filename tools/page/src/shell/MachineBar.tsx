@@ -2,9 +2,8 @@
 // at the foot of a narrow one, near the thumb.
 import { useEffect, useState } from "preact/hooks";
 import { send } from "../api/client";
-import { namedLength } from "../controls/lengths";
 import { useDo } from "./doing";
-import { isReady, type LiveMachine, type Machine, subject } from "./machine";
+import { isReady, type LiveMachine, type Machine, placeWords, subject } from "./machine";
 import { Ports } from "./Ports";
 import type { Press } from "./presses";
 import { useProject } from "./project";
@@ -49,22 +48,31 @@ export function MachineBar({ live }: { live: LiveMachine }) {
         </p>
         {works && (
           <p class="presses row">
-            {!unseen && machine.holds && (
-              <button type="button" class={machine.waits_for ? "primary" : ""} onClick={goOn}>
+            {machine.holds ? (
+              <button
+                type="button"
+                class={machine.waits_for ? "primary" : ""}
+                disabled={unseen}
+                onClick={goOn}
+              >
                 Go on
               </button>
-            )}
-            {!unseen && !machine.holds && (
+            ) : (
               <button
                 type="button"
                 title="Also the key Escape"
+                disabled={unseen}
                 onClick={() => void presses.press("hold")}
               >
                 Hold
               </button>
             )}
-            <button type="button" class="stop" onClick={() => void presses.press("stop")}>
-              {unseen ? UNREACHABLE : "Stop"}
+            <button
+              type="button"
+              class={unseen ? "stop again" : "stop"}
+              onClick={() => void presses.press("stop")}
+            >
+              {unseen ? "Try Stop again" : "Stop"}
             </button>
           </p>
         )}
@@ -115,7 +123,10 @@ function pressWords({ way, state, line }: Press): string {
   const name = way === "stop" ? "Stop" : "Hold";
   if (state === "done") return `${name} was passed on to the machine.`;
   if (state === "refused") return `${name} was refused: ${line}.`;
-  return state === "unanswered" ? `Nobody answers ${name}; it is sent again and again.` : "";
+  // Of a stop that nobody answers the page itself speaks.
+  return state === "unanswered" && way === "hold"
+    ? "Nobody answers Hold; it is sent again and again."
+    : "";
 }
 
 function tone(machine: Machine): string {
@@ -145,8 +156,4 @@ function stateWords(machine: Machine): string {
   if (machine.moves) return `${name} moves`;
   if (!machine.knows_place) return `${name} does not know its place`;
   return isReady(machine) ? `${name} stands` : `${name} works`;
-}
-
-function placeWords([x, y, z]: readonly [number, number, number], unit: "mm" | "inch"): string {
-  return ` x ${namedLength(x, unit)}, y ${namedLength(y, unit)}, z ${namedLength(z, unit)}`;
 }

@@ -13,6 +13,7 @@ interface WayParts {
 interface PlaceParts extends WayParts {
   step: Step;
   number?: number;
+  isDone?: boolean;
   form: Form | undefined;
   chosen: () => void;
 }
@@ -29,6 +30,8 @@ export function Way({ project, here }: WayParts) {
     project.machine ? () => get<Form>("readings?file=") : undefined,
     JSON.stringify(project.files),
   );
+  // Whatever comes before a step that is done is done too.
+  const done = STEPS.findLastIndex((step) => step.isDone?.(project, form));
   const shared = { project, here, form, chosen: fold };
   return (
     <nav aria-label="Steps" class={open ? "open" : ""}>
@@ -39,7 +42,13 @@ export function Way({ project, here }: WayParts) {
       <div class="links">
         <ol class="plain">
           {STEPS.map((step, index) => (
-            <Place key={step.id} {...shared} step={step} number={index + 1} />
+            <Place
+              key={step.id}
+              {...shared}
+              step={step}
+              number={index + 1}
+              isDone={index <= done}
+            />
           ))}
         </ol>
         <ul class="plain">
@@ -52,12 +61,20 @@ export function Way({ project, here }: WayParts) {
   );
 }
 
-function Place({ step, project, here, number, form, chosen }: PlaceParts) {
+function Place({ step, project, here, number, isDone, form, chosen }: PlaceParts) {
   const missing = step.needs(project);
   const result = step.result?.(project, form);
   const words = (
     <>
-      {number && <b>{number}</b>} {step.title}
+      {isDone ? (
+        <b class="done" aria-hidden="true">
+          ✓
+        </b>
+      ) : (
+        number && <b>{number}</b>
+      )}{" "}
+      {step.title}
+      {isDone && <span class="spoken">, done</span>}
     </>
   );
   return (

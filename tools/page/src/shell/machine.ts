@@ -2,6 +2,7 @@
 import { createContext } from "preact";
 import { useContext, useEffect, useMemo, useState } from "preact/hooks";
 import { isSilence, type Schemas } from "../api/client";
+import { namedLength, shownLength, type Unit } from "../controls/lengths";
 import { Live } from "./live";
 import { type Press, Presses } from "./presses";
 
@@ -51,6 +52,11 @@ export function isConnected({ kind, phase }: Machine): boolean {
 /** Its name with a capital letter. */
 export function subject(machine: Machine): string {
   return machine.kind === "virtual" ? "The virtual machine" : "The machine";
+}
+
+/** Where its sled is. */
+export function placeWords([x, y, z]: readonly [number, number, number], unit: Unit): string {
+  return ` x ${shownLength(x, unit)}, y ${shownLength(y, unit)}, z ${namedLength(z, unit)}`;
 }
 
 /** What the frame knows of the machine, and how it is stopped. */

@@ -7,6 +7,8 @@ export interface Press {
   state: "sent" | "unanswered" | "done" | "refused";
   /** Why it was refused. */
   line: string;
+  at: number; // [ms] when it was pressed
+  tries: number;
 }
 
 export interface Channel {
@@ -32,11 +34,14 @@ export class Presses {
   async press(way: Way): Promise<void> {
     this.newest += 1;
     const turn = this.newest;
+    const at = Date.now();
+    let tries = 0;
     const hear = (state: Press["state"], line = "") => {
-      if (turn === this.newest) this.hear({ way, state, line });
+      if (turn === this.newest) this.hear({ way, state, line, at, tries });
     };
     hear("sent");
     while (turn === this.newest) {
+      tries += 1;
       try {
         await this.channel.press(way);
         return hear("done");

@@ -23,6 +23,8 @@ export interface Step {
   Screen: ComponentType;
   /** Its result in a word or two; may be empty. */
   result?: (project: Project, form: Form | undefined) => string;
+  /** Whether it has been done, as the folder shows it. */
+  isDone?: (project: Project, form: Form | undefined) => boolean;
   /** What is missing before this screen opens, in a few words; empty if nothing. */
   needs: (project: Project) => string;
 }
@@ -32,22 +34,46 @@ const settings = (project: Project) => (project.machine ? "" : "open a machine f
 const marks = (project: Project) =>
   settings(project) || (project.choices.marks?.length ? "" : "type readings first");
 
-const opened = (project: Project) => (project.machine ? "✓" : "");
 const known = ({ choices }: Project) => counted(Object.keys(choices.known ?? {}).length);
 const accepted = ({ choices }: Project) => counted(choices.accepted?.length ?? 0);
 const read = (_: Project, form: Form | undefined) =>
   form?.marks.length ? `${form.marks.filter((mark) => mark.read).length}/${form.marks.length}` : "";
 const counted = (count: number) => (count > 0 ? String(count) : "");
 
+const isOpened = (project: Project) => project.machine !== null;
+const isPlanned = (_: Project, form: Form | undefined) => !!form?.marks.length;
+const isCut = (_: Project, form: Form | undefined) =>
+  !!form && (form.marks.some((mark) => mark.read) || form.distances.length > 0);
+const isRead = (_: Project, form: Form | undefined) =>
+  !!form?.marks.length &&
+  (form.spans.length > 0
+    ? form.distances.length >= form.spans.length
+    : form.marks.every((mark) => mark.read));
+const isCorrected = ({ choices }: Project) => !!choices.settings_before?.length;
+
 export const STEPS: Step[] = [
-  { id: "open", title: "Machine", Screen: Open, needs: nothing, result: opened },
+  { id: "open", title: "Machine", Screen: Open, needs: nothing, isDone: isOpened },
   { id: "known", title: "What you know", Screen: Known, needs: settings, result: known },
   { id: "reach", title: "Reach", Screen: Reach, needs: settings },
-  { id: "measure", title: "Choose marks", Screen: Measure, needs: settings },
-  { id: "cut", title: "Cut", Screen: Cut, needs: settings },
-  { id: "readings", title: "Readings", Screen: Readings, needs: settings, result: read },
+  { id: "measure", title: "Choose marks", Screen: Measure, needs: settings, isDone: isPlanned },
+  { id: "cut", title: "Cut", Screen: Cut, needs: settings, isDone: isCut },
+  {
+    id: "readings",
+    title: "Readings",
+    Screen: Readings,
+    needs: settings,
+    result: read,
+    isDone: isRead,
+  },
   { id: "verdict", title: "Verdict", Screen: Verdict, needs: marks },
-  { id: "correct", title: "Correct", Screen: Correct, needs: marks, result: accepted },
+  {
+    id: "correct",
+    title: "Correct",
+    Screen: Correct,
+    needs: marks,
+    result: accepted,
+    isDone: isCorrected,
+  },
   { id: "check", title: "Check", Screen: Check, needs: marks },
   { id: "diary", title: "Diary", Screen: Diary, needs: nothing },
 ];

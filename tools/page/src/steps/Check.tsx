@@ -15,7 +15,7 @@ import { OffTarget } from "./check/OffTarget";
 import { Promised } from "./check/Promised";
 import { Refused } from "./correct/Refused";
 import { useWriting } from "./correct/useWriting";
-import { brokenWords, useGoOn } from "./cut/GoOn";
+import { useGoOn } from "./cut/GoOn";
 
 export type CheckAnswer = Schemas["CheckAnswer"];
 
@@ -96,9 +96,7 @@ function OpenCheck({ answer }: { answer: CheckAnswer }) {
           Where ({units} from your edges): {places.join(" and ")}.
         </p>
       )}
-      {answer.broke_off != null && (
-        <p role="status">{brokenWords(answer.broke_off, answer.perhaps, names)}</p>
-      )}
+      {answer.broke_off != null && <p role="status">{answer.broke_said}</p>}
       {next === "go on" && whichIsLast}
       <p class="row">
         {next === "go on" && cut}

@@ -10,7 +10,6 @@ import { useChoosing } from "../shell/kept";
 import { useProject } from "../shell/project";
 import { Screen } from "../shell/Screen";
 import { useHeld } from "../shell/useHeld";
-import { asked } from "./correct/asked";
 import { CorrectMap } from "./correct/CorrectMap";
 import { GoBack } from "./correct/GoBack";
 import { Numbers } from "./correct/Numbers";
@@ -82,12 +81,12 @@ function useCurrent({ answer, made }: Parts): boolean {
 
 /** Which numbers are accepted and written. */
 function Question(parts: Parts) {
-  const { answer, made, writing } = parts;
+  const { answer, made, writing, isHeld } = parts;
   const { accepted = [] } = useProject().project.choices;
   const current = useCurrent(parts);
   const known = useKnown();
   const count = made.numbers.filter((number) => accepted.includes(number.name)).length;
-  const isAsked = asked(made, accepted).length > 0;
+  const isAsked = made.asked.length > 0;
   return (
     <Screen
       title={isAsked ? "What would change?" : "Nothing would change"}
@@ -130,7 +129,7 @@ function Question(parts: Parts) {
         <GoBack writing={writing} />
         {writing.notWritten}
       </p>
-      <ToMachine writing={writing} isNext={false} isHeld={parts.isHeld} />
+      <ToMachine {...{ writing, isHeld }} isNext={false} last={answer.last_sent} />
     </Screen>
   );
 }
@@ -154,7 +153,7 @@ function Written(parts: Parts) {
       fieldsFirst
       act={
         <>
-          <ToSend writing={writing} isNext isHeld={isHeld} />
+          <ToSend {...{ writing, isHeld }} isNext last={answer.last_sent} />
           {writing.notSent}
         </>
       }
@@ -165,9 +164,9 @@ function Written(parts: Parts) {
         </p>
       )}
       <Fall from={null} to={current ? made.as_set : null} busy={!current} />
-      <ToMachine writing={writing} isNext isHeld={isHeld} />
+      <ToMachine {...{ writing, isHeld }} isNext last={answer.last_sent} />
       {current && made.cures.length > 0 && <ByHand title="By hand" said={made.cures} />}
-      {current && asked(made, []).length > 0 && (
+      {current && made.asked.length > 0 && (
         <details>
           <summary>What would still change</summary>
           <Numbers made={made} busy={false} />

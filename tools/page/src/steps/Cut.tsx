@@ -21,7 +21,7 @@ import "./cut/cut.css";
 
 export type Grid = Schemas["GridAnswer"];
 
-const CUTS = "Stay at the machine. Hold waits where the sled is; Stop gives up.";
+const CUTS = "Stay beside it. Hold pauses; Stop gives up.";
 const CHOSEN =
   "Router off, hands and hoses away from the chains, the bit just above the wood. The sled moves over the whole sheet; the bit touches each mark 0.5 mm deep.";
 const PROPOSED =
@@ -72,7 +72,7 @@ function OpenCut({ grid }: { grid: Grid }) {
       why={<Why />}
       command={grid.command}
       stage={<CutMap grid={grid} />}
-      fieldsFirst={next === "chains" || (next === "go on" && grid.perhaps > 0)}
+      fieldsFirst={runs || next === "chains" || (next === "go on" && grid.perhaps > 0)}
       act={acts[next]}
     >
       <Trouble>{grid.trouble}</Trouble>
@@ -101,7 +101,7 @@ function nextOf(grid: Grid, machine: Machine): Next {
 
 function running({ waits_for, unseen }: Machine): string {
   if (unseen > 0) return "Nobody sees the machine";
-  return waits_for ? "The machine waits for you" : "The machine cuts";
+  return waits_for ? "The machine waits for you" : "The machine is cutting";
 }
 
 function whileRunning({ waits_for, unseen }: Machine): string {

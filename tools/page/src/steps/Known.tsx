@@ -1,12 +1,11 @@
 // Step 2: what you can measure without marks: a drawing with the distance, a number, and its uncertainty.
-import { useRef, useState } from "preact/hooks";
-import type { Choices, Schemas } from "../api/client";
+import { useState } from "preact/hooks";
+import type { Schemas } from "../api/client";
 import { type Distance, MachinePicture } from "../machine/MachinePicture";
 import { useNewest } from "../shell/newest";
 import { useProject } from "../shell/project";
 import { Screen } from "../shell/Screen";
 import { KnownNumber } from "./known/KnownNumber";
-import { numberOf, type Value, withKnown } from "./known/values";
 import "./known/known.css";
 
 type Answer = Schemas["KnownAnswer"];
@@ -20,38 +19,28 @@ function numberInAddress(): string {
 }
 
 export function Known() {
-  const { project, choose } = useProject();
+  const { project } = useProject();
   const [here, setHere] = useState(() => numberInAddress() || FIRST);
   const answer = useNewest<Answer>("known", project.choices_digest);
-  const known: NonNullable<Choices["known"]> = project.choices.known ?? {};
   const numbers = answer?.numbers ?? [];
-  // A measurement takes a moment, in which another number may be typed.
-  const newest = useRef(known);
-  newest.current = known;
   const shown = numbers.find((number) => number.name === here) ?? numbers[0];
   if (!project.machine || !shown)
     return <Screen title="What do you know already?" say="One moment …" busy />;
-  const keep = (number: Number, value: Value | undefined) => {
-    const usual = numberOf(number, { value: number.believed ?? number.zero, sigma: 0 }).value;
-    void choose({ known: withKnown(newest.current, numbers, { name: number.name, value, usual }) });
-  };
   const list = (some: Number[]) => (
     <ul class="known tiles plain">
       {some.map((number) => (
         <KnownNumber
           key={number.name}
           number={number}
-          known={known[number.name]}
           here={shown.name === number.name}
           wanted={numberInAddress() === number.name}
           look={() => setHere(number.name)}
-          keep={(value) => keep(number, value)}
         />
       ))}
     </ul>
   );
   const more = numbers.filter((number) => !number.is_first);
-  const stated = more.filter((number) => known[number.name]).length;
+  const stated = more.filter((number) => number.stated).length;
   return (
     <Screen
       title="What do you know already?"

@@ -1,34 +1,33 @@
 // Step 4: choose how to measure, and see what the marks could tell before a hole is cut.
-import { send } from "../api/client";
+import { type Schemas, send } from "../api/client";
 import { Trouble } from "../controls/Trouble";
 import { useAsked } from "../shell/asked";
 import { useNewest } from "../shell/newest";
 import { useProject } from "../shell/project";
 import { Screen } from "../shell/Screen";
 import { EffectList } from "./measure/EffectList";
-import { Layouts } from "./measure/Layouts";
-import { MarksMap } from "./measure/MarksMap";
-import type { Layout, Place } from "./measure/plan";
+import { type LayoutId, Layouts } from "./measure/Layouts";
+import { MarksMap, type Place } from "./measure/MarksMap";
 
 const MOMENT_MS = 250; // after a plan was changed
 
 export function Measure() {
   const { project, choose } = useProject();
   const { settings = "" } = project.choices;
-  const layouts = useNewest<Layout.Layout[]>(settings && "layouts", settings) ?? [];
-  const advice = useNewest<Layout.Advice>(settings && "layouts/advice", settings);
+  const layouts = useNewest<Schemas["LayoutAnswer"][]>(settings && "layouts", settings) ?? [];
+  const advice = useNewest<Schemas["AdviceAnswer"]>(settings && "layouts/advice", settings);
   const saved: Place[] = project.choices.planned ?? [];
   const id = project.choices.layout ?? "nine";
   const chosen = layouts.find((layout) => layout.id === id);
   const places = id === "own" ? saved : (chosen?.places ?? []);
   const asked = { layout: id, places: id === "own" ? places : [] };
-  const preview = () => send<Layout.Plan>("POST", "preview", asked);
+  const preview = () => send<Schemas["PlanAnswer"]>("POST", "preview", asked);
   const state = JSON.stringify([asked, settings]);
   const { answer: plan, refused, looking } = useAsked(preview, state, MOMENT_MS);
   if (layouts.length === 0 || !project.machine)
     return <Screen title="Which marks?" say="One moment …" busy />;
   const keep = (planned: Place[]) => void choose({ layout: "own", planned, proposed: "" });
-  const take = (layout: Layout.Id) => {
+  const take = (layout: LayoutId) => {
     const planned = layout === "own" && saved.length === 0 ? places : saved;
     void choose({ layout, planned, proposed: "" });
   };
@@ -87,14 +86,20 @@ export function Measure() {
       {plan && (
         <>
           <Sum plan={plan} looking={looking} />
-          <EffectList plan={plan} />
+          <EffectList causes={plan.causes} />
         </>
       )}
     </Screen>
   );
 }
 
-function Sum({ plan: { minutes, preview }, looking }: { plan: Layout.Plan; looking: boolean }) {
+function Sum({
+  plan: { minutes, preview },
+  looking,
+}: {
+  plan: Schemas["PlanAnswer"];
+  looking: boolean;
+}) {
   return (
     <p class="sum" role="status" aria-busy={looking}>
       <strong>About {Math.round(minutes)} minutes.</strong> Of {preview.outlines.length} causes in

@@ -53,7 +53,7 @@ export function Reach() {
   );
 }
 
-function Places({ reach, sheet }: { reach: Answer; sheet: readonly [number, number] }) {
+export function Places({ reach, sheet }: { reach: Answer; sheet: readonly [number, number] }) {
   const { at, px } = useScale();
   const columns = reach.map[0]?.length ?? 1;
   const [wide, high] = [sheet[0] / columns, sheet[1] / reach.map.length];

@@ -11,6 +11,7 @@ import { ReadAgain } from "../readings/ReadAgain";
 import { ReadingsMap } from "../readings/ReadingsMap";
 import { Spans } from "../readings/Spans";
 import { Tape } from "../readings/Tape";
+import { TapeAt } from "../readings/TapeAt";
 import { useDoubts } from "../readings/useDoubts";
 import { useReadings } from "../readings/useReadings";
 import { Screen } from "../shell/Screen";
@@ -25,7 +26,7 @@ const TAPED =
 export function Readings() {
   const units = useUnits();
   const readings = useReadings();
-  const { doubts, looking, refused } = useDoubts(readings.form);
+  const { doubts, others, looking, refused } = useDoubts(readings.form);
   const { form } = readings;
   if (!form) return <Screen title="What does the tape say?" say="One moment …" busy />;
   const read = form.marks.filter((mark) => mark.read).length;
@@ -41,7 +42,12 @@ export function Readings() {
       why={<Why />}
       command={form.command}
       stage={
-        form.marks.length > 0 && <ReadingsMap form={form} doubted={doubted} pick={readings.pick} />
+        form.marks.length > 0 && (
+          <>
+            <ReadingsMap form={form} doubted={doubted} open={readings.open} pick={readings.pick} />
+            <TapeAt form={form} open={readings.open} others={others} />
+          </>
+        )
       }
       fieldsFirst
       act={read >= LEAST && <ToVerdict read={read} all={form.marks.length} />}

@@ -4,7 +4,9 @@ import { useRef, useState } from "preact/hooks";
 import { isReport } from "../api/answers";
 import type { Schemas } from "../api/client";
 import { Progress } from "../controls/Progress";
+import { Table } from "../controls/Table";
 import { useUnits } from "../controls/units";
+import { capital } from "../controls/words";
 import { Residuals } from "../residuals/Residuals";
 import { useDrawn } from "../residuals/useDrawn";
 import { useAnswer } from "../shell/answer";
@@ -104,11 +106,6 @@ export function Verdict() {
           {verdict.slips.map((slip) => (
             <li key={slip}>{slip}</li>
           ))}
-          {!isReport && (
-            <li>
-              <a href="#/readings">Look at the readings</a>
-            </li>
-          )}
         </ul>
       )}
       {verdict.reach && <p class="trouble">{verdict.reach}.</p>}
@@ -135,6 +132,21 @@ export function Verdict() {
             />
           ))}
           {verdict.more_cards > 0 && <p>{verdict.more_cards} more are less likely.</p>}
+          {verdict.ruled_out.map(({ noun, why }) => (
+            <article key={noun} class="card">
+              <div class="head">
+                <h3>{capital(noun)}</h3>
+                <b class="wrong">no</b>
+              </div>
+              <small>{capital(why)}</small>
+            </article>
+          ))}
+        </section>
+      )}
+      {verdict.sureness.length > 0 && (
+        <section>
+          <h2>How sure is that?</h2>
+          <Table class="wide change" rows={verdict.sureness} />
         </section>
       )}
       <UnseenCauses verdict={verdict} units={units} />

@@ -43,12 +43,26 @@ from plumb.lab.rounds import (
 from plumb.lab.routes.project import ProjectAnswer, TheProject, of_lab, show
 from plumb.model.catalogue import every_effect, parameter_words
 from plumb.model.plain import noun_of, plain_size, plainly
+from plumb.model.predict import Array
 from plumb.text.answers import like
 from plumb.text.errors import InputError
 
 router = APIRouter(tags=["bench"])
 NEW_MACHINE = "new.toml"
 MOST_EFFECTS = 32
+# What errors may depend on, in the order of the plots: most effects are a curve against the first.
+TITLES = {
+    "tension": "chain tension",
+    "length": "chain length",
+    "x": "x on the sheet",
+    "y": "y on the sheet",
+    "angle": "chain angle",
+    "wrap": "chain on sprocket",
+    "phase": "sprocket turn",
+    "order": "order of cutting",
+    "approach": "last move",
+}
+SAME = 1e-3  # of what differs less between marks errors do not depend
 
 
 class BenchParameter(BaseModel):
@@ -76,8 +90,10 @@ class BenchCovariate(BaseModel):
     """A covariate of the chains' errors, left and right for each mark."""
 
     name: str
+    title: str
     unit: str
     values: list[Ends]
+    same: str  # that it is the same for all marks, in words; empty: errors may depend on it
 
 
 class BenchAnswer(BaseModel):
@@ -305,18 +321,30 @@ def _parameter(name: str, warm: WarmBoard) -> BenchParameter:
 
 def covariates_of(warm: WarmBoard) -> list[BenchCovariate]:
     """Return what errors of the chains may depend on, for all marks."""
-    return [_covariate(each, warm.doubts.marks) for each in warm.view.covariates]
+    by_name = {each.name: each for each in warm.view.covariates}
+    return [_covariate(by_name[name], warm.doubts.marks) for name in TITLES]
 
 
 def _covariate(covariate: Covariate, doubted: Collection[int]) -> BenchCovariate:
     is_angle = covariate.unit == "rad"
     values = np.degrees(covariate.values) if is_angle else covariate.values
+    unit = "°" if is_angle else covariate.unit
     return like(
         BenchCovariate,
         covariate,
-        unit="°" if is_angle else covariate.unit,
+        title=TITLES[covariate.name],
+        unit=unit,
         values=among_all(ends(values), doubted, NO_ENDS),
+        same=_same(TITLES[covariate.name], values[np.isfinite(values)], unit),
     )
+
+
+def _same(title: str, known: Array, unit: str) -> str:
+    """Return that something is the same for all marks; empty: errors may depend on it."""
+    if not known.size:
+        return f"{title} is not known"
+    is_same = np.ptp(known) < SAME
+    return f"{title} is {known[0]:.5g} {unit} for all marks".replace("  ", " ") if is_same else ""
 
 
 def _sizes(fitted: Fit, chosen: Chosen) -> dict[str, BenchSize]:

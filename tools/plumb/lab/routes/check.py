@@ -97,7 +97,8 @@ def show_check(project: TheProject, line: TheLine) -> CheckAnswer:
     places = _places(project, choices, form) if is_saved else of_plan
     corner, sheet = choices.edges, inputs.settings.sheet
     checked = None if trouble or not is_saved else _checked(project, inputs, form)
-    far = HowFar() if checked else how_far(project, line, file, _text(project, file))
+    names = [str(number) for number in range(1, len(places) + 1)]
+    far = HowFar() if checked else how_far(project, line, file, _text(project, file), names)
     return CheckAnswer(
         **vars(far),
         trouble=trouble,

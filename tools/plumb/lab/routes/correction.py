@@ -1,5 +1,6 @@
 """The correction: each number before and after, accepted one by one, written, and taken back."""
 
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import partial
@@ -37,6 +38,7 @@ from plumb.text.errors import InputError
 router = APIRouter(tags=["correction"])
 CLIENT_OF = {Path(file).suffix: client for client, file in CLIENT_FILES.items()}
 NO_CLIENT = "none"
+KEPT = re.compile(r"(.+)-before-(\d{4}-\d{2}-\d{2}-\d{6})\.nc")  # numbers of a machine
 WRITTEN = (".toml", ".nc", *(f"-{file}" for file in CLIENT_FILES.values()))  # by a correction
 
 
@@ -60,7 +62,8 @@ class CorrectionParts(BaseModel):
     nothing: str = ""  # a heading where no number is to be changed
     instead: NextStep | None = None  # and where to go on then
     numbers: list[ChangedNumber] = []
-    with_accepted: list[ChangedNumber] = []  # fitted with all others held as they are
+    # Those that would change, or are accepted, as they become with what is accepted.
+    asked: list[ChangedNumber] = []
     stops: list[str] = []  # reasons not to use the numbers
     cures: list[str] = []  # for what no setting holds
     warnings: list[str] = []  # what else is to be known, the heaviest first
@@ -81,6 +84,7 @@ class CorrectionAnswer(BaseModel):
     share: float
     correction: CorrectionParts | None
     file: str  # that would be written
+    last_sent: str  # whose numbers from before it the folder keeps; empty if there is none
     command: str
 
 
@@ -123,8 +127,17 @@ def show_correction(project: TheProject, background: TheBackground) -> Correctio
         share=answer.share,
         correction=answer.result,
         file=file,
+        last_sent=_last_sent(project),
         command=command("add", *board_words(project), *unit, *add, *client, "-o", file),
     )
+
+
+def _last_sent(project: Project) -> str:
+    """Return the file that was sent last, if the folder keeps what the machine held before it."""
+    kept = [match for name in project.names() if (match := KEPT.fullmatch(name))]
+    last = max(kept, key=lambda match: match[2], default=None)
+    file = f"{last[1]}.toml" if last else ""
+    return file if file in project.names() else ""
 
 
 def correction_of(inputs: Inputs, decision: Decision, choices: Choices) -> CorrectionParts:
@@ -213,15 +226,18 @@ def _parts(
     made: Correction, decision: Decision, choices: Choices, *, is_written: bool
 ) -> CorrectionParts:
     whole, some = made.whole, made.accepted
-    accepted = [number for number in some.parameters if has_setting(number.name)] if some else []
+    numbers = [_number(number, choices) for number in made.numbers]
+    fitted = some.parameters if some else ()
+    again = {each.name: _number(each, choices) for each in fitted if has_setting(each.name)}
+    asked = [again.get(number.name, number) for number in numbers]
     noise = decision.diagnosis.noise
     left = partial(fitted_state, view=BoardView(LiveBoard(decision.inputs, noise=noise)))
     notes = (some or whole).notes
     return CorrectionParts(
         said=decision.headline,
         reasons=list(decision.said),
-        numbers=[_number(number, choices) for number in made.numbers],
-        with_accepted=[_number(number, choices) for number in accepted],
+        numbers=numbers,
+        asked=[each for each in asked if each.before != each.after or each.is_accepted],
         stops=[note.text for note in notes if note.weight == "stop"],
         cures=list(whole.by_hand),
         warnings=[note.text for note in notes if note.weight in ("doubt", "hint")],

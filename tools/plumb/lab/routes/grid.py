@@ -8,6 +8,7 @@ from fastapi import APIRouter, Body
 from pydantic import BaseModel
 
 from plumb.grid import program, touches_of
+from plumb.job.time_left import timetable
 from plumb.lab.broken_cut import (
     HowFar,
     OnSheet,
@@ -44,6 +45,7 @@ from plumb.lab.routes.machine import MachineAnswer, machine
 from plumb.lab.routes.project import ProjectAnswer, TheProject, show
 from plumb.lab.routes.readings import CHECK
 from plumb.line.progress import Wait
+from plumb.line.sender import cleaned
 from plumb.marks.form import BLANK, read_form, with_distances
 from plumb.model.predict import known_effects
 from plumb.plan.options import HANGING, MARK, ROUND
@@ -79,6 +81,8 @@ class GridAnswer(HowFar):
     sheet_rise: float = 0.0  # [mm] by which the next sheet's right end is raised, as the fit says
     is_proposed: bool = False  # somebody took them from the verdict; they go onto the sheet before
     pauses: tuple[Wait, ...] = ()  # where the program waits for somebody
+    # [min] from the start until so many lines are done; empty without a machine's numbers
+    done_at: tuple[float, ...] = ()
 
 
 @router.get("/grid")
@@ -87,11 +91,21 @@ def show_grid(project: TheProject, line: TheLine) -> GridAnswer:
     off.
     """
     answer = _shown(project)
-    far = how_far(project, line, answer.program, answer.text)
+    names = [mark.name for mark in answer.marks]
+    far = how_far(project, line, answer.program, answer.text, names)
     # What is to be done in a pause is asked again; nobody is to swap chains back by that.
     taken = taken_marks(project, project.choices)
     goes_on = far.goes_on and not (taken and (taken.swaps_chains or _pauses_between(answer)))
-    return answer.model_copy(update={**vars(far), "goes_on": goes_on})
+    done_at = _done_at(line, answer.text)
+    return answer.model_copy(update={**vars(far), "goes_on": goes_on, "done_at": done_at})
+
+
+def _done_at(line: MachineLine, text: str) -> tuple[float, ...]:
+    """Return when the lines of a program are done, as the connected machine runs it dry."""
+    numbers, place = line.state.numbers, line.state.place or (0.0, 0.0, 5.0)
+    lines = list(cleaned(text.splitlines()))
+    times = timetable(numbers, lines, place) if numbers and lines else None
+    return tuple(round(float(seconds) / 60, 2) for seconds in times.done_at) if times else ()
 
 
 def _pauses_between(answer: GridAnswer) -> bool:

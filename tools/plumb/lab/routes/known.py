@@ -3,14 +3,14 @@
 from typing import Annotated
 
 from fastapi import APIRouter, Body
-from pydantic import BaseModel
+from pydantic import BaseModel, FiniteFloat, PositiveFloat
 
 from plumb.firmware.settings import Difference
-from plumb.lab.known import KnownNumber, known_numbers, number_checks
+from plumb.lab.known import KnownNumber, known_numbers, number_checks, with_known
 from plumb.lab.machine_line import TheLine, held_otherwise, is_fit_of_machine
-from plumb.lab.project import Number
+from plumb.lab.project import Number, save_choices
 from plumb.lab.rounds import command, known_words, opened, unit_words
-from plumb.lab.routes.project import TheProject
+from plumb.lab.routes.project import ProjectAnswer, TheProject, show
 from plumb.plan.case import PlannedCheck
 from plumb.text.errors import InputError
 from plumb.text.values import refuse_unknown
@@ -38,8 +38,32 @@ def show_known(project: TheProject) -> KnownAnswer:
     )
 
 
+class KnownReading(BaseModel):
+    """What somebody read for a number; None: it is not known any more."""
+
+    name: str
+    read: FiniteFloat | None
+    within: PositiveFloat  # how far that may be off
+
+
+@router.post("/known")
+def keep_known(reading: KnownReading, project: TheProject) -> ProjectAnswer:
+    """Keep what is known of a number, or forget it."""
+    settings, stated = opened(project), None
+    numbers = {each.name: each for each in known_numbers(settings, project.choices)}
+    refuse_unknown([reading.name], numbers)
+    if reading.read is not None:
+        number = numbers[reading.name]
+        sigma = number.value_within(reading.read, reading.within)
+        stated = Number(value=number.value(reading.read), sigma=sigma)
+    save_choices(project, lambda now: with_known(now, settings, reading.name, stated))
+    return show(project)
+
+
 @router.post("/known/measured")
-def measure(name: Annotated[str, Body(embed=True)], project: TheProject, line: TheLine) -> Number:
+def measure(
+    name: Annotated[str, Body(embed=True)], project: TheProject, line: TheLine
+) -> ProjectAnswer:
     """Let the owner of the virtual machine measure a number of it, as well as a careful reading."""
     owner = line.virtual
     if owner is None:
@@ -48,7 +72,9 @@ def measure(name: Annotated[str, Body(embed=True)], project: TheProject, line: T
     refuse_unknown([name], checks)
     sigma = checks[name].sigmas[name.rpartition(".")[2]]
     (checked,) = owner.check([PlannedCheck(name, sigma)])
-    return Number(value=checked.value, sigma=checked.sigma)
+    stated = Number(value=checked.value, sigma=checked.sigma)
+    save_choices(project, lambda now: with_known(now, opened(project), name, stated))
+    return show(project)
 
 
 # Which numbers of the connected machine are not those of the open settings.
@@ -59,6 +85,7 @@ class HeldAnswer(BaseModel):
 
     file: str
     numbers: tuple[Difference, ...]
+    said: list[tuple[str, str, str]]  # each with its name, in the file and in the machine
     is_fit: bool  # the file was fitted to marks that the machine cut with what it holds
     is_written_here: bool  # the file's numbers can be written from here; a client sends others
 
@@ -66,10 +93,11 @@ class HeldAnswer(BaseModel):
 @router.get("/machine/held")
 def show_held(project: TheProject, line: TheLine) -> HeldAnswer:
     """Compare what the machine last listed with the open settings."""
-    choices = project.choices
+    choices, numbers = project.choices, held_otherwise(project, line)
     return HeldAnswer(
         file=choices.settings,
-        numbers=held_otherwise(project, line),
+        numbers=numbers,
+        said=[number.said for number in numbers],
         is_fit=is_fit_of_machine(project, line),
         is_written_here=choices.settings.endswith(".toml"),
     )

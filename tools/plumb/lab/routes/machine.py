@@ -15,7 +15,13 @@ from pydantic import BaseModel, Field, TypeAdapter
 
 from plumb.diary.file import write_and_keep
 from plumb.firmware.hex_file import program_in
-from plumb.firmware.settings import called, digest_of_numbers, machine_of_numbers
+from plumb.firmware.settings import (
+    called,
+    digest_of_numbers,
+    machine_of_numbers,
+    number_said,
+    setting_said,
+)
 from plumb.job.dry_run import refuse_what_is_no_program
 from plumb.lab.broken_cut import end_virtual
 from plumb.lab.guard import PROTOCOL
@@ -86,6 +92,7 @@ class NumberChange(BaseModel):
     unit: str
     before: float
     after: float
+    said: str
 
 
 class NumbersAnswer(BaseModel):
@@ -255,7 +262,14 @@ def _written(
     for number, (before, after) in written.changed.items():
         name, unit = called(number)
         changed.append(
-            NumberChange(number=number, name=name, unit=unit, before=before, after=after)
+            NumberChange(
+                number=number,
+                name=name,
+                unit=unit,
+                before=before,
+                after=after,
+                said=f"{setting_said(number, after, unit)}, was {number_said(before)}",
+            )
         )
     return NumbersAnswer(changed=changed, back=back, kept=Path(kept).name, failure=failure)
 

@@ -25,7 +25,7 @@ from plumb.lab.rounds import (
 )
 from plumb.lab.routes.project import TheProject
 from plumb.marks.model import tape_sigma
-from plumb.plan.preview import Preview, as_read, preview
+from plumb.plan.preview import Outline, Preview, as_read, preview
 from plumb.plan.sheet_reach import SheetReach, reach_of
 from plumb.settings.machine import MachineSettings
 from plumb.text.errors import InputError
@@ -34,6 +34,7 @@ from plumb.text.values import worded
 router = APIRouter(tags=["plan"])
 MOST_MARKS = 400
 MOST_SEEN = 64  # plans that are kept
+MOST_ALIKE = 2  # effects that a cause may be taken for, by name
 
 
 class LayoutAnswer(BaseModel):
@@ -62,10 +63,19 @@ class PlanRequest(BaseModel):
     places: list[tuple[float, float]] = Field(default=[], max_length=MOST_MARKS)
 
 
+class PlannedCause(BaseModel):
+    """An effect under a plan: whether it would be found and named, in a sign and in words."""
+
+    noun: str
+    sign: str
+    words: str
+
+
 class PlanAnswer(BaseModel):
     """Power of a plan to show and to name effects."""
 
     preview: Preview
+    causes: list[PlannedCause]
     minutes: float
     trouble: str  # why the sled cannot take this way; empty if it can
     command: str
@@ -170,12 +180,30 @@ def preview_plan(request: PlanRequest, project: TheProject) -> PlanAnswer:
     choices = project.choices
     plan = planned(settings, request.layout, request.places)
     form, file = next_names(project)
+    seen = DESK.look(settings, choices, request)
     return PlanAnswer(
-        preview=DESK.look(settings, choices, request),
+        preview=seen,
+        causes=[_cause(outline, seen) for outline in seen.outlines],
         minutes=plan.minutes,
         trouble=_trouble(settings, request),
         command=grid_command(project, possible(choices, settings), plan, form=form, program=file),
     )
+
+
+def _cause(outline: Outline, seen: Preview) -> PlannedCause:
+    nouns = {each.effect: each.noun for each in seen.outlines}
+    others = [nouns[name] for name in outline.alike if name in nouns]
+    if not outline.is_seen:
+        sign, words = "○", "would stay hidden in its usual size"
+    elif outline.is_distinct:
+        sign, words = "●", "would be found and named"
+    elif others:
+        more = f" and {len(others) - MOST_ALIKE} more" if len(others) > MOST_ALIKE else ""
+        alike = ", ".join(others[:MOST_ALIKE])
+        sign, words = "◐", f"would show, but may be taken for {alike}{more}"
+    else:
+        sign, words = "◐", "would show, but is not always told apart"
+    return PlannedCause(noun=outline.noun, sign=sign, words=words)
 
 
 @router.get("/reach")

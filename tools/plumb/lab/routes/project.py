@@ -11,7 +11,7 @@ from typing import Annotated, TypeVar
 from fastapi import APIRouter, Depends, Request, UploadFile
 from pydantic import BaseModel
 
-from plumb.diagnosis.readings import Doubted, doubted_readings
+from plumb.diagnosis.readings import Doubted, OthersSay, look_over
 from plumb.fit.inputs import Inputs, settings_in
 from plumb.lab.known import refuse_absurd_known, stated
 from plumb.lab.project import (
@@ -176,11 +176,14 @@ class DoubtsAnswer(BaseModel):
     file: str
     digest: str  # of the form as it was read
     doubts: list[Doubted]  # corrected: from the chosen edges
+    others: list[OthersSay]  # the same
 
 
 @router.get("/doubts")
 def show_doubts(project: TheProject, file: str) -> DoubtsAnswer:
-    """Return which readings of a form no machine explains, by what is known of this machine."""
+    """Return which readings of a form no machine explains, and what the others say of each mark, by
+    what is known of this machine.
+    """
     choices = project.choices
     settings = settings_in(project.path(choices.settings))
     refuse_absurd_known(settings, choices)
@@ -196,11 +199,15 @@ def show_doubts(project: TheProject, file: str) -> DoubtsAnswer:
         priors=known.priors,
         checked=known.checked,
     )
-    doubts = doubted_readings(inputs)
+    looked = look_over(inputs)
     return DoubtsAnswer(
         file=file,
         digest=digest,
-        doubts=[_from_edges(doubt, sheet, choices.edges) for doubt in doubts],
+        doubts=[_from_edges(doubt, sheet, choices.edges) for doubt in looked.doubts],
+        others=[
+            replace(said, place=from_edges(said.place, sheet=sheet, corner=choices.edges))
+            for said in looked.others
+        ],
     )
 
 

@@ -10,6 +10,7 @@ from plumb.cure.decision import Decision, NextStep, decide
 from plumb.cure.live_board import BoardView, Chosen, LiveBoard
 from plumb.diagnosis.answer import SHOWN, Diagnosis, Together, odds_words
 from plumb.diagnosis.diagnosis import diagnose
+from plumb.diagnosis.noise import ORIGINS
 from plumb.diagnosis.outliers import Doubts
 from plumb.diagnosis.priors import LIKELIER
 from plumb.diagnosis.sizes import Size
@@ -21,12 +22,13 @@ from plumb.lab.residuals import Span, State, as_set, fitted_state, spans_of
 from plumb.lab.rounds import board_words, command, inputs_of, known_words, unit_words
 from plumb.lab.routes.project import TheProject, of_lab
 from plumb.model.catalogue import every_effect
-from plumb.model.plain import plainly, ranked
+from plumb.model.plain import noun_of, plainly, ranked
 from plumb.text.answers import like
 from plumb.text.values import worded
 
 router = APIRouter(tags=["verdict"])
 MOST_CARDS = 6
+ALIKE = 0.6  # share of the error that is left where a cause draws nearly the same
 
 
 class EffectAnswer(BaseModel):
@@ -52,6 +54,13 @@ class Card(BaseModel):
     looks_like: list[str]
 
 
+class RuledOut(BaseModel):
+    """A cause that the marks, or all real machines, speak against."""
+
+    noun: str
+    why: str
+
+
 class Verdict(BaseModel):
     """Verdict on the marks."""
 
@@ -68,6 +77,8 @@ class Verdict(BaseModel):
     noise: str  # a sentence
     cards: list[Card]
     more_cards: int
+    ruled_out: list[RuledOut]
+    sureness: list[tuple[str, str]]  # what tells how sure the answer is, each with its size
     unseen: Unseen
     slips: list[str]
     notes: list[str]
@@ -134,11 +145,48 @@ def verdict_of(inputs: api.Inputs, diagnosis: Diagnosis, decision: Decision) -> 
         noise=diagnosis.noise.sentence,
         cards=[_card(diagnosis, i, each) for i, each in enumerate(shown)],
         more_cards=max(len(diagnosis.explanations) - MOST_CARDS, 0),
+        ruled_out=_ruled_out(diagnosis) if shown and not doubts.marks else [],
+        sureness=_sureness(decision),
         unseen=unseen_by(diagnosis, SHOWN),
         slips=[slip.sentence for slip in diagnosis.outliers],
         notes=[*diagnosis.disagreements, *diagnosis.warnings],
         step=decision.step,
     )
+
+
+def _ruled_out(diagnosis: Diagnosis) -> list[RuledOut]:
+    """Return the effects that are no suspects: those that would draw the same in a size that no
+    real machine has, and how much all others leave.
+    """
+    rest = [each for each in diagnosis.ranking if each.effect not in diagnosis.suspects]
+    tempting, others = [], []
+    for each in rest:
+        absurd = [size for size in each.sizes if not size.possible and size.range_said]
+        if absurd and each.rms_after < ALIKE * diagnosis.rms_before:
+            said = f"{absurd[0].said}: real machines have {absurd[0].range_said}."
+            tempting.append(RuledOut(noun=noun_of(each.effect), why=said))
+        else:
+            others.append(each.rms_after)
+    if not others:
+        return tempting
+    least = worded(min(others))
+    if len(others) == 1:
+        return [*tempting, RuledOut(noun="1 other", why=f"By itself it leaves {least}.")]
+    said = f"Each by itself leaves {least} or more."
+    return [*tempting, RuledOut(noun=f"{len(others)} others", why=said)]
+
+
+def _sureness(decision: Decision) -> list[tuple[str, str]]:
+    """Return how well marks that took no part are predicted, and the noise of a reading."""
+    fitted = decision.addition.after_fit if decision.addition else None
+    if fitted is None:
+        return []
+    noise = decision.diagnosis.noise
+    return [
+        ("Marks left out are predicted to", worded(fitted.left_out_rms)),
+        (f"Noise of a reading ({ORIGINS[noise.source]})", worded(noise.sigma)),
+        ("The same, as these marks show it", worded(fitted.corrected_rms / 2**0.5)),
+    ]
 
 
 def _title(decision: Decision) -> str:
@@ -159,7 +207,9 @@ def _title(decision: Decision) -> str:
         known = diagnosis.field_chance <= LIKELIER
         odds = odds_words(diagnosis.field_chance)
         return "Something is left over" if known else f"Something unknown acts, odds {odds}"
-    return "One suspect" if diagnosis.verdict == "one_suspect" else "Several things could be it"
+    if diagnosis.verdict == "one_suspect":
+        return f"It is most likely {diagnosis.called(diagnosis.explanations[0])}"
+    return "Several things could be it"
 
 
 def _states(raw: Comparison, decision: Decision, doubts: Doubts) -> list[State]:
@@ -170,8 +220,9 @@ def _states(raw: Comparison, decision: Decision, doubts: Doubts) -> list[State]:
         return states
     live = LiveBoard(decision.inputs, noise=noise)
     fits = [("frame fitted", addition.before_fit if addition else live.fit(Chosen((), {})))]
-    if addition and addition.effects_added:
-        fits.append((f"+ {plainly(addition.effects_added)}", addition.after_fit))
+    named = addition and (addition.effects_added or decision.named)
+    if addition and named:
+        fits.append((f"+ {plainly(named)}", addition.after_fit))
     view = BoardView(live)
     return [*states, *(fitted_state(title, fitted, view) for title, fitted in fits)]
 

@@ -13,7 +13,7 @@ export function NumberTable({ numbers, accepted = [], accept }: TableParts) {
   return (
     <Table
       class="wide change"
-      names={["number", "was", "becomes", "within"]}
+      names={["number", "was", "becomes"]}
       rows={numbers.map(({ name, noun, before, after, margin, unit, possible, range_said }) => [
         <>
           {accept ? (
@@ -39,8 +39,12 @@ export function NumberTable({ numbers, accepted = [], accept }: TableParts) {
           )}
         </>,
         before,
-        <b key="after">{after}</b>,
-        `± ${margin} ${unit}`,
+        <>
+          <b>{after}</b>
+          <small>
+            ± {margin} {unit}
+          </small>
+        </>,
       ])}
     />
   );

@@ -1,10 +1,8 @@
 // What was written, how to send it to the machine, and what the machine reports it holds now.
 import type { Project } from "../../api/client";
-import { setting, settingText } from "../../controls/settings";
 import { Table } from "../../controls/Table";
 import { isReady, useMachine } from "../../shell/machine";
 import { useProject } from "../../shell/project";
-import { lastSent } from "./kept";
 import type { Writing } from "./useWriting";
 
 const SHOWN = 12;
@@ -15,14 +13,15 @@ interface ToMachineParts {
   isNext: boolean;
   /** Whether the machine holds its numbers. */
   isHeld: boolean;
+  /** The file that was sent last, if what the machine held before it is kept. */
+  last: string;
 }
 
-export function ToMachine({ writing, isNext, isHeld }: ToMachineParts) {
+export function ToMachine({ writing, isNext, isHeld, last }: ToMachineParts) {
   const { project } = useProject();
   const machine = useMachine();
   const { written, sent, busy } = writing;
   const file = fileToSend(project);
-  const last = lastSent(Object.keys(project.files));
   if (!file && !last) return null;
   const connected = machine.kind !== "none";
   const steps = connected ? [] : (written?.steps ?? []);
@@ -33,7 +32,7 @@ export function ToMachine({ writing, isNext, isHeld }: ToMachineParts) {
       <h2>To the machine</h2>
       {steps.length > 0 && <p>By hand: {steps.join("; ")}.</p>}
       <p class="row">
-        {!isNext && <ToSend writing={writing} isNext={false} isHeld={isHeld} />}
+        {!isNext && <ToSend {...{ writing, isHeld, last }} isNext={false} />}
         {canGiveBack && (
           <button
             type="button"
@@ -57,12 +56,7 @@ export function ToMachine({ writing, isNext, isHeld }: ToMachineParts) {
             <p>The sled stands where it stood; its place reads otherwise with other numbers.</p>
           )}
           <Table
-            rows={sent.changed
-              .slice(0, SHOWN)
-              .map(({ number, name, unit, before, after }) => [
-                name || "a setting",
-                `${setting(number, after, unit)}, was ${settingText(before)}`,
-              ])}
+            rows={sent.changed.slice(0, SHOWN).map(({ name, said }) => [name || "a setting", said])}
           />
           {sent.changed.length > SHOWN && <p>and {sent.changed.length - SHOWN} more.</p>}
         </>
@@ -72,7 +66,7 @@ export function ToMachine({ writing, isNext, isHeld }: ToMachineParts) {
 }
 
 /** Connects the machine, sends it the open file, and then checks it. */
-export function ToSend({ writing, isNext, isHeld }: ToMachineParts) {
+export function ToSend({ writing, isNext, isHeld, last }: ToMachineParts) {
   const { project } = useProject();
   const machine = useMachine();
   const file = fileToSend(project);
@@ -80,7 +74,7 @@ export function ToSend({ writing, isNext, isHeld }: ToMachineParts) {
   if (machine.kind === "none")
     return (
       <a class={`button ${look}`} href="#/open">
-        Connect the machine, then send {file ?? lastSent(Object.keys(project.files))}
+        Connect the machine, then send {file ?? last}
       </a>
     );
   if (!file) return null;

@@ -1,17 +1,34 @@
-// The sheet while it is cut: marks that are done, marks to come, and where the sled is.
-import { useMemo } from "preact/hooks";
+// The sheet while it is cut: marks that are done, marks to come, the way between them, and where the sled is; below it,
+// when each mark comes.
+import { useMemo, useState } from "preact/hooks";
+import type { Schemas } from "../../api/client";
+import { Segments } from "../../controls/Segments";
 import { Sheet } from "../../sheet/Sheet";
 import { useScale } from "../../sheet/scale";
+import type { Pair } from "../../sheet/view";
 import { useMachine } from "../../shell/machine";
+import { useNewest } from "../../shell/newest";
 import { useProject } from "../../shell/project";
 import type { Grid } from "../Cut";
+import { Places } from "../Reach";
+import { TimeLine } from "./TimeLine";
 
 const DEEP = -0.2; // [mm] the bit is in the wood
 const SLED = 230; // [mm] its radius
+const VIEWS = [
+  ["plan", "Plan"],
+  ["path", "Path"],
+  ["reach", "Reach"],
+] as const;
+type View = (typeof VIEWS)[number][0];
 
 export function CutMap({ grid }: { grid: Grid }) {
   const { program, place, knows_place, kind, unseen } = useMachine();
-  const taken = program?.title === grid.program ? program.done : 0;
+  const { project } = useProject();
+  const [view, look] = useState<View>("plan");
+  const reach = useNewest<Schemas["ReachAnswer"]>(view === "reach" ? "reach" : "", grid.text);
+  const isThis = program?.title === grid.program;
+  const taken = isThis ? program.done : 0;
   const isCut = (lines: number, index: number) => taken >= lines || index < (grid.broke_off ?? 0);
   const done = grid.marks.filter((mark, index) => isCut(mark.lines, index)).length;
   const marks = useMemo(
@@ -23,20 +40,45 @@ export function CutMap({ grid }: { grid: Grid }) {
       })),
     [grid, done],
   );
+  const way = marks.map(({ target }) => target);
+  const next = isThis && program.outcome === "running" ? marks[done] : undefined;
+  const sled = place && knows_place && kind !== "none" ? place : undefined;
   return (
-    <Sheet label={`${done} of ${grid.marks.length} marks are cut`} marks={marks}>
-      {place && knows_place && kind !== "none" && <Sled place={place} old={unseen > 0} />}
-    </Sheet>
+    <>
+      <div class="row only-wide">
+        <Segments legend="What is drawn" options={VIEWS} chosen={view} choose={look} />
+        <span class="soft">
+          {view === "reach" ? reach?.conclusion : "Filled: cut. Open: to come."}
+        </span>
+      </div>
+      <Sheet label={`${done} of ${grid.marks.length} marks are cut`} marks={marks}>
+        {view === "reach" && reach && project.machine && (
+          <Places reach={reach} sheet={project.machine.sheet} />
+        )}
+        <Way places={view === "path" ? way : way.slice(0, done)} />
+        {sled && next && <Way places={[[sled[0], sled[1]], next.target]} isNext />}
+        {sled && <Sled place={sled} old={unseen > 0} next={next?.name} />}
+      </Sheet>
+      <TimeLine grid={grid} taken={taken} />
+    </>
   );
+}
+
+function Way({ places, isNext }: { places: readonly Pair[]; isNext?: boolean }) {
+  const { at } = useScale();
+  const d = places.map((place, i) => `${i ? "L" : "M"}${at(place).join(" ")}`).join("");
+  return <path d={d} fill="none" stroke="var(--act)" stroke-dasharray={isNext ? 4 : undefined} />;
 }
 
 interface SledParts {
   place: readonly [number, number, number];
   /** It may be elsewhere by now. */
   old: boolean;
+  /** The mark that it goes to. */
+  next: string | undefined;
 }
 
-function Sled({ place: [x, y, z], old }: SledParts) {
+function Sled({ place: [x, y, z], old, next }: SledParts) {
   const { frame } = useProject().project.machine ?? {};
   const { at, px } = useScale();
   const [cx, cy] = at([x, y]);
@@ -54,6 +96,11 @@ function Sled({ place: [x, y, z], old }: SledParts) {
       <path d={chains.join("")} />
       <circle cx={cx} cy={cy} r={SLED * px} />
       <circle cx={cx} cy={cy} r={4} fill={z < DEEP ? "var(--ink)" : undefined} />
+      {next && (
+        <text class="name" x={cx} y={cy + SLED * px + 16} text-anchor="middle" font-weight={600}>
+          going to mark {next}
+        </text>
+      )}
     </g>
   );
 }

@@ -61,13 +61,3 @@ export function useGoOn(parts: GoOnParts): [question: ComponentChild, act: Compo
     );
   return [question, act];
 }
-
-/** How far a broken-off cut came, from the folder, so that it survives a restart of the lab. */
-export function brokenWords(surely: number, perhaps: number, names: readonly string[]): string {
-  if (surely === names.length) return "All marks are cut.";
-  const more = names.slice(surely, surely + perhaps);
-  const listed = more.join(", ").replace(/, ([^,]*)$/, " and $1");
-  const may =
-    listed && ` The machine may have cut mark${more.length > 1 ? "s" : ""} ${listed} too.`;
-  return `Cut ${surely} of ${names.length} marks, then it broke off.${may}`;
-}

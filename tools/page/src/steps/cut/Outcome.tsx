@@ -3,7 +3,6 @@ import { Do } from "../../shell/doing";
 import { isConnected, isReady, type Machine, useMachine } from "../../shell/machine";
 import { useTell } from "../../shell/project";
 import type { Grid } from "../Cut";
-import { brokenWords } from "./GoOn";
 
 interface OutcomeParts {
   grid: Grid;
@@ -40,15 +39,13 @@ const ENDED = {
 
 /** How far the cut came, and what can be done. */
 function broken(grid: Grid, machine: Machine): string {
-  const { broke_off, perhaps, goes_on, is_proposed } = grid;
+  const { broke_off, broke_said, perhaps, goes_on, is_proposed } = grid;
   if (broke_off == null) return "";
-  const names = grid.marks.map(({ name }) => name);
-  const words = brokenWords(broke_off, perhaps, names);
-  if (broke_off === names.length) return words;
+  if (broke_off === grid.marks.length) return broke_said;
   const connect = isConnected(machine) ? "" : " Connect the machine.";
   const fresh = machine.kind === "virtual" || is_proposed ? "" : " on a fresh sheet";
-  const next = perhaps > 0 ? ", or go on" : `, or go on from mark ${names[broke_off]}`;
-  return `${words}${connect} Begin again${fresh}${goes_on ? next : ""}.`;
+  const next = perhaps > 0 ? ", or go on" : `, or go on from mark ${grid.marks[broke_off]?.name}`;
+  return `${broke_said}${connect} Begin again${fresh}${goes_on ? next : ""}.`;
 }
 
 /** Reads the marks that are cut: a virtual machine has its tape. */

@@ -6,7 +6,7 @@ export function Pauses({ grid }: { grid: Grid }) {
   if (grid.pauses.length === 0) return null;
   return (
     <div class="pauses">
-      <p>The program waits {times(grid.pauses.length)} until you press Go on:</p>
+      <p>The program waits until you press Go on:</p>
       <ol>
         {grid.pauses.map((pause) => (
           <li key={pause.lines}>{capital(pause.do)}.</li>
@@ -14,8 +14,4 @@ export function Pauses({ grid }: { grid: Grid }) {
       </ol>
     </div>
   );
-}
-
-function times(count: number): string {
-  return count === 1 ? "once" : count === 2 ? "twice" : `${count} times`;
 }

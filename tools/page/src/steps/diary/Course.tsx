@@ -1,6 +1,8 @@
 // How a number changed from fit to fit, with its 95 % interval.
 import type { Schemas } from "../../api/client";
 
+const LINE = { stroke: "var(--act)", "vector-effect": "non-scaling-stroke" } as const;
+
 export function Course({ course }: { course: Schemas["Course"] }) {
   const { points } = course;
   const ends = points.flatMap(({ low, high }) => [low, high]);
@@ -17,10 +19,12 @@ export function Course({ course }: { course: Schemas["Course"] }) {
       {points.length > 1 && (
         <svg viewBox="0 0 100 100" preserveAspectRatio="none" role="img" aria-label={said(course)}>
           <path
+            {...LINE}
             d={points.map(({ low, high }, i) => `M${across(i)} ${up(low)}V${up(high)}`).join("")}
           />
           <path
-            class="middle"
+            {...LINE}
+            stroke-width={5}
             d={points.map(({ value }, i) => `M${across(i) - 2} ${up(value)}h4`).join("")}
           />
         </svg>

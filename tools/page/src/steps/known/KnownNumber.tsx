@@ -1,40 +1,40 @@
 // A number that can be measured by hand: the reading, and its uncertainty.
 import { useEffect, useRef } from "preact/hooks";
-import { type Schemas, send } from "../../api/client";
+import type { Schemas } from "../../api/client";
 import { shownLength, typedLength, type Unit } from "../../controls/lengths";
 import { useUnits } from "../../controls/units";
 import { useTyped } from "../../controls/useTyped";
-import { Do } from "../../shell/doing";
+import { Do, useDo } from "../../shell/doing";
 import { useMachine } from "../../shell/machine";
-import { numberOf, readingOf, type Value } from "./values";
+import { useTell } from "../../shell/project";
 
 type Known = Schemas["KnownNumber"];
 
 interface NumberParts {
   number: Known;
-  known: Value | undefined;
   here: boolean;
   /** The address asked for it. */
   wanted: boolean;
   look: () => void;
-  keep: (value: Value | undefined) => void;
 }
 
-export function KnownNumber({ number, known, here, wanted, look, keep }: NumberParts) {
+export function KnownNumber({ number, here, wanted, look }: NumberParts) {
   const units = useUnits();
   const isVirtual = useMachine().kind === "virtual";
   const place = useRef<HTMLLIElement>(null);
   useEffect(() => {
     if (wanted) place.current?.scrollIntoView({ block: "center" });
   }, [wanted]);
-  const measure = async () =>
-    keep(await send<Value>("POST", "known/measured", { name: number.name }));
+  const tell = useTell();
+  const [, run, notKept] = useDo();
+  const keep = (read: number | null, within = number.usual) =>
+    void run(() => tell("known", { name: number.name, read, within }));
   const unit: Unit = number.unit === "mm" ? units : "mm";
   const name = number.unit === "mm" ? unit : number.unit;
   const show = (read: number) => shownLength(read, unit, number.digits);
-  const stated = known && readingOf(number, known);
-  const saved = stated ? show(stated.value) : "";
-  const sure = shownLength(stated?.sigma ?? number.usual, unit, Math.max(number.digits, 1));
+  const [before, within] = number.stated ?? [undefined, number.usual];
+  const saved = before === undefined ? "" : show(before);
+  const sure = shownLength(within, unit, Math.max(number.digits, 1));
   const isWrong = (text: string) => text !== "" && typedLength(text, unit) === undefined;
   const [read, setRead] = useTyped(saved, isWrong);
   const [sigma, setSigma] = useTyped(sure, () => false);
@@ -45,9 +45,9 @@ export function KnownNumber({ number, known, here, wanted, look, keep }: NumberP
   const done = () => {
     if (read === "" || isWrong(read)) {
       // The number before it does not count any more.
-      if (known) keep(undefined);
+      if (number.stated) keep(null);
     } else if (!wrong && typed !== undefined && error !== undefined) {
-      if (read !== saved || sigma !== sure) keep(numberOf(number, { value: typed, sigma: error }));
+      if (read !== saved || sigma !== sure) keep(typed, error);
     }
   };
   return (
@@ -81,6 +81,7 @@ export function KnownNumber({ number, known, here, wanted, look, keep }: NumberP
         />{" "}
         {name}
       </span>
+      {notKept}
       {refused && (
         <small class="wrong" role="alert">
           {refused}
@@ -92,7 +93,7 @@ export function KnownNumber({ number, known, here, wanted, look, keep }: NumberP
         </small>
       )}
       {here && isVirtual && (
-        <Do meanwhile="Measuring …" work={measure}>
+        <Do meanwhile="Measuring …" work={() => tell("known/measured", { name: number.name })}>
           Measure it on the virtual machine
         </Do>
       )}

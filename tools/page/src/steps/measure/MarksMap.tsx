@@ -3,7 +3,8 @@ import { useState } from "preact/hooks";
 import { typedLength } from "../../controls/lengths";
 import { useUnits } from "../../controls/units";
 import { Sheet, Taped } from "../../sheet/Sheet";
-import type { Place } from "./plan";
+
+export type Place = [number, number]; // [mm] machine frame
 
 const AXES = ["x", "y"];
 

@@ -15,8 +15,20 @@ export function SizeBar({ size }: { size: Schemas["Size"] }) {
       <figcaption>{size.said}</figcaption>
       <svg viewBox="0 0 100 10" preserveAspectRatio="none" aria-hidden="true">
         <rect x={from} y={2} width={to - from} height={6} fill="var(--line)" />
-        <line x1={at(0)} x2={at(0)} y1={0} y2={10} stroke="var(--soft)" />
-        <path class="interval" d={`${sure}M${at(size.value)} 1V9`} stroke="var(--act)" />
+        <line
+          x1={at(0)}
+          x2={at(0)}
+          y1={0}
+          y2={10}
+          stroke="var(--soft)"
+          vector-effect="non-scaling-stroke"
+        />
+        <path
+          vector-effect="non-scaling-stroke"
+          stroke-width={4}
+          d={`${sure}M${at(size.value)} 1V9`}
+          stroke="var(--act)"
+        />
       </svg>
       {size.range_said && (
         <small class={size.possible ? "" : "wrong"}>
