@@ -20,7 +20,6 @@ from plumb.marks.read import Measurements, join_measurements, read_marks
 from plumb.model.predict import known_effects
 from plumb.settings.files import read_settings
 from plumb.settings.machine import MachineSettings
-from plumb.text.errors import InputError
 from template import filled
 
 PAGE = "docs/real-data.md"
@@ -37,7 +36,6 @@ CUTS = "madgrizzle-2018-08-27"
 PAIRS = ((HOLES[0], HOLES[1]), (HOLES[2], HOLES[3]))  # before and after a fit of the owner
 MOST_FORCED = 3  # effects of a set that is tried by force
 REFITTED = 25  # of these sets, the best by the slopes at the frame's fit
-BRACKETS = ("gero-2017-04-26", "blsteinhauer88-2017-06-18")
 
 
 @dataclass(frozen=True)
@@ -129,16 +127,6 @@ def other_boards() -> list[RealSet]:
     ]
 
 
-def refusal_of(name: str) -> str:
-    """Return what the lab says of the groundcontrol.ini of a set; empty if it takes it."""
-    path = EXAMPLES / name / "groundcontrol.ini"
-    try:
-        read_settings(path, known=known_effects())
-    except InputError as error:
-        return str(error).replace(str(path), f"{name}/groundcontrol.ini")
-    return ""
-
-
 def pooled(sets: Sequence[RealSet]) -> Pooled:
     """Fit several hole sets at once."""
     marks = join_measurements([holes.marks for holes in sets])
@@ -168,8 +156,6 @@ def pages() -> dict[str, str]:
         together=together,
         in_force=cuts.raw.distances,
         foretold=predicted(together.fitted.settings, cuts).distances,
-        brackets=[real_set(name, "squares.toml", "as-triangular.ini") for name in BRACKETS],
-        refusal=refusal_of(BRACKETS[0]),
         pitch=_pitch,
         predicted=predicted,
         rms=rms,
