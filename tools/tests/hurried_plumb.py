@@ -1,5 +1,6 @@
 """`plumb` for tests: machines run faster, and so do waits for their rest; plans are tried less."""
 
+import os
 import sys
 
 from plumb.cli.main import main
@@ -14,5 +15,6 @@ if __name__ == "__main__":
         import asked_again
 
         asked_again.Outlooks.__init__.__defaults__ = (FEW,)
-        asked_again.remember()
+        if asked_again.FOLDER in os.environ:
+            asked_again.remember()
     sys.exit(main(sys.argv[1:]))

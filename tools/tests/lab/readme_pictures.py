@@ -21,12 +21,12 @@ from served_lab import ServedLab, serve
 
 PICTURES = ROOT / "docs/pictures"
 FRAME = 560  # [px] width of a screen among six
-PATIENCE_MS = 60_000  # of a busy computer
+PATIENCE_MS = 25_000  # of a busy computer
 
 
 def verdict(page: Page) -> None:
     """The sentence, the errors before and after, the suspects."""
-    page.locator(".card").first.wait_for()
+    page.get_by_role("heading", name="Suspects").wait_for()
 
 
 def bench(page: Page) -> None:
