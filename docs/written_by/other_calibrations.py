@@ -260,8 +260,8 @@ CALIBRATIONS: tuple[tuple[str, int, Callable[[TrueMachine, Source], Way]], ...] 
     ("refine script", 18, by_script),
     ("camera, curve", 930, camera_curve),
     ("camera, table", 930, camera_table),
-    ("plumb", 18, by_plumb(9)),
-    ("plumb", 50, by_plumb(25)),
+    ("Plumb", 18, by_plumb(9)),
+    ("Plumb", 50, by_plumb(25)),
 )
 
 
@@ -338,7 +338,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
     ]
     print(table(("calibration", "readings", *KINDS_SHOWN), rows, gap=2), end="\n\n")
     boards = [*map(real_set, HOLES), *other_boards()]
-    heads = ("set", "as set", "by", "fitted / left out", "plumb")
+    heads = ("set", "as set", "by", "fitted / left out", "Plumb")
     print(table(heads, [on_real_set(board) for board in boards], gap=2))
 
 
