@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from plumb.diagnosis.drawn import model_by
-from plumb.diagnosis.expected_error import rival_error, sigmas
+from plumb.diagnosis.expected_error import expected_error, rival_error
 from plumb.diagnosis.explanation import Board, explain
 from plumb.fit.expected import places_over
 from plumb.fit.observations import observe
@@ -21,6 +21,13 @@ def board_of(seed, *, columns=5, rows=3, noise=SIGMA, sigma=SIGMA):
     return Board.of(BELIEVED, observe(BELIEVED, Measurements(marks)), sigma=sigma)
 
 
+def errors_with_the_sheet_laid_anew(spots, there):
+    """How far places (n, 2) are from spots (n,) [mm], after the best shift and turn of them."""
+    middle, centre = spots.mean(axis=0), there.mean(axis=0)
+    left, _, right = np.linalg.svd((there - centre).T @ (spots - middle))
+    return np.linalg.norm((there - centre) @ (left @ right) - (spots - middle), axis=1)
+
+
 def test_the_error_of_a_fit_is_the_scatter_of_fits_to_noise():
     spots = places_over(BELIEVED.sheet)
     missed = []
@@ -28,12 +35,10 @@ def test_the_error_of_a_fit_is_the_scatter_of_fits_to_noise():
         fitted = model_by(explain(board_of(seed)))
         # The true machine is BELIEVED: where it goes when the fitted machine aims at the spots.
         where, _ = places(BELIEVED, lengths(fitted, spots)[0])
-        missed.append(np.sum((where - spots) ** 2, axis=1))
-    scattered = np.sqrt(np.mean(missed, axis=0))
-    said = sigmas(explain(board_of(1)), (), spots)
+        missed.append(errors_with_the_sheet_laid_anew(spots, where))
+    scattered, said = np.sqrt(np.mean(np.square(missed))), expected_error(explain(board_of(1)))
     # The priors of the frame count as knowledge, though here the frame is exactly as stated.
-    assert np.all(scattered < 1.25 * said)
-    assert np.sqrt(np.mean(scattered**2)) > 0.6 * np.sqrt(np.mean(said**2))
+    assert 0.6 * said < scattered < 1.25 * said
 
 
 def test_rivals_count_by_their_share_as_far_as_they_lead_elsewhere():
@@ -42,14 +47,14 @@ def test_rivals_count_by_their_share_as_far_as_they_lead_elsewhere():
     frame = explain(board)
     used = explain(board, ("chain_pitch",), start=frame)
     rival = explain(board, ("chain_stretch",), start=frame)
-    middle = np.zeros((1, 2))
     alone, half, same = (
-        sigmas(used, given, middle) for given in ((), [(rival, 0.5)], [(used, 0.5)])
+        expected_error(used, given) for given in ((), [(rival, 0.5)], [(used, 0.5)])
     )
     assert same == pytest.approx(alone)
-    chains, _ = lengths(model_by(used), middle)
-    apart = places(model_by(rival), chains)[0][0]
-    assert half**2 - alone**2 == pytest.approx(0.5 * np.sum(apart**2), rel=1e-3)
+    spots = places_over(model_by(used).sheet)
+    there = places(model_by(rival), lengths(model_by(used), spots)[0])[0]
+    apart = errors_with_the_sheet_laid_anew(spots, there)
+    assert half**2 - alone**2 == pytest.approx(0.5 * np.mean(apart**2), rel=1e-3)
 
 
 # By how much, and where, the settings of rivals differ.
@@ -72,10 +77,7 @@ def test_rivals_differ_by_what_is_left_when_the_sheet_is_laid_anew():
     model, other = model_by(used), model_by(rival)
     spots = places_over(model.sheet)
     there = places(other, lengths(model, spots)[0])[0]
-    # A shift and a turn of the sheet by least squares.
-    middle, centre = spots.mean(axis=0), there.mean(axis=0)
-    left, _, right = np.linalg.svd((there - centre).T @ (spots - middle))
-    apart = np.linalg.norm((there - centre) @ (left @ right) - (spots - middle), axis=1)
+    apart = errors_with_the_sheet_laid_anew(spots, there)
     cells = np.abs(spots) > np.array(model.sheet) / 6
     sides = [
         apart[(np.sign(spots[:, 0]) * cells[:, 0] == x) & (np.sign(spots[:, 1]) * cells[:, 1] == y)]
