@@ -71,7 +71,9 @@ class Report:
     promises: Promises | None  # None: on no board was anything promised
     marks: int
     seed: int
-    interrupted: bool = False
+    noise: Annotated[float | None, key("noise_mm", "Null: what each kind has.")]
+    is_stated: Annotated[bool, key("noise_stated")]
+    interrupted: bool
 
 
 RATES = tuple(Row.__annotations__)[3:]
@@ -110,7 +112,15 @@ def play(
             raise
     rows = tuple(row_of(kind, boards) for kind, boards in done.items() if boards)
     every = [each for boards in done.values() for each in boards]
-    return Report(rows, _promises(every), wanted.marks, wanted.seed, interrupted)
+    return Report(
+        rows=rows,
+        promises=_promises(every),
+        marks=wanted.marks,
+        seed=wanted.seed,
+        noise=wanted.noise,
+        is_stated=wanted.is_stated,
+        interrupted=interrupted,
+    )
 
 
 def _promises(boards: Sequence[JudgedBoard]) -> Promises | None:

@@ -88,12 +88,19 @@ def as_text(report: Report) -> str:
     parts = [
         table(HEADER, [cells(row) for row in report.rows], gap=1),
         sentences(LEGEND, mark=""),
-        sentences([f"Boards of {report.marks} marks, seed {report.seed}."], mark=""),
+        sentences(
+            [f"Boards of {report.marks} marks, seed {report.seed}{_noise_words(report)}."], mark=""
+        ),
         _promises_sentence(report),
     ]
     if report.interrupted:
         parts.append("Interrupted: what is done is counted.")
     return "\n\n".join(filter(None, parts))
+
+
+def _noise_words(report: Report) -> str:
+    said = f", noise {worded(report.noise)}" if report.noise else ""
+    return said if report.is_stated else f"{said}, not stated"
 
 
 def _promises_sentence(report: Report) -> str:

@@ -72,7 +72,7 @@ def test_the_command_prints_a_row_a_kind_and_names_its_kinds(run, ask):
     assert [row["kind"] for row in answer["rows"]] == [NONE]
     code, said, complaint = run(*words, "--noise", 0.1, "--unstated")
     assert code == 0 and f"\n{NONE} " in said and complaint == ""
-    assert "came true" in said
+    assert "came true" in said and "noise 0.10 mm, not stated" in said
     code, _, complaint = run("bench", "--kinds", "everything")
     assert code == 2 and "everything" in complaint and complaint.count("\n") == 1
     assert all(name in complaint for name in KINDS)
