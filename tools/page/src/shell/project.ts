@@ -31,14 +31,20 @@ export function useProject(): Shared {
   return shared;
 }
 
-/** Sends something that answers with the project as it then is. */
+let told: Promise<unknown> = Promise.resolve(); // what was sent before has been answered
+
+/** Sends something that answers with the project as it then is; what is sent later waits for the answer. */
 export function useTell(): (
   path: string,
   body?: unknown,
   method?: "POST" | "DELETE",
 ) => Promise<void> {
   const { take } = useProject();
-  return async (path, body, method = "POST") => take(await send<Project>(method, path, body));
+  return (path, body, method = "POST") => {
+    const answer = told.then(() => send<Project>(method, path, body));
+    told = answer.catch(() => undefined);
+    return answer.then(take);
+  };
 }
 
 const LOOK_AGAIN_MS = 3000; // so work of another tab or of the command line shows up
