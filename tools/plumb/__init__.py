@@ -14,6 +14,7 @@ from __future__ import annotations
 
 from importlib import import_module
 
+# ruff: noqa: F405
 __all__ = [
     "Addition",
     "Comparison",
@@ -34,22 +35,7 @@ __all__ = [
 TYPE_CHECKING = False  # typing itself takes 20 ms, and `plumb` loads this first of all
 
 if TYPE_CHECKING:
-    from plumb.api import (
-        Addition,
-        Comparison,
-        Decision,
-        Diagnosis,
-        InputError,
-        Inputs,
-        Next,
-        add,
-        compare,
-        decide,
-        diagnose,
-        next,
-        read,
-        write,
-    )
+    from plumb.api import *  # noqa: F403
 else:
 
     def __getattr__(name: str) -> object:

@@ -107,7 +107,6 @@ class VirtualMachine {
   double seconds() const { return world_.seconds(); }
   Pair sled() const { return {world_.sled().place().x(), world_.sled().place().y()}; }
   Pair chains() const { return {world_.travel(world::kLeft), world_.travel(world::kRight)}; }
-  Pair tensions() const { return {world_.sled().leftTension(), world_.sled().rightTension()}; }
   Pair across() const { return {world_.across().pull.norm(), world_.across().drop}; }
   double height() const { return world_.travel(world::kZ); }
   int count(const std::string& axis) { return world_.count(axisNamed(axis)); }
@@ -200,7 +199,6 @@ NB_MODULE(_vm, module) {
       .def_prop_ro("sled", &VirtualMachine::sled,
                    "(x, y) [mm] of the bit from the middle of the sheet.")
       .def_prop_ro("chains", &VirtualMachine::chains, "[mm] of nominal links, left and right.")
-      .def_prop_ro("tensions", &VirtualMachine::tensions, "[N] at the sprockets.")
       .def_prop_ro("across", &VirtualMachine::across,
                    "Of a chain hooked across: pull on its motor [N], drop of its middle [mm].")
       .def_prop_ro("height", &VirtualMachine::height, "[mm] of the bit above the sheet's face.")

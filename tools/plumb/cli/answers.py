@@ -27,7 +27,6 @@ from plumb.cli.resume import ResumeAnswer
 from plumb.cli.send import SendAnswer
 from plumb.cli.settings import SettingLines
 from plumb.cli.slip import SlipAnswer
-from plumb.cli.vm import VmAnswer
 from plumb.diary.recheck import Recheck
 from plumb.fit.compare import Comparison
 from plumb.text.answers import schema_of
@@ -65,7 +64,6 @@ ANSWERS: dict[str, Any] = {
     "resume": ResumeAnswer,
     "send": SendAnswer,
     "settings": SettingLines,
-    "vm": VmAnswer,
 }
 
 

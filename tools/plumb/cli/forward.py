@@ -4,8 +4,10 @@ import argparse
 from dataclasses import dataclass
 from typing import Annotated
 
-from plumb.cli.arguments import add_shared, file
-from plumb.cli.inverse import Outcome, Pair, answered, answers_table, count_sentence, read_pairs
+import numpy as np
+
+from plumb.cli.arguments import add_shared, place
+from plumb.cli.inverse import Outcome, Pair, answered, answers_table, count_sentence
 from plumb.cli.screen import print_json
 from plumb.fit.inputs import settings_in
 from plumb.model.predict import FOUND, places
@@ -24,7 +26,7 @@ class PlacesAnswer:
 def run(arguments: argparse.Namespace) -> int:
     """Print places; 1 if some lengths lead nowhere."""
     settings = settings_in(arguments.settings).as_plumb_model()
-    chains = read_pairs(arguments.lengths, names=("left", "right"))
+    chains = np.array(arguments.lengths)
     sled, outcome = places(settings, chains)
     answers, words = answered(sled, outcome)
     if arguments.json:
@@ -39,8 +41,8 @@ def run(arguments: argparse.Namespace) -> int:
 # The arguments of `plumb forward`.
 
 EXAMPLES = (
-    "plumb forward machine.toml --lengths lengths.csv",
-    "plumb forward machine.toml --lengths lengths.csv --json",
+    "plumb forward machine.toml 1695.8,1699 2889.51,1488.87",
+    "plumb forward machine.toml 1695.8,1699 --json",
 )
 EXIT = "Exit: 0 done; 1 some lengths fit no place; 2 an input cannot be used."
 
@@ -49,10 +51,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the arguments of `plumb forward`."""
     add_shared(parser, "settings")
     parser.add_argument(
-        "--lengths",
-        metavar="FILE",
-        type=file,
-        required=True,
-        help="CSV: left,right per line, mm paid out from 12 o'clock; a header is allowed",
+        "lengths",
+        metavar="LEFT,RIGHT",
+        type=place,
+        nargs="+",
+        help="both chains, mm paid out from 12 o'clock",
     )
     add_shared(parser, "--units", "--json")

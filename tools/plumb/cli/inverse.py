@@ -7,7 +7,7 @@ from typing import Annotated
 
 import numpy as np
 
-from plumb.cli.arguments import add_shared, file, place
+from plumb.cli.arguments import add_shared, place
 from plumb.cli.screen import print_json, table
 from plumb.fit.inputs import settings_in
 from plumb.model.predict import (
@@ -22,9 +22,8 @@ from plumb.model.predict import (
 )
 from plumb.settings.machine import MachineSettings
 from plumb.text.answers import among, key
-from plumb.text.errors import InputError, Source, naming
-from plumb.text.files import read_text
-from plumb.text.values import bare, number_in, unit
+from plumb.text.errors import InputError
+from plumb.text.values import bare, unit
 
 Pair = tuple[float, float] | None  # None where there is no answer
 Outcome = Annotated[str, among(FOUND_WORDS)]
@@ -43,13 +42,7 @@ class ChainLengths:
 def run(arguments: argparse.Namespace) -> int:
     """Print chain lengths; 1 if some place is out of reach."""
     settings = settings_in(arguments.settings)
-    if bool(arguments.points) == bool(arguments.places):
-        raise InputError("say which places: X,Y one after the other, or --points FILE")
-    points = (
-        np.array(arguments.places)
-        if arguments.places
-        else read_pairs(arguments.points, names=("x", "y"))
-    )
+    points = np.array(arguments.places)
     whose = arguments.controller or settings.controller
     moved = np.zeros(len(points), dtype=bool)
     if whose == "plumb":
@@ -89,7 +82,7 @@ def published_lengths(
 
 EXAMPLES = (
     "plumb inverse machine.toml 0,0 600,-300",
-    "plumb inverse machine.toml --points places.csv --controller stock",
+    "plumb inverse groundcontrol.ini 0,0 --controller plumb",
 )
 EXIT = "Exit: 0 done; 1 some place is out of reach; 2 an input cannot be used."
 
@@ -101,14 +94,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "places",
         metavar="X,Y",
         type=place,
-        nargs="*",
+        nargs="+",
         help="a place, mm from the middle of the sheet, y up",
-    )
-    parser.add_argument(
-        "--points",
-        metavar="FILE",
-        type=file,
-        help="CSV: x,y per line, mm from the middle of the sheet, y up; a header is allowed",
     )
     parser.add_argument("--float32", action="store_true", help="compute as the board does")
     add_shared(parser, "--controller", "--units", "--json")
@@ -155,49 +142,3 @@ def answers_table(
             ]
         )
     return table([*given_names, *names, ""], rows, left=0)
-
-
-# Pairs of numbers from a comma-separated file: places x,y or chains left,right [mm].
-
-
-def read_pairs(path: Source, *, names: tuple[str, str]) -> np.ndarray:
-    """Return the pairs (n, 2) [mm]; a header of the two names and lines that begin with # are
-    allowed.
-    """
-    form = f"write {','.join(names)} on each line, in mm"
-    pairs: list[tuple[float, float]] = []
-    headers = 0
-    for line, text in enumerate(read_text(path).splitlines(), 1):
-        if not text.strip() or text.lstrip().startswith("#"):
-            continue
-        cells = [cell.strip().strip('"') for cell in text.split(",")]
-        if len(cells) != 2:
-            many = "1 value" if len(cells) == 1 else f"{len(cells)} values"
-            raise InputError(path, f"has {many} instead of 2", place=f"line {line}", remedy=form)
-        if not pairs and not headers and _is_header(cells):
-            headers += 1
-            _check_header(path, line, cells, names, form)
-            continue
-        values = []
-        for name, cell in zip(names, cells, strict=True):
-            with naming(path, f"line {line}, {name}"):
-                values.append(number_in(cell))
-        pairs.append((values[0], values[1]))
-    if not pairs:
-        raise InputError(path, "has no numbers", remedy=form)
-    return np.array(pairs)
-
-
-def _is_header(cells: list[str]) -> bool:
-    return all(cell[:1].isalpha() and cell.lower() not in ("nan", "inf") for cell in cells)
-
-
-def _check_header(
-    path: Source, line: int, cells: list[str], names: tuple[str, str], form: str
-) -> None:
-    """Refuse columns that are exchanged, or in another unit."""
-    allowed = [{name, f"{name}_mm", f"{name} mm", f"{name} [mm]", f"{name} (mm)"} for name in names]
-    if any(cell.lower() not in spellings for cell, spellings in zip(cells, allowed, strict=True)):
-        raise InputError(
-            path, f"the header is '{','.join(cells)}'", place=f"line {line}", remedy=form
-        )

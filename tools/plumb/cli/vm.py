@@ -5,23 +5,17 @@ import struct
 import sys
 import time
 from collections.abc import Callable
-from dataclasses import dataclass
 from pathlib import Path
 
-import numpy as np
-from rich.live import Live
-
-from plumb.cli.arguments import add_shared, length, positive
-from plumb.cli.screen import console, print_json
+from plumb.cli.arguments import length, positive
 from plumb.firmware.hex_file import hex_bytes
 from plumb.line.sender import Sender
 from plumb.settings.machine import MachineSettings
 from plumb.text.errors import InputError
-from plumb.text.files import read_bytes, read_text, write_whole
+from plumb.text.files import read_bytes, write_whole
 from plumb.vm.garage import (
     Garage,
     VirtualMachine,
-    VmPicture,
     described,
     hide,
     random_garage,
@@ -30,20 +24,10 @@ from plumb.vm.garage import (
 from plumb.vm.owner import InProcessPort
 from plumb.vm.served_port import BOOTLOADER, Pace, ServedPort
 from plumb.vm.socket_port import ANY, SocketPort
-from plumb.vm.tape import BLANK, Tape
 
 EEPROM_BYTES = 4096
 TRAVELS = struct.Struct("<3d")  # behind them: the left chain, the right chain, z [mm]
 SAVE_EVERY, LOOK_EVERY = 1.0, 0.1  # [s] of this computer's time
-
-
-@dataclass(frozen=True)
-class VmAnswer:
-    """Port for a client; printed as soon as the machine is there."""
-
-    port: str | None  # None: with --preload no machine starts
-    preload: str | None  # None: without --preload
-    hidden: str | None  # None: without --reveal
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -51,44 +35,21 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.preload:
         from plumb.vm.pseudo_terminal import preload
 
-        library = preload()
-        print_json(VmAnswer(None, library, None)) if arguments.json else print(library)
+        print(preload())
         return 0
-    tape_form = _form(arguments)
     hidden = hide(arguments.hide, millimetres=arguments.size, seed=arguments.seed)
     garage = random_garage(hidden, arguments.seed, feed=arguments.feed)
-    tape = Tape(garage, np.random.default_rng([arguments.seed, 5]), noise=arguments.noise)
-    if tape_form:
-        tape.get_ready(tape_form)
-    said = described(hidden) if arguments.reveal else None
-
-    def announce(port: str) -> None:
-        if arguments.json:
-            print_json(VmAnswer(port, None, said))
-        else:
-            _announce(port)
-
-    def look(machine: VirtualMachine) -> None:
-        _fill(tape, machine, tape_form, arguments.readings)
-
-    serve(garage, arguments, look, announce)
-    if said and not arguments.json:
-        print(f"Hidden was: {said}.")
+    serve(garage, arguments, lambda machine: None)
+    if arguments.reveal:
+        print(f"Hidden was: {described(hidden)}.")
     return 0
 
 
-def _announce(port: str) -> None:
-    print(f"The machine is at {port}. Ctrl-C ends it.", flush=True)
-
-
 def serve(
-    garage: Garage,
-    arguments: argparse.Namespace,
-    look: Callable[[VirtualMachine], None],
-    announce: Callable[[str], None] = _announce,
+    garage: Garage, arguments: argparse.Namespace, look: Callable[[VirtualMachine], None]
 ) -> int:
     """Serve the machine of a garage until Ctrl-C, and return the exit code; `look` is called all
-    the time, `announce` once with the machine's port."""
+    the time."""
     bootloader = getattr(arguments, "bootloader", None)
     if bootloader and not arguments.mega:
         raise InputError("--bootloader needs a program for the simulated Mega: give --mega too")
@@ -99,7 +60,7 @@ def serve(
     boot_time = 0 if bootloader else BOOTLOADER
     port = _port(machine, boot_time, arguments.link)
     try:
-        announce(str(port.link or port.path))
+        print(f"The machine is at {port.link or port.path}. Ctrl-C ends it.", flush=True)
         _serve(port, arguments, lambda: look(machine))
     except KeyboardInterrupt:
         pass
@@ -124,15 +85,6 @@ def _port(machine: VirtualMachine, boot_time: int, link: str | None) -> ServedPo
             terminal.close()
             raise
     return terminal
-
-
-def _form(arguments: argparse.Namespace) -> str:
-    if bool(arguments.form) != bool(arguments.readings):
-        raise InputError("--form and --readings go together: which form, and where it goes filled")
-    text = read_text(arguments.form) if arguments.form else ""
-    if arguments.form and BLANK not in text:
-        raise InputError(arguments.form, "waits for no reading", remedy="give a form of plumb grid")
-    return text
 
 
 def _wake(
@@ -171,32 +123,19 @@ def _hang(machine: VirtualMachine, state: bytes) -> None:
 def _serve(port: ServedPort, arguments: argparse.Namespace, look: Callable[[], None]) -> None:
     machine, pace, start = port.machine, Pace(arguments.speed), time.monotonic()
     machine.start()
-    picture, screen = VmPicture(machine), console()
     saved = looked = start
     memory = b""
-    with Live(picture, console=screen, refresh_per_second=5, transient=True) as live:
-        if not screen.is_terminal:
-            live.stop()
-        while not arguments.seconds or time.monotonic() - start < arguments.seconds:
-            port.pass_time(pace.due())
-            now = time.monotonic()
-            if now - looked > LOOK_EVERY:
-                look()
-                looked = now
-            if now - saved > SAVE_EVERY:
-                if _memory(machine) != memory:
-                    memory = _memory(machine)
-                    _save(memory, arguments.eeprom)
-                saved = now
-
-
-def _fill(tape: Tape, machine: VirtualMachine, form: str, readings: str | None) -> None:
-    """Write the filled form as soon as the sheet has all its marks."""
-    if not form or not readings or Path(readings).exists():
-        return
-    text = tape.fill_when_cut(form, machine)
-    if text:
-        write_whole(readings, text.encode())
+    while not arguments.seconds or time.monotonic() - start < arguments.seconds:
+        port.pass_time(pace.due())
+        now = time.monotonic()
+        if now - looked > LOOK_EVERY:
+            look()
+            looked = now
+        if now - saved > SAVE_EVERY:
+            if _memory(machine) != memory:
+                memory = _memory(machine)
+                _save(memory, arguments.eeprom)
+            saved = now
 
 
 def _save(content: bytes, path: str | None) -> None:
@@ -258,20 +197,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="begin with an empty memory: no settings, no chain lengths",
     )
     _add_brain(parser)
-    parser.add_argument(
-        "--form",
-        metavar="FORM",
-        help="a form that plumb grid wrote: a tape fills it in once all its marks are cut",
-    )
-    parser.add_argument("--readings", metavar="FILE", help="write the filled form to this file")
-    parser.add_argument(
-        "--noise",
-        metavar="MM",
-        type=length,
-        default=0.4,
-        help="noise of the tape's readings [%(default)g]",
-    )
-    add_shared(parser, "--json")
 
 
 def _add_brain(parser: argparse.ArgumentParser) -> None:

@@ -32,7 +32,7 @@ def test_the_examples_of_the_help_are_understood(name, monkeypatch, capsys, tmp_
     """Each file that they name is there; nothing is run."""
     for file in ("groundcontrol.ini", "machine.toml", "marks.toml", "pocket.nc"):
         (tmp_path / file).write_bytes((EXAMPLE / file).read_bytes())
-    for file in ("first.toml", "check.toml", "places.csv", "lengths.csv", "errors.toml"):
+    for file in ("first.toml", "check.toml", "errors.toml"):
         (tmp_path / file).write_text("")
     monkeypatch.chdir(tmp_path)
     with pytest.raises(SystemExit):
