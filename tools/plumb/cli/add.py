@@ -230,7 +230,7 @@ def _for_the_machine(arguments: argparse.Namespace) -> str:
         return into_machine(arguments.output)
     is_client = Path(arguments.settings).suffix.lower() in CLIENT_OF
     original = ["--original", arguments.settings] if is_client else client[2:]
-    words = ["settings", arguments.output, "--to", "gcode", *client[:2], *original]
+    words = ["settings", arguments.output, *client[:2], *original]
     sent = str(Path(arguments.output).with_suffix(".nc"))
     return next_step("For the machine:", [*words, "-o", sent])
 

@@ -25,7 +25,6 @@ from plumb.plan import Next, Proposal, propose
 from plumb.plan.case import Case
 from plumb.plan.options import READ_ONLY
 from plumb.plan.proposal import (
-    AGAIN,
     CONFIRM,
     EXPLORE,
     FIND,
@@ -37,10 +36,8 @@ from plumb.plan.proposal import (
 from plumb.settings.machine import MachineSettings
 from plumb.text.answers import Internal, part
 from plumb.text.errors import InputError
-from plumb.text.values import in_inches
 
-SHOWN, SPOKEN = 8, 3  # proposals of --details in the table, and in sentences; --json has all
-FEW = 5  # proposals of a short answer
+FEW = 5  # proposals; --json has all
 HEADS = {
     SETTLE: "chance to settle",
     CONFIRM: "chance to confirm",
@@ -75,7 +72,7 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.json:
         print_json(ProposalsAnswer(**vars(advice), diagnosis=diagnosis, written=tuple(files)))
     else:
-        facts = details(diagnosis, advice) if arguments.details else other_ways(advice, place)
+        facts = other_ways(advice, place)
         chosen = advice.proposals[place - 1] if advice.proposals else None
         print("\n\n".join([*facts, *first_proposal(chosen, arguments, inputs.settings)]))
         if files:
@@ -154,21 +151,6 @@ def other_ways(advice: Next, shown: int = 1) -> list[str]:
     ]
 
 
-def details(diagnosis: Diagnosis, advice: Next) -> list[str]:
-    """Return what the marks say, all proposals, and why they are in this order."""
-    parts = [sentences([diagnosis.sentence], mark="")]
-    if len(advice.proposals) > 1:
-        parts.append(_table(advice))
-        steps = [
-            f"{place}. {in_inches(' '.join(proposal.option.do))}"
-            for place, proposal in enumerate(advice.proposals[1:SPOKEN], 2)
-        ]
-        parts.append(sentences(steps, mark=""))
-    if advice.proposals:
-        parts.append(sentences([_how(advice)], mark=""))
-    return [*parts, sentences(diagnosis.warnings)] if diagnosis.warnings else parts
-
-
 def first_proposal(
     best: Proposal | None, arguments: argparse.Namespace, settings: MachineSettings
 ) -> list[str]:
@@ -212,58 +194,6 @@ def after(best: Proposal, arguments: argparse.Namespace, settings: MachineSettin
     return f"{next_step('Cut them by a program, and fill in a form:', asked)}\n{said}"
 
 
-def _table(advice: Next) -> str:
-    question = advice.proposals[0].question
-    header = ["", "other ways" if question != EXPLORE else "", "minutes", HEADS[question]]
-    counted = question in (SETTLE, CONFIRM)
-    rows = [
-        _row(f"{i}", proposal, counted) for i, proposal in enumerate(advice.proposals[:SHOWN], 1)
-    ]
-    if advice.blind:
-        rows.append(_row("-", advice.blind, counted))
-    if counted:
-        header += ["suspects left", "tells apart"]
-    header[1] = "what"
-    return table(header, rows, left=2, words=WORDED[question])
-
-
-def _row(place: str, proposal: Proposal, counted: bool) -> list[str]:
-    row = [place, proposal.option.title, f"{proposal.option.minutes:.0f}", proposal.promise]
-    if counted:
-        pairs = (
-            f"{len(proposal.parts)} pair{'s' if len(proposal.parts) != 1 else ''}"
-            if proposal.parts
-            else ""
-        )
-        row += [f"{proposal.left:.1f}" if proposal.left is not None else "-", pairs or "none"]
-    return row
-
-
-def _how(advice: Next) -> str:
-    question = advice.proposals[0].question
-    again = f"{AGAIN:.0f} minutes added for another round"
-    simulated = (
-        "A chance says how often the lab ended with a single cause when it played the measurement "
-        "through: each likely cause in turn was the true one, and readings were off as yours are."
-    )
-    if question == SETTLE:
-        return f"{simulated} The order is chance per minute, {again}."
-    if question == CONFIRM:
-        return (
-            f"{simulated} Confirmed means that the true cause alone is left. Direct checks come "
-            f"first; then the order is chance per minute, {again}."
-        )
-    if question == FIND:
-        return f"The order is the millimetres of doubt removed per minute, {again}."
-    if question == REREAD:
-        return "A slip hides what else the marks could say, so nothing else is proposed yet."
-    return (
-        "No chance can be computed for an effect that is not known. Also fit the left and right, "
-        "or the upper and lower, half of the marks by themselves: where their numbers differ, "
-        "something is local."
-    )
-
-
 # The arguments of `plumb next`.
 
 EXAMPLES = (
@@ -295,5 +225,4 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="the settings that the machine has now, if they are not those of MARKS; the form "
         "names them",
     )
-    add_shared(parser, details="all proposals, and why they are in this order")
     add_shared(parser, "--force", "--units", "--json")

@@ -9,7 +9,7 @@ from typing import Annotated
 from plumb.cli.arguments import add_shared, file
 from plumb.cli.output import write_outputs
 from plumb.cli.screen import headline, next_step, print_json, sentences, table
-from plumb.firmware.client_files import CLIENT_FILES, ClientFiles, client_files, gcode
+from plumb.firmware.client_files import CLIENT_FILES, ClientFiles, client_files
 from plumb.firmware.settings import SentSetting, firmware_numbers
 from plumb.fit.inputs import settings_in
 from plumb.settings.machine import CLIENTS, FIRMWARES, MachineSettings
@@ -38,34 +38,40 @@ def run(arguments: argparse.Namespace) -> int:
             remedy="give a machine.toml that plumb add wrote for our firmware",
         )
     numbers = firmware_numbers(settings)
-    _refuse_lines_alone(arguments)
-    # A file has all numbers.
-    shown = numbers if arguments.details or arguments.output else _at_work(numbers)[:MOST]
-    content = gcode(numbers) if arguments.to == "gcode" else _table(shown).encode()
-    printed = arguments.client == "none" and not arguments.output
-    client = (
-        None
-        if printed
-        else client_files_of(arguments.client, arguments.original, settings, lines=arguments.output)
-    )
-    files = client.files if client else {}
-    if arguments.output:
-        files = {arguments.output: content} | files
-        write_outputs(files, inputs=[arguments.settings, *filter(None, [arguments.original])])
+    client = _written_for_client(arguments, settings)
     if arguments.json:
-        print_json(SettingLines(numbers, tuple(files), typed_json(client)))
-    elif arguments.output:
-        print(f"Written: {', '.join(files)}")
-        if client:
-            print(client_text(client))
+        print_json(SettingLines(numbers, tuple(client.files if client else ()), typed_json(client)))
+    elif client:
+        print(f"Written: {', '.join(client.files)}")
+        print(client_text(client))
     else:
-        print(content.decode(), end="")
-        if arguments.to == "table":
-            print(f"\n{headline(_verdict(numbers, shown))}")
-            kept = ["--client", "groundcontrol", "--original", "groundcontrol.ini"]
-            words = ["settings", arguments.settings, "--to", "gcode", *kept, "-o", "machine.nc"]
-            print(f"\n{next_step('For the machine:', words)}")
+        shown = numbers if arguments.details else _at_work(numbers)[:MOST]
+        rows = [[f"${row.number}", row.name, row.text, row.unit] for row in shown]
+        print(table(["number", "name", "value", "unit"], rows, left=2, words=[-1]))
+        print(f"\n{headline(_verdict(numbers, shown))}")
+        kept = ["--client", "groundcontrol", "--original", "groundcontrol.ini"]
+        words = ["settings", arguments.settings, *kept, "-o", "machine.nc"]
+        print(f"\n{next_step('For the machine:', words)}")
     return 0
+
+
+def _written_for_client(
+    arguments: argparse.Namespace, settings: MachineSettings
+) -> ClientFiles | None:
+    """Write the lines and the client's files, if they are asked for. A client that carries some
+    corrections too would double them, so lines alone are refused.
+    """
+    if arguments.output and arguments.client is None:
+        raise InputError(
+            "-o needs --client: GroundControl and WebControl send their own corrections each time "
+            "they connect, and the machine would apply them twice; give --client groundcontrol "
+            "--original groundcontrol.ini, --client webcontrol, or --client none"
+        )
+    client = client_files_of(arguments.client, arguments.original, settings, lines=arguments.output)
+    if client:
+        read = [arguments.settings, *filter(None, [arguments.original])]
+        write_outputs(client.files, inputs=read)
+    return client
 
 
 MOST = 16  # rows of a short answer
@@ -82,31 +88,11 @@ def _verdict(numbers: tuple[SentSetting, ...], shown: tuple[SentSetting, ...]) -
     return said if len(shown) == len(numbers) else f"{said} --details shows all."
 
 
-def _refuse_lines_alone(arguments: argparse.Namespace) -> None:
-    """Refuse lines without a client: a client that carries some corrections too would
-    double them.
-    """
-    if arguments.to == "gcode" and arguments.client is None:
-        raise InputError(
-            "--to gcode needs --client: GroundControl and WebControl send their own corrections "
-            "each time they connect, and the machine would apply them twice; give --client "
-            "groundcontrol --original groundcontrol.ini, --client webcontrol, or --client none"
-        )
-    if arguments.to == "table" and arguments.client:
-        raise InputError("--client goes with --to gcode: a table sets no machine")
-
-
-def _table(numbers: tuple[SentSetting, ...]) -> str:
-    rows = [[f"${row.number}", row.name, row.text, row.unit] for row in numbers]
-    return table(["number", "name", "value", "unit"], rows, left=2, words=[-1]) + "\n"
-
-
 # The arguments of `plumb settings`.
 
-FORMS = ("gcode", "table")
 EXAMPLES = (
     "plumb settings machine.toml",
-    "plumb settings machine.toml --client groundcontrol --original groundcontrol.ini",
+    "plumb settings machine.toml --client webcontrol -o machine.nc",
 )
 EXIT = "Exit: 0 done; 2 an input cannot be used, and nothing was written."
 
@@ -114,9 +100,10 @@ EXIT = "Exit: 0 done; 2 an input cannot be used, and nothing was written."
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the arguments of `plumb settings`."""
     add_shared(parser, "settings")
-    parser.add_argument("--to", choices=FORMS, default="table", help="what to write [%(default)s]")
     add_client(parser)
-    add_shared(parser, output="write to this file, not to the screen")
+    add_shared(
+        parser, output="write the numbers as lines for the machine, and what belongs to the client"
+    )
     add_shared(parser, details="the numbers that are 0")
     add_shared(parser, "--force", "--json")
 

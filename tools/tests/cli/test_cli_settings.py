@@ -46,7 +46,7 @@ def test_published_settings_are_left_to_their_own_program(capsys):
 def test_lines_can_be_sent_as_they_are(tmp_path, capsys):
     machine = tmp_path / "machine.toml"
     machine.write_text(machine_toml(TRUE))
-    assert main(["settings", str(machine), "--to", "gcode", "--client", "none"]) == 0
+    assert main(["settings", str(machine), "--client", "none", "-o", "-"]) == 0
     lines = capsys.readouterr().out.splitlines()
     assert all(line.startswith("$") and " " not in line for line in lines)
     assert main(["settings", str(machine), "--json"]) == 0

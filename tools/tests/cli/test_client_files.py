@@ -83,7 +83,7 @@ def test_settings_and_add_write_the_fitted_machine_alike(run, tmp_path):
     assert run(*ADD, "-o", machine, "--client", "groundcontrol")[0] == 0
     new = dump_of(tmp_path / "machine-groundcontrol.ini")
     expect_safe(machine, tmp_path / "machine.nc", new)
-    options = ("--to", "gcode", "--client", "groundcontrol", "--original", OLD)
+    options = ("--client", "groundcontrol", "--original", OLD)
     code, said, _ = run("settings", machine, *options, "-o", tmp_path / "again.nc")
     assert code == 0 and "in place of its groundcontrol.ini" in said
     for name in (".nc", "-groundcontrol.ini"):
@@ -114,13 +114,12 @@ def test_a_sender_without_numbers_needs_the_lines_alone(ask, tmp_path):
 def test_lines_alone_are_refused_until_the_client_is_named(run, tmp_path):
     machine, lines = tmp_path / "machine.toml", tmp_path / "machine.nc"
     assert run(*ADD, "-o", machine)[0] == 0
-    code, _, complaint = run("settings", machine, "--to", "gcode", "-o", lines)
+    code, _, complaint = run("settings", machine, "-o", lines)
     assert code == 2 and "twice" in complaint and "--client" in complaint
     for options in (
-        ("--to", "gcode", "--client", "groundcontrol", "--original", OLD),
-        ("--to", "gcode", "--client", "groundcontrol", "-o", lines),
-        ("--to", "gcode", "--client", "none", "--original", OLD, "-o", lines),
-        ("--client", "none", "-o", lines),
+        ("--client", "groundcontrol", "--original", OLD),
+        ("--client", "groundcontrol", "-o", lines),
+        ("--client", "none", "--original", OLD, "-o", lines),
     ):
         assert run("settings", machine, *options)[0] == 2
     assert not lines.exists()
@@ -141,7 +140,7 @@ def test_a_file_of_another_machine_is_refused(old, new, said, run, file, tmp_pat
     machine = tmp_path / "machine.toml"
     assert run(*ADD, "-o", machine)[0] == 0
     other = file("other.ini", OLD.read_text().replace(old, new))
-    options = ("--to", "gcode", "--client", "groundcontrol", "--original", other)
+    options = ("--client", "groundcontrol", "--original", other)
     code, _, complaint = run("settings", machine, *options, "-o", tmp_path / "machine.nc")
     assert code == 2 and said in complaint and complaint.count("\n") == 1
     assert not (tmp_path / "machine.nc").exists()
@@ -160,7 +159,7 @@ def test_the_published_firmware_gets_all_numbers_through_its_client(run, tmp_pat
     assert np.abs(paid_out - chain_lengths(client, grid(13, 9))).max() < 0.001
     # The next board is cut with these numbers, so this file is what it was cut with.
     assert written.controller == "stock" and client.published.left_tolerance > 0.1
-    options = ("--to", "gcode", "--client", "none", "-o", lines)
+    options = ("--client", "none", "-o", lines)
     code, _, complaint = run("settings", machine, *options)
     assert code == 2 and "published numbers" in complaint and not lines.exists()
     ours = tmp_path / "ours.toml"

@@ -52,7 +52,7 @@ def lengths_shown(said, unit):
         ["diagnose", INI, MARKS],
         ["add", INI, MARKS, "--effect", "chain_sag", "sled_swing"],
         ["reach", INI],
-        ["next", INI, MARKS, "--details"],
+        ["next", INI, MARKS],
         ["calibrate", INI, MARKS, "--details"],
     ],
     ids=lambda words: words[0],
