@@ -9,14 +9,13 @@ from pathlib import Path
 from plumb.cli.add import heading_of, stair_title, stairs_of
 from plumb.cli.compare import panel_of
 from plumb.cli.main import Parser
-from plumb.cli.output import ended, refuse_early, write_outputs
+from plumb.cli.output import ended, write_outputs
 from plumb.cli.screen import bar, headline, sentences, table
 from plumb.cure.machine_file import toml_of
 from plumb.fit.compare import Comparison
 from plumb.grid.options import Grid
 from plumb.model.plain import plainly
 from plumb.pictures.drawing import draw
-from plumb.text.errors import InputError
 from plumb.text.files import DEMO_MARKS
 from plumb.text.values import bare
 from plumb.vm.garage import RANDOM, described, hide, random_garage
@@ -33,23 +32,14 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 def _run(arguments: Sequence[str] | None) -> int:
     parsed = _parser().parse_args(arguments)
-    _make(parsed.folder)
-    refuse_early(parsed.picture)
+    Path(parsed.folder).mkdir(parents=True, exist_ok=True)
     made = shown(parsed.folder, seed=parsed.seed, elf=parsed.mega)
-    files = made.files | ({parsed.picture: made.picture} if parsed.picture else {})
-    write_outputs(files, inputs=[])
+    write_outputs(made.files, inputs=[])
     print(loop_text(made.loop))
     print("\nWritten:")
-    print(sentences([*files], mark="  "))
+    print(sentences([*made.files], mark="  "))
     print(f"\n{reveal(made.loop)}")
     return int(not made.fell)
-
-
-def _make(folder: str) -> None:
-    try:
-        Path(folder).mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise InputError(folder, f"cannot be made ({error.strerror})") from None
 
 
 def _parser() -> Parser:
@@ -62,7 +52,6 @@ def _parser() -> Parser:
         default="build/demo",
         help="where the results go [%(default)s]",
     )
-    parser.add_argument("--picture", metavar="FILE", help="a copy of the picture (.png)")
     parser.add_argument(
         "--seed", metavar="N", type=int, default=1, help="another machine, another effect [1]"
     )
@@ -88,7 +77,6 @@ class Shown:
 
     loop: Loop
     files: dict[str, bytes]
-    picture: bytes
 
     @property
     def fell(self) -> bool:
@@ -103,10 +91,9 @@ def shown(folder: str, *, seed: int, elf: str | None) -> Shown:
     hidden = hide([RANDOM], millimetres=MILLIMETRES, seed=seed)
     owner = VirtualOwner(random_garage(hidden, seed), elf=elf)
     loop = closed_loop(owner, grid=GRID, progress=bar("the machine cuts"))
-    picture = _picture(loop)
-    named = {"error-falls.png": picture, **_texts(loop)}
+    named = {"error-falls.png": _picture(loop), **_texts(loop)}
     files = {os.path.join(folder, name): content for name, content in named.items()}
-    return Shown(loop, files, picture)
+    return Shown(loop, files)
 
 
 INTRODUCTION = (

@@ -48,18 +48,6 @@ def results_of(arguments: argparse.Namespace) -> Iterator[None]:
         _way.reset(token)
 
 
-def refuse_early(*paths: str | None) -> None:
-    """Refuse, before long work, the results that write_outputs() would refuse after it."""
-    way = _way.get() or _Way(force=False, results=sys.stdout)
-    for path in paths:
-        if not path or path == STDOUT:
-            continue
-        if not Path(os.path.realpath(path)).parent.is_dir():
-            raise InputError(path, "cannot be written (its folder does not exist)")
-        if not way.force:
-            _refuse_foreign(path)
-
-
 def write_outputs(files: Mapping[str, bytes], *, inputs: Sequence[str]) -> None:
     """Write all results or none; what was read, and what others wrote, is never replaced."""
     way = _way.get() or _Way(force=False, results=sys.stdout)

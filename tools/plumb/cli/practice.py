@@ -66,10 +66,7 @@ def _begun(folder: Path, secret: Secret) -> Secret:
     """Write the secret and what the owner believes into a folder that has neither."""
     if (folder / SETTINGS).exists():
         raise InputError(folder, f"holds a {SETTINGS}", remedy="name a new folder")
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise InputError(folder, f"cannot be made ({error.strerror})") from None
+    folder.mkdir(parents=True, exist_ok=True)
     said = "What the owner of the virtual machine believes."
     believed = machine_toml(secret.garage.settings, comment=said)
     write_all(

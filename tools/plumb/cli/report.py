@@ -10,11 +10,12 @@ from plumb.cli.inputs import add_stated, stated_inputs
 from plumb.cli.output import STDOUT, write_outputs
 from plumb.cli.screen import bar, headline, print_json, same_inputs, sentences
 from plumb.cure.add import Addition
+from plumb.cure.decision import Decision, decide
 from plumb.diagnosis.answer import Diagnosis
 from plumb.diary.file import folder_of, has_diary, read_diary
-from plumb.lab.report import Findings, find, report
+from plumb.lab.report import report
 from plumb.lab.rounds import command
-from plumb.plan import Proposal
+from plumb.plan import Next, Proposal, propose
 from plumb.text.answers import Internal, part
 from plumb.text.errors import InputError
 
@@ -25,14 +26,15 @@ ENDINGS = (".html", ".htm")
 class ReportAnswer:
     """Contents of the report."""
 
-    findings: Internal[Findings]
+    decision: Internal[Decision]
+    advice: Internal[Next]
     written: tuple[str, ...]
 
-    diagnosis = part("findings.diagnosis", Diagnosis)
+    diagnosis = part("decision.diagnosis", Diagnosis)
     addition = part(
-        "findings.auto.addition", Addition | None, "Null: nothing is fitted to a wrong reading."
+        "decision.addition", Addition | None, "Null: nothing is fitted to a wrong reading."
     )
-    next = part("findings.advice.proposals", tuple[Proposal, ...])
+    next = part("advice.proposals", tuple[Proposal, ...])
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -40,16 +42,17 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.output != STDOUT and Path(arguments.output).suffix.lower() not in ENDINGS:
         raise InputError(f"-o {arguments.output}: end the name with {', '.join(ENDINGS)}")
     inputs = stated_inputs(arguments)
-    findings = find(inputs, progress=bar("simulating"))
+    decision = decide(inputs)
+    advice = propose(decision.diagnosis, inputs, progress=bar("simulating"))
     folder = folder_of(arguments.settings)
     diary = read_diary(folder) if folder and has_diary(folder) else None
-    page = report(findings, diary=diary, command=partial(_command, arguments))
+    page = report(inputs, decision, advice, diary=diary, command=partial(_command, arguments))
     read = [arguments.settings, *arguments.marks, *filter(None, [arguments.cut_with])]
     write_outputs({arguments.output: page}, inputs=read)
     if arguments.json:
-        print_json(ReportAnswer(findings, (arguments.output,)))
+        print_json(ReportAnswer(decision, advice, (arguments.output,)))
     else:
-        print(headline(findings.diagnosis.sentence))
+        print(headline(decision.diagnosis.sentence))
         if arguments.output != STDOUT:
             print(f"\n{sentences([f'Written: {arguments.output}'], mark='')}")
     return 0

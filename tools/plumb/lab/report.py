@@ -2,7 +2,6 @@
 
 import base64
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass
 from hashlib import sha256
 from html import escape
 from importlib.metadata import version
@@ -10,9 +9,8 @@ from pathlib import Path
 
 from pydantic_core import to_json
 
-from plumb.cure.decision import Decision, decide
+from plumb.cure.decision import Decision
 from plumb.diagnosis.answer import Diagnosis
-from plumb.diagnosis.diagnosis import diagnose
 from plumb.diary.file import Diary
 from plumb.fit.inputs import Inputs
 from plumb.lab.background import WarmBoard, sure_board
@@ -23,43 +21,33 @@ from plumb.lab.routes.diary import diary_answer
 from plumb.lab.routes.next import NextAnswer, offers_of
 from plumb.lab.routes.project import ProjectAnswer, machine_of
 from plumb.lab.routes.verdict import Verdict, VerdictAnswer, verdict_of
-from plumb.plan import Next, propose
+from plumb.plan import Next
 from plumb.text.values import unit, worded
 
 PAGE = Path(__file__).parent / "page"
 PACKAGES = ("plumb-maslow", "numpy", "scipy")
 
 
-@dataclass(frozen=True)
-class Findings:
-    """A board, its diagnosis, what is added for it, and what to measure next."""
-
-    inputs: Inputs
-    diagnosis: Diagnosis
-    auto: Decision
-    advice: Next
-
-
-def find(inputs: Inputs, *, progress: Callable[[float], None] = lambda share: None) -> Findings:
-    """Diagnose, add and propose. Raises InputError as these do."""
-    diagnosis = diagnose(inputs)
-    auto = decide(inputs, diagnosis=diagnosis)
-    return Findings(inputs, diagnosis, auto, propose(diagnosis, inputs, progress=progress))
-
-
-def report(findings: Findings, *, diary: Diary | None, command: Callable[[str], str]) -> bytes:
-    """Return the page as a file; `command` says how a command is called on this board."""
-    inputs = findings.inputs
-    verdict = verdict_of(inputs, findings.diagnosis, findings.auto)
+def report(
+    inputs: Inputs,
+    decision: Decision,
+    advice: Next,
+    *,
+    diary: Diary | None,
+    command: Callable[[str], str],
+) -> bytes:
+    """Return the page as a file, with what was decided for a board and what to measure next;
+    `command` says how a command is called on this board."""
+    verdict = verdict_of(inputs, decision.diagnosis, decision)
     project, about = _project(inputs), _about(inputs, command("report"))
     answers = {
         "project": project,
         "about": about,
         "verdict": VerdictAnswer(share=1, verdict=verdict, command=command("diagnose")),
-        "next": _next(findings.advice, command("next")),
-        "correction": correction_of(inputs, findings.auto, project.choices),
+        "next": _next(advice, command("next")),
+        "correction": correction_of(inputs, decision, project.choices),
         "diary": diary_answer(diary or Diary(Path(), ())),
-        **dict(_of_bench(findings, verdict)),
+        **dict(_of_bench(inputs, decision.diagnosis, verdict)),
     }
     return _file(answers, title=f"{verdict.title} · {about['title']}", said=verdict.sentence)
 
@@ -87,11 +75,12 @@ def _next(advice: Next, command: str) -> NextAnswer:
     )
 
 
-def _of_bench(findings: Findings, verdict: Verdict) -> Iterator[tuple[str, object]]:
+def _of_bench(
+    inputs: Inputs, diagnosis: Diagnosis, verdict: Verdict
+) -> Iterator[tuple[str, object]]:
     """Yield what errors may depend on, and what each suspect draws."""
-    diagnosis = findings.diagnosis
-    live = sure_board(findings.inputs, diagnosis.readings, diagnosis.usual)
-    warm = WarmBoard.of(findings.inputs, live, diagnosis.outliers)
+    live = sure_board(inputs, diagnosis.readings, diagnosis.usual)
+    warm = WarmBoard.of(inputs, live, diagnosis.outliers)
     yield "bench", {"board": "", "covariates": covariates_of(warm)}
     for card in verdict.cards if verdict.marks else ():
         names = [effect.name for effect in card.effects]

@@ -38,10 +38,7 @@ def serve(
 ) -> None:
     """Serve the lab of a folder until Ctrl-C; port 0 takes any. Raises InputError."""
     if not folder.exists():
-        try:
-            folder.mkdir(parents=True)
-        except OSError as error:
-            raise InputError(folder, f"cannot be made ({error.strerror})") from None
+        folder.mkdir(parents=True)
         say(f"{folder}: a new folder, made for this machine")
     if not folder.is_dir():
         raise InputError(folder, "is a file", remedy="name a folder")

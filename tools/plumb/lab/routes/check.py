@@ -61,7 +61,6 @@ class CheckedMark(BaseModel):
     promised: float  # how far off 99 of 100 such readings are at most
     off: float  # how far the reading is from the prediction
     error: float  # how far it is from its target
-    is_within: bool
 
 
 class CheckAnswer(HowFar):
@@ -337,7 +336,6 @@ def _marks(project: Project, form: str, checked: Recheck) -> tuple[CheckedMark, 
             promised=mark.expected_mm,
             off=mark.off,
             error=dist(mark.hole, sent.target),
-            is_within=mark.off <= mark.expected_mm,
         )
         for mark, sent in zip(checked.marks, _measured(project, form).marks, strict=True)
     )

@@ -6,9 +6,10 @@ from typing import Literal
 from fastapi import APIRouter
 from fastapi.responses import Response
 
+from plumb.cure.decision import decide
 from plumb.diary.file import read_diary
 from plumb.lab.project import Project
-from plumb.lab.report import find, report
+from plumb.lab.report import report
 from plumb.lab.rounds import (
     board_words,
     command,
@@ -22,6 +23,7 @@ from plumb.lab.rounds import (
 )
 from plumb.lab.routes.project import TheProject
 from plumb.pictures.grid_paper import grid_paper
+from plumb.plan import propose
 
 router = APIRouter(tags=["papers"])
 Paper = Literal["report.html", "marks.pdf"]
@@ -43,7 +45,10 @@ def _report(project: Project) -> bytes:
         output = ["-o", "report.html"] if name == "report" else []
         return command(name, *board, *known, *unit_words(project.choices), *output)
 
-    return report(find(inputs_of(project)), diary=read_diary(project.folder), command=worded)
+    inputs = inputs_of(project)
+    decision = decide(inputs)
+    advice = propose(decision.diagnosis, inputs)
+    return report(inputs, decision, advice, diary=read_diary(project.folder), command=worded)
 
 
 def _paper(project: Project) -> bytes:
