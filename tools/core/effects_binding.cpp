@@ -57,8 +57,6 @@ nb::dict usual(const core::Values& values, bool over_top) {
   return each.sizes;
 }
 
-const char* const kOwners[] = {"machine", "chain", "zeroing"};  // by BelongsTo
-
 nb::object checkOf(const CheckInfo& info) {
   if (!info.title || !*info.title) return nb::none();
   return dictOf({{"title", info.title},
@@ -141,7 +139,7 @@ struct Lister {
                            {"look_alikes", info.look_alikes},
                            {"remedy", info.remedy},
                            {"empirical", bool(ThisEffect::kEmpirical)},
-                           {"belongs_to", kOwners[ThisEffect::kBelongsTo]},
+                           {"per_zeroing", bool(ThisEffect::kPerZeroing)},
                            {"in_frame", bool(ThisEffect::kInFrame)},
                            {"weight_power", int(ThisEffect::kWeightPower)},
                            {"check", checkOf(ThisEffect::check())},

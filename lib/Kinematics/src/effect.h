@@ -117,13 +117,6 @@ struct PublishedChains {
   Real sheet_width, sheet_height;  ///< [mm]
 };
 
-/// What a parameter belongs to when the chains change sides.
-enum BelongsTo {
-  kToMachine,  ///< it stays on its side, whichever chain hangs there
-  kToChain,    ///< it goes with its chain to the other sprocket
-  kToZeroing,  ///< it changes each time the chains are set to zero
-};
-
 /// Base of all effects. Its hooks do nothing; an effect hides those that it needs.
 ///
 /// An effect must have
@@ -131,7 +124,7 @@ enum BelongsTo {
 ///   enum { ..., kCoefficientCount };  the numbers that its hooks read
 ///   static void prepare(const Frame<Real>&, const Real* parameter, Real* c);
 /// prepare() works out the coefficients c when settings change. A hook gets c and changes only its
-/// arguments. Where parameters belong to chains or to zeroing, those of the left side come first.
+/// arguments. Of parameters that are new with each zeroing, those of the left side come first.
 ///
 /// Two laws hold for each effect and are tested for all: with every parameter zero no bit of any
 /// length changes, and every parameter has a slope at zero.
@@ -146,8 +139,8 @@ struct Effect {
   enum { kClientNumber = 0 };  ///< number by which a published client means the first parameter
 
   // For the lab only.
-  enum { kEmpirical = 0 };           ///< 1 where it is a fit without a cause: never a suspect
-  enum { kBelongsTo = kToMachine };  ///< of BelongsTo
+  enum { kEmpirical = 0 };    ///< 1 where it is a fit without a cause: never a suspect
+  enum { kPerZeroing = 0 };   ///< 1 where it is new each time the chains are set to zero
   enum { kInFrame = 0 };      ///< 1 where a refitted frame or a turned sheet draws nearly the same
   enum { kWeightPower = 0 };  ///< parameters are proportional to this power of the sled's weight
   enum { kExampleCount = 1 };

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from plumb.bench import judge
-from plumb.bench.causes import MAKER, SLED, Cause, Field, Hidden, Numbers, Plan
+from plumb.bench.causes import MAKER, SLED, Cause, Field, Hidden, Plan
 from plumb.marks.read import Distance, Mark, Measurements
 from plumb.model.predict import FOUND, judged, lengths
 from plumb.settings.machine import MachineSettings
@@ -17,7 +17,6 @@ Array = np.ndarray
 SIDES = np.array([(1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.0, -1.0)])
 GAP_SIGMA, POSE_SIGMA, TURN_SIGMA = 3.0, 5.0, 0.002  # [mm, mm, rad] how far the frame is off
 # The judge's numbers of each chain.
-OTHER_SIDE = {"left.pitch": "right.pitch", "right.pitch": "left.pitch"}
 WIDTH, HEIGHT = 2200.0, 1000.0  # [mm] that a plan covers of the sheet
 
 
@@ -68,7 +67,6 @@ class TrueMachine:
     motor_height: float = MAKER.motor_height
     motor_center_x: float = 0.0
     turn: float = 0.0  # [rad] of the sheet
-    swapped: bool = False  # whether the chains hang on each other's sprockets
     field: Field | None = None  # what else it does, which no effect of the library draws
 
     def read(self, chains: Array, *, approaches: Array, weights: Array) -> Array:
@@ -95,7 +93,7 @@ class TrueMachine:
             "motor_gap": self.motor_gap,
             "motor_height": self.motor_height,
             "motor_center_x": self.motor_center_x,
-            **self._hidden_numbers(),
+            **self.hidden.numbers,
         }
         heavier = numbers["sled_weight"] / SLED
         still = np.zeros_like(chains)
@@ -106,13 +104,6 @@ class TrueMachine:
             weights=heavier * (np.full(len(chains), SLED) if weights is None else weights),
         )
         return where + self.field(where) if self.field else where
-
-    def _hidden_numbers(self) -> Numbers:
-        """Return the judge's; what goes with a chain is where the chain is."""
-        numbers = self.hidden.numbers
-        if not self.swapped:
-            return numbers
-        return {OTHER_SIDE.get(name, name): value for name, value in numbers.items()}
 
 
 @dataclass(frozen=True)

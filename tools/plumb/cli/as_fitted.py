@@ -32,7 +32,7 @@ def checked_by_fit(inputs: Inputs, path: str) -> Recheck | None:
             settings, fitted=None
         ):
             return None
-    if any(mark.chains or mark.chains_swapped or mark.sled_weight for mark in measured.marks):
+    if any(mark.chains or mark.sled_weight for mark in measured.marks):
         return None
     touches = [HomeTouch(mark.name, where, mark.target) for mark, where in measured.readings]
     fit = fit_of(read_diary(folder), settings)

@@ -67,7 +67,6 @@ def _visits(chains: Array, weight: float) -> Observations:
         rounds=first,
         zero_groups=first,
         sheet_groups=first,
-        swapped=np.zeros(count, dtype=bool),
     )
 
 

@@ -6,7 +6,7 @@ from functools import partial
 import numpy as np
 
 from plumb.marks.read import Measurements
-from plumb.model.catalogue import OTHER_CHAIN, WEIGHT_POWERS, ZEROING_NAMES
+from plumb.model.catalogue import WEIGHT_POWERS, ZEROING_NAMES
 from plumb.model.predict import (
     NAMES,
     believed_lengths,
@@ -48,7 +48,6 @@ class Observations:
     rounds: Array  # (r,) int: the file of each visit
     zero_groups: Array  # (r,) int: visits with equal numbers have the chains' zeros in common
     sheet_groups: Array  # (r,) int: visits with equal numbers lie on one sheet
-    swapped: Array  # (r,) bool: each chain hung on the other's sprocket
 
     @property
     def count(self) -> int:
@@ -102,7 +101,6 @@ def observe(
         distances=measurements.distance_lengths,
         distance_rounds=np.array([each.round for each in measurements.distances], dtype=int),
         approaches=_directions([mark.approach or (0.0, 0.0) for mark in marks]),
-        swapped=np.array([mark.chains_swapped for mark in marks], dtype=bool),
         rounds=_rounds(measurements),
         zero_groups=_of_rounds(measurements, "zero_group"),
         sheet_groups=_of_rounds(measurements, "sheet_group"),
@@ -179,8 +177,6 @@ def model_and_observations(
 
 # Left and right: what each zeroing of the chains sets again.
 ZERO_COLUMNS = tuple(NAMES.index(name) for name in ZEROING_NAMES)
-# What goes with a chain to the other sprocket.
-SWAPPED = np.array([NAMES.index(OTHER_CHAIN.get(name, name)) for name in NAMES])
 
 
 def loaded(values: Array, weight: float, usual: float) -> tuple[Array, Array]:
@@ -217,19 +213,15 @@ def visited(
     where = np.zeros((len(rows.chains), 2))
     slopes = np.zeros((len(rows.chains), 2, len(NAMES)))
     outcome = np.zeros(len(rows.chains), dtype=int)
-    alike = {*zip(rows.sled_weights, rows.zero_groups, rows.swapped, strict=True)}
-    for weight, group, swapped in alike:
-        mine = (
-            (rows.sled_weights == weight) & (rows.zero_groups == group) & (rows.swapped == swapped)
-        )
+    for weight, group in {*zip(rows.sled_weights, rows.zero_groups, strict=True)}:
+        mine = (rows.sled_weights == weight) & (rows.zero_groups == group)
         loaded_values, factors = loaded(values, weight, usual_weight)
         if zeros is not None:
             loaded_values[list(ZERO_COLUMNS)] += zeros[group]
-        order = SWAPPED if swapped else slice(None)
         where[mine], of_mine, outcome[mine] = places_with_slopes(
-            loaded_values[order], over_top=over_top, chains=rows.chains[mine]
+            loaded_values, over_top=over_top, chains=rows.chains[mine]
         )
-        slopes[mine] = of_mine[:, :, order] * factors
+        slopes[mine] = of_mine * factors
     return where, slopes, outcome
 
 

@@ -198,11 +198,6 @@ class Taken:
         """The pauses of the program."""
         return tuple(waits_in(self.text.splitlines()))
 
-    @property
-    def swaps_chains(self) -> bool:
-        """Whether it has chains on each other's sprockets."""
-        return any(mark.chains_swapped for mark in self.marks)
-
 
 def program_name(form: str) -> str:
     """Return the file of the program whose marks a form waits for."""

@@ -108,7 +108,6 @@ def _mark_table(mark: Mark) -> dict[str, Any]:
         "approach": mark.approach and list(mark.approach),
         "sled_weight_n": mark.sled_weight,
         "chains": mark.chains and list(mark.chains),
-        "chains_swapped": mark.chains_swapped or None,
     }
     return {key: value for key, value in said.items() if value is not None}
 

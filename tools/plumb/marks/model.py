@@ -43,7 +43,6 @@ class Mark:
     approach: Point | None = None  # direction of the last move, any length
     sled_weight: float | None = None  # [N]
     chains: Point | None = None  # [mm] left and right paid out, if the machine reported them
-    chains_swapped: bool = False  # each chain hung on the other's sprocket
     round: int = 0  # index into the rounds
     is_unread: bool = False  # its reading is yet to come
 

@@ -92,7 +92,6 @@ class MarkTable(Table):
     approach: Annotated[Point, BeforeValidator(_direction)] | None = None
     sled_weight_n: Weight | None = None
     chains: Annotated[tuple[Chain, Chain], BeforeValidator(pair)] | None = None
-    chains_swapped: StrictBool = False
 
 
 class DistanceTable(Table):
@@ -199,7 +198,6 @@ def marks_of(
                 approach=approach,
                 sled_weight=sled_weight if said.sled_weight_n is None else said.sled_weight_n,
                 chains=said.chains,
-                chains_swapped=said.chains_swapped,
                 is_unread=said.unread and measured is None,
             )
         )

@@ -26,29 +26,13 @@ def _on_every_machine() -> tuple[str, ...]:
 EVERY_MACHINE = _on_every_machine()
 
 
-def _names_of(owner: str) -> list[str]:
-    """Full names of the firmware's parameters that belong to "machine", "chain" or "zeroing"."""
-    return [
-        f"{effect['name']}.{parameter['name']}"
-        for effect in library()
-        if effect["belongs_to"] == owner
-        for parameter in effect["parameters"]
-    ]
-
-
-def _other_chain() -> dict[str, str]:
-    """Return each parameter of a chain, and the same of the other chain."""
-    pairs: dict[str, str] = {}
-    for effect in library():
-        names = [f"{effect['name']}.{parameter['name']}" for parameter in effect["parameters"]]
-        if effect["belongs_to"] == "chain":
-            half = len(names) // 2
-            pairs |= dict(zip(names, names[half:] + names[:half], strict=True))
-    return pairs
-
-
-ZEROING_NAMES = tuple(_names_of("zeroing"))  # left, right: new each time the chains are zeroed
-OTHER_CHAIN = _other_chain()
+# Left, right: new each time the chains are zeroed.
+ZEROING_NAMES = tuple(
+    f"{effect['name']}.{parameter['name']}"
+    for effect in library()
+    if effect["per_zeroing"]
+    for parameter in effect["parameters"]
+)
 # Parameters that go with a power of the sled's weight.
 WEIGHT_POWERS = {
     f"{effect['name']}.{parameter['name']}": effect["weight_power"]
@@ -77,11 +61,6 @@ def effect_names() -> tuple[str, ...]:
 def is_lab(effect: str) -> bool:
     """Return whether the effect acts on what is measured only."""
     return any(known.name == effect for known in LAB_EFFECTS)
-
-
-def is_of_chain(effect: str) -> bool:
-    """Return whether the effect goes with its chain to the other sprocket."""
-    return any(name.startswith(f"{effect}.") for name in OTHER_CHAIN)
 
 
 def is_felt_by_approach(effect: str) -> bool:

@@ -78,7 +78,7 @@ class EffectWords(TypedDict):
     look_alikes: str
     remedy: str
     empirical: bool
-    belongs_to: str
+    per_zeroing: bool
     in_frame: bool
     weight_power: int
     check: CheckWords | None

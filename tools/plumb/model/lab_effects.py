@@ -109,7 +109,7 @@ def _words(
         "look_alikes": look_alikes,
         "remedy": remedy,
         "empirical": False,
-        "belongs_to": "machine",
+        "per_zeroing": False,
         "in_frame": False,
         "weight_power": 0,
         "check": check,

@@ -1,11 +1,11 @@
-"""Options to measure next: marks, repeats, heavier sleds, sides, swapped chains, checks."""
+"""Options to measure next: marks, repeats, heavier sleds, sides, checks."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
 
-from plumb.model.catalogue import is_felt_by_approach, is_of_chain
+from plumb.model.catalogue import is_felt_by_approach
 from plumb.model.plain import least, ranked
 from plumb.plan.case import Case, PlannedCheck
 from plumb.plan.planned_visits import Visits, grid, joined, new_places, nowhere, sent, usable
@@ -21,9 +21,8 @@ SHARPER = 1.5  # times better than what is known: else a check is not worth the 
 READ_AGAIN = 3  # times each mark is read again
 MOST_NEAR = 60  # marks next to which a new mark is considered
 MOST_AGAIN = 12  # marks that are all visited again with another weight
-# Minutes: a round at the machine, a mark cut and read, a mark read once more, a change of weight,
-# chains swapped and brought to 12 o'clock again.
-ROUND, MARK, READING, HANGING, SWAPPING = 3.0, 1.5, 0.75, 4.0, 15.0
+# Minutes: a round at the machine, a mark cut and read, a mark read once more, a change of weight.
+ROUND, MARK, READING, HANGING = 3.0, 1.5, 0.75, 4.0
 ROOM_FOR_A_SECOND = (
     20.0  # [mm] inwards of a mark is room for a second mark; in the same hole nothing is read
 )
@@ -54,9 +53,9 @@ def options(case: Case) -> list[Option]:
     shop = _Shop(case)
     if case.verdict == "one_suspect":
         # Repeats share every systematic error with what they repeat: they confirm nothing.
-        about_causes = [*shop.ordinary(), *shop.heavier(), *shop.swapped()]
+        about_causes = [*shop.ordinary(), *shop.heavier()]
         return about_causes + [option for option in checks_for(case) if option.kind == "check"]
-    everything = [*shop.ordinary(), shop.repeats(), *shop.heavier(), *shop.sides(), *shop.swapped()]
+    everything = [*shop.ordinary(), shop.repeats(), *shop.heavier(), *shop.sides()]
     return [option for option in everything if option is not None] + checks_for(case)
 
 
@@ -195,21 +194,7 @@ class _Shop:
         )
         return [_marks("approach", "marks from opposite sides", do, visits)]
 
-    def swapped(self) -> list[Option]:
-        """Return marks with each chain on the other's sprocket."""
-        if not any(map(is_of_chain, self.case.effects)):
-            return []
-        pool = self.pool(self.case.usual_weight, swapped=True)
-        if len(pool) < FEW:
-            return []
-        visits = pool.taken(self.spread(pool))
-        do = (
-            "Hang each chain on the other's sprocket with the same link at 12 o'clock, and cut and "
-            f"read {FEW} marks, at {spots(visits)}."
-        )
-        return [_marks("swap", f"chains swapped, {FEW} marks", do, visits, more=SWAPPING)]
-
-    def pool(self, weight: float, *, swapped: bool = False) -> Visits:
+    def pool(self, weight: float) -> Visits:
         """Return places near the marks there are, and new places, as far as they are usable so
         loaded.
         """
@@ -220,7 +205,7 @@ class _Shop:
             near = near[np.unique([least(row) for row in gaps])]
         places = np.vstack([near, self.new_targets])
         places = places[usable(self.case.settings, places, weight)]
-        return self.visits(places, weight, swapped=swapped)
+        return self.visits(places, weight)
 
     def inwards(self, millimetres: float) -> Array:
         """Return places (n, 2) so far inwards of the marks there are."""
@@ -236,7 +221,6 @@ class _Shop:
             rows.chains[first_rows],
             rows.sled_weights[first_rows],
             rows.approaches[first_rows],
-            rows.swapped[first_rows],
         )
 
     def visits(
@@ -245,7 +229,6 @@ class _Shop:
         weight: float,
         *,
         sides: Array | None = None,
-        swapped: bool = False,
     ) -> Visits:
         """Visits of new places, approached as the nearest mark was, or from the sides given."""
         approaches = np.zeros((len(places), 2))
@@ -262,7 +245,6 @@ class _Shop:
                 controller=self.case.controller,
                 sled_weight=weight,
                 approaches=approaches,
-                swapped=swapped,
             )
         except ValueError:
             # A controller that cannot go there is not asked to.

@@ -33,7 +33,6 @@ class Visit:
     target: Point  # [mm]
     sled_weight: Annotated[float, key("sled_weight_n")]
     approach: Point | None  # unit vector; None: the side is not prescribed
-    chains_swapped: bool
 
 
 @dataclass(frozen=True)
@@ -45,7 +44,6 @@ class Visits:
     chains: Array  # (n, 2) [mm] the controller will pay out
     sled_weights: Array  # (n,) [N]
     approaches: Array  # (n, 2) unit vectors; zero if the side is not prescribed
-    swapped: Array  # (n,) whether the chains hang on each other's sprockets
 
     def __len__(self) -> int:
         """Return how many visits."""
@@ -66,7 +64,6 @@ class Visits:
                 target=tuple(self.targets[i].tolist()),
                 approach=tuple(self.approaches[i].tolist()) if self.approaches[i].any() else None,
                 sled_weight=float(self.sled_weights[i]),
-                chains_swapped=bool(self.swapped[i]),
             )
             for i, name in enumerate(self.names)
         )
@@ -91,7 +88,6 @@ class Visits:
             rounds=np.zeros(count, dtype=int),
             zero_groups=np.zeros(count, dtype=int),
             sheet_groups=np.zeros(count, dtype=int),
-            swapped=self.swapped,
         )
 
 
@@ -105,7 +101,7 @@ def joined(*several: Visits) -> Visits:
 def nowhere() -> Visits:
     """No visit at all."""
     none = np.zeros((0, 2))
-    return Visits((), none, none, np.zeros(0), none, np.zeros(0, dtype=bool))
+    return Visits((), none, none, np.zeros(0), none)
 
 
 def sent(
@@ -115,7 +111,6 @@ def sent(
     controller: str,
     sled_weight: float,
     approaches: Array | None = None,
-    swapped: bool = False,
 ) -> Visits:
     """Visits of targets (n, 2) [mm] by a machine with the settings in force; the approaches (n, 2)
     are zero if not given. Raises ValueError for a target that the controller cannot reach."""
@@ -127,7 +122,6 @@ def sent(
         chains=believed_lengths(settings, where, controller=controller),
         sled_weights=np.full(count, float(sled_weight)),
         approaches=np.zeros((count, 2)) if approaches is None else np.array(approaches, float),
-        swapped=np.full(count, swapped),
     )
 
 
@@ -144,8 +138,8 @@ COMMENT = 70  # characters: a client sends no line that is longer than the machi
 def program(visits: Visits, *, usual_weight: float, do: Sequence[str] = ()) -> str:
     """Return the G-code for planned visits.
 
-    It waits (M0) where another weight is to hang on the sled or the chains change places, and at
-    the end until all is as it was; `usual_weight` [N] is that of the sled by itself. `do`: what to
+    It waits (M0) where another weight is to hang on the sled, and at the end until it hangs as
+    before; `usual_weight` [N] is that of the sled by itself. `do`: what to
     do first, as comments.
     """
     lines = [FIRST_LINE, "(X0 Y0 middle of sheet, Z0 surface; leave the router off)"]
@@ -153,16 +147,14 @@ def program(visits: Visits, *, usual_weight: float, do: Sequence[str] = ()) -> s
         bare = sentence.replace("(", "").replace(")", "")
         lines += [f"({line})" for line in textwrap.wrap(bare, COMMENT)]
     lines += ["G21", "G90", f"G0 Z{USUAL.safe_height:g}"]
-    weight, swapped = usual_weight, False
-    each = zip(visits.names, visits.sled_weights, visits.swapped, visit_lines(visits), strict=True)
-    for name, next_weight, next_swapped, touched in each:
-        lines += _chains_change(swapped, next_swapped)
+    weight = usual_weight
+    each = zip(visits.names, visits.sled_weights, visit_lines(visits), strict=True)
+    for name, next_weight, touched in each:
         lines += _weight_changes(weight, float(next_weight), usual_weight)
-        weight, swapped = float(next_weight), bool(next_swapped)
+        weight = float(next_weight)
         lines += [f"(mark {name.replace('(', '').replace(')', '')})", *touched]
     lines += ["(back to the middle)", "G0 X0 Y0"]
-    lines += _weight_changes(weight, usual_weight, usual_weight)
-    return "\n".join([*lines, *_chains_change(swapped, False), ""])
+    return "\n".join([*lines, *_weight_changes(weight, usual_weight, usual_weight), ""])
 
 
 def _weight_changes(weight: float, next_weight: float, usual: float) -> list[str]:
@@ -173,18 +165,6 @@ def _weight_changes(weight: float, next_weight: float, usual: float) -> list[str
     if abs(next_weight - usual) <= LEAST:
         return ["(take off what hangs on the sled)", "M0"]
     return [f"(let {kilograms:.1f} kg more hang on the sled, low and in the middle)", "M0"]
-
-
-def _chains_change(swapped: bool, next_swapped: bool) -> list[str]:
-    """Return the pause in which the chains change places; no line if they stay."""
-    if swapped == next_swapped:
-        return []
-    return [
-        "(hang each chain on the other's sprocket, the same link at 12 o'clock)"
-        if next_swapped
-        else "(hang each chain on its sprocket again, the same link at 12 o'clock)",
-        "M0",
-    ]
 
 
 def visit_lines(visits: Visits) -> Iterator[list[str]]:
@@ -353,7 +333,5 @@ def marks_file(
             lines.append(
                 f"approach = [{side[0] + 0.0:.3f}, {-side[1] + 0.0:.3f}]  # y down here too"
             )
-        if visits.swapped[i]:
-            lines.append("chains_swapped = true")
         lines.append("# measured = [ , ]")
     return "\n".join(lines) + "\n"

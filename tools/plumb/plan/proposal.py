@@ -389,5 +389,4 @@ def _old(rows: Observations, name: str) -> Visits:
         rows.chains[row],
         rows.sled_weights[row],
         rows.approaches[row],
-        rows.swapped[row],
     )

@@ -138,7 +138,7 @@ def _is_doable(proposal: Proposal, usual_weight: float) -> bool:
     """Return whether this owner can carry it out."""
     visits = proposal.option.visits
     is_light = not len(visits) or visits.sled_weights.max() < usual_weight + MOST_HUNG
-    return proposal.option.kind in DOABLE and is_light and not visits.swapped.any()
+    return proposal.option.kind in DOABLE and is_light
 
 
 def _with(owner: VirtualOwner, inputs: Inputs, proposal: Proposal) -> Inputs:

@@ -58,7 +58,7 @@ def kinds(answer):
 
 
 def test_every_intervention_is_among_the_options(proposed):
-    assert set(kinds(proposed)) >= {"marks", "repeats", "weight", "swap", "check", "frame"}
+    assert set(kinds(proposed)) >= {"marks", "repeats", "weight", "check", "frame"}
     assert proposed.blind is not None and len(proposed.blind.option.visits) == 28
     rates = [proposal.rate for proposal in proposed.proposals]
     assert rates == sorted(rates, reverse=True)

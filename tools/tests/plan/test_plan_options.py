@@ -13,7 +13,6 @@ from plumb.plan.options import (
     ROOM_FOR_A_SECOND,
     ROUND,
     SHARPER,
-    SWAPPING,
     checks_for,
     options,
     spots,
@@ -39,14 +38,13 @@ def by_kind(case):
 
 
 def test_minutes_count_the_round_its_marks_and_the_preparation(by_kind):
-    (marks,), (swap,), (again,) = (by_kind[kind] for kind in ("marks", "swap", "repeats"))
+    (marks,), (again,) = (by_kind[kind] for kind in ("marks", "repeats"))
     assert marks.minutes == ROUND + FEW * MARK
-    assert swap.minutes == marks.minutes + SWAPPING
     assert again.minutes == ROUND + READ_AGAIN * 9 * READING
     for heavier in by_kind["weight"]:
         assert heavier.minutes == ROUND + len(heavier.visits) * MARK + HANGING
-    # Reading again is quicker than cutting, and swapping takes longest.
-    assert READING < MARK < ROUND < HANGING < SWAPPING
+    # Reading again is quicker than cutting.
+    assert READING < MARK < ROUND < HANGING
 
 
 def test_extra_weight_counts_for_its_marks(by_kind):

@@ -19,16 +19,11 @@ def test_the_program_waits_before_the_first_mark_and_after_the_last():
     assert [part.count("G1 Z-0.5") for part in parts] == [0, 2, 0]
     assert "let 5.0 kg more" in parts[0] and "G0 Z5" in parts[0] and "take off" in parts[1]
     assert parts[1].index("G0 X0 Y0") < parts[1].index("take off")
-    swapped = sent(BELIEVED, [(0.0, 0.0)], controller="plumb", sled_weight=97.9, swapped=True)
-    first, middle, end = program(swapped, usual_weight=97.9).split("M0")
-    assert "each chain on the other's sprocket" in first and "on its sprocket again" in middle
-    assert end.strip() == ""
     usual = sent(BELIEVED, [(0.0, 0.0)], controller="plumb", sled_weight=97.9)
     assert "M0" not in program(usual, usual_weight=97.9)
 
 
-@pytest.mark.parametrize("swapped", [False, True])
-def test_a_form_keeps_place_side_weight_and_swap(file, swapped):
+def test_a_form_keeps_place_side_and_weight(file):
     targets, sides = (
         np.array([(-1000.0, 480.0), (20.0, -300.0)]),
         np.array([(0.0, 1.0), (0.6, -0.8)]),
@@ -39,7 +34,6 @@ def test_a_form_keeps_place_side_weight_and_swap(file, swapped):
         controller="plumb",
         sled_weight=147.0,
         approaches=sides,
-        swapped=swapped,
     )
     text = marks_file(visits, sheet=BELIEVED.sheet, controller="plumb", said=("Four marks.",))
     read = read_form(file("form.toml", text), sheet=BELIEVED.sheet).measurements
@@ -47,8 +41,7 @@ def test_a_form_keeps_place_side_weight_and_swap(file, swapped):
     for mark, target, side in zip(read.marks, targets, sides, strict=True):
         assert mark.target == pytest.approx(tuple(target), abs=0.001)
         assert mark.approach == pytest.approx(tuple(side), abs=0.001)
-        assert mark.sled_weight == 147.0 and mark.chains_swapped == swapped
-    assert {visit.chains_swapped for visit in visits.each} == {swapped}
+        assert mark.sled_weight == 147.0
 
 
 def test_instructions_are_comments_that_no_bracket_ends():
@@ -73,6 +66,5 @@ def test_joined_visits_keep_everything():
     assert [mark.approach for mark in read] == [(0.0, -1.0), (1.0, 0.0), None]
     assert read[0].measured == (301.0, 102.0) and read[0].target == (300.0, 100.0)
     assert {mark.sled_weight for mark in read} == {120.0}
-    assert not any(mark.chains_swapped for mark in read)
     rows = back.rows()
     assert rows.count == 6 and rows.mark_rows.tolist() == [0, 1, 2] and not rows.measured.any()

@@ -13,7 +13,6 @@ template <class Real>
 struct ChainPitch : Effect<Real> {
   enum { kLeftStrain, kRightStrain, kParamCount };
   enum { kCoefficientCount = kSideCount };
-  enum { kBelongsTo = kToChain };
   enum { kExampleCount = 3 };
 
   static EffectInfo info() {

@@ -13,7 +13,7 @@ template <class Real>
 struct ChainZero : Effect<Real> {
   enum { kLeftOut, kRightOut, kParamCount };
   enum { kCoefficientCount = kSideCount };
-  enum { kBelongsTo = kToZeroing };
+  enum { kPerZeroing = 1 };
   enum { kInFrame = 1 };  // a moved frame looks the same
   enum { kExampleCount = 2 };
 

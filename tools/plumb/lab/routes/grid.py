@@ -93,9 +93,9 @@ def show_grid(project: TheProject, line: TheLine) -> GridAnswer:
     answer = _shown(project)
     names = [mark.name for mark in answer.marks]
     far = how_far(project, line, answer.program, answer.text, names)
-    # What is to be done in a pause is asked again; nobody is to swap chains back by that.
+    # What is to be done in a pause is asked again.
     taken = taken_marks(project, project.choices)
-    goes_on = far.goes_on and not (taken and (taken.swaps_chains or _pauses_between(answer)))
+    goes_on = far.goes_on and not (taken and _pauses_between(answer))
     done_at = _done_at(line, answer.text)
     return answer.model_copy(update={**vars(far), "goes_on": goes_on, "done_at": done_at})
 
@@ -221,8 +221,6 @@ def _cut_taken(taken: Taken, project: Project, line: MachineLine) -> MachineAnsw
     """Send the program of a proposal. Who owns a virtual machine hangs weights in its pauses."""
     refuse_way(opened(project), taken.marks)
     owner = line.virtual
-    if owner and taken.swaps_chains:
-        raise InputError("the chains of a virtual machine stay: take another measurement")
     refuse_other_machine(project, line)
     if owner:
         laid = owner
