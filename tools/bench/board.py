@@ -16,6 +16,7 @@ FLOAT = ROOT / "src/board/float.S"  # the firmware's sum, product and quotient
 ENTRY = re.compile(r"At<(\d+), (\w+)>")
 # Timed one upon the other, as every machine has them: cases.h names these by hand.
 STEPS = ("ChainSag", "ChainStretch", "ChainPitch")
+SIMULATED_BOARD = "tools/vm/mega/virtual_board.cpp"
 # Linked into a program, the simulator is a part of what a kept answer is known by.
 SIMAVR = ("-l:libsimavr.a", "-lelf")
 # As PlatformIO builds the firmware.
@@ -72,8 +73,9 @@ def linked() -> Path:
 
 def counted(elf: Path) -> Figures:
     """Return what the simulator says of the cases of a program."""
-    simulator, options = BUILD / "count_cycles", ["-O2", f"-I{BENCH}", f"-I{BUILD}"]
-    compiled(simulator, ["tools/bench/count_cycles.cpp"], options=options, libraries=SIMAVR)
+    simulator, sources = BUILD / "count_cycles", ["tools/bench/count_cycles.cpp", SIMULATED_BOARD]
+    options = ["-O2", "-Itools/vm", f"-I{BENCH}", f"-I{BUILD}"]
+    compiled(simulator, sources, options=options, libraries=SIMAVR)
     done = kept([simulator, elf], [elf], elf.name)
     if done.returncode:
         raise ToolError(f"{elf.name}: {done.stderr.strip()}")

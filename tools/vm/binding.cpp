@@ -63,23 +63,13 @@ world::Axis axisNamed(const std::string& name) {
   throw nb::value_error("an axis is left, right or z");
 }
 
-world::Parts partsOf(const std::map<std::string, double>& numbers, double friction, unsigned seed,
-                     bool over_top) {
-  world::Parts parts;
-  parts.numbers = numbers;
-  parts.friction = friction;
-  parts.seed = seed;
-  parts.over_top = over_top;
-  return parts;
-}
-
 /// A machine in its garage, with the firmware that drives it.
 class VirtualMachine {
  public:
   VirtualMachine(const std::map<std::string, double>& numbers, double friction, unsigned seed,
                  double paid_out, const std::optional<std::string>& elf,
                  const nb::bytes& bootloader, bool over_top, int shield)
-      : world_(partsOf(numbers, friction, seed, over_top), paid_out),
+      : world_({numbers, friction, seed, over_top}, paid_out),
         brain_(brainFor(world_, elf, {bootloader.c_str(), bootloader.size()}, shield)) {}
 
   void advance(int milliseconds) { brain_->advance(milliseconds); }

@@ -23,9 +23,9 @@ struct Parts {
   std::map<std::string, double> numbers;  ///< of the judge's machine, where they differ
   double friction = 0;                    ///< [N] of the sled on the sheet
   unsigned seed = 0;                      ///< for random motors; 0: nominal motors
-  double motor_step = 1e-4;               ///< [s] of the motors' computation
-  double hang_every = 0.01;               ///< [s] in which a chain moves at most 0.3 mm
-  bool over_top = true;  ///< the chains leave over the top of the sprockets, else below
+  bool over_top = true;      ///< the chains leave over the top of the sprockets, else below
+  double motor_step = 1e-4;  ///< [s] of the motors' computation
+  double hang_every = 0.01;  ///< [s] in which a chain moves at most 0.3 mm
 };
 
 /// The machine in its garage.
