@@ -7,29 +7,25 @@ from effects_page import PAGE, Showing, cosine, pages
 from plumb.fit.observations import rms
 from plumb.model.catalogue import every_effect
 
-TEXTS = pages()
-EFFECTS = {element["name"]: element for element in every_effect()}
 BOTH = {"chain_pitch.left": 0.001, "chain_pitch.right": 0.001}
 SAG = {"chain_sag.weight_ratio_squared": 8.2e-12}
 STRETCH = {"chain_stretch.compliance": 5.2e-6}
 TAPE = {"tape_scale.strain": 0.001}
 
 
-def section_of(name: str) -> str:
-    return re.search(rf"^## {name}\n(.*?)(?=^## |\Z)", TEXTS[PAGE], re.DOTALL | re.MULTILINE)[1]
-
-
-@pytest.mark.parametrize("name", EFFECTS)
-def test_every_effect_has_a_section_a_picture_and_a_remedy(name):
-    effect, text = EFFECTS[name], section_of(name)
-    for word in ("summary", "pattern", "remedy"):
-        assert effect[word] in text
-    assert f"(pictures/effects/{name}.png)" in text
-    for parameter in effect["parameters"]:
-        assert f"`{parameter['name']}`" in text
-        assert parameter["setting"] is None or f"${parameter['setting']}" in text
-    assert ("no firmware can cure this" in text) == (effect["where"] == "lab")
-    assert len(re.findall(r"`\w+` -?\d\.\d\d", text)) == 3 or "it has no shape" in text
+def test_every_effect_has_a_section_a_picture_and_a_remedy():
+    page = pages()[PAGE]
+    for effect in every_effect():
+        name = effect["name"]
+        text = re.search(rf"^## {name}\n(.*?)(?=^## |\Z)", page, re.DOTALL | re.MULTILINE)[1]
+        said = [effect[word] for word in ("summary", "pattern", "remedy")]
+        for parameter in effect["parameters"]:
+            number = parameter["setting"]
+            said += [f"`{parameter['name']}`", *([] if number is None else [f"${number}"])]
+        missing = [each for each in [*said, f"(pictures/effects/{name}.png)"] if each not in text]
+        assert missing == [], name
+        assert ("no firmware can cure this" in text) == (effect["where"] == "lab"), name
+        assert len(re.findall(r"`\w+` -?\d\.\d\d", text)) == 3 or "it has no shape" in text, name
 
 
 def shape_cosine(cause: dict, other: dict) -> float:
