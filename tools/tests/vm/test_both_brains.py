@@ -6,7 +6,7 @@ from plumb.model.predict import lengths
 from plumb.vm.garage import EXTENDED, Garage
 from usual_machine import switched_on
 
-MOVES = ("G0 X20 Y10", "G1 X0 Y-20 F600", "G1 X5 Y-20 Z1 F300", "G0 X0 Y0 Z0")
+MOVES = ("G0 X20 Y10", "G1 X16 Y6 Z1 F600")
 COUNT = 63.5 / 8113.73  # [mm] of chain for an encoder count
 # [counts] Between two rests. The loop lets a chain rest within 1.5 counts of its set-point, and
 # the host's program itself differs by as much if a line comes to it a millisecond later.
