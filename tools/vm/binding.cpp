@@ -98,7 +98,7 @@ class VirtualMachine {
   Pair sled() const { return {world_.sled().place().x(), world_.sled().place().y()}; }
   Pair chains() const { return {world_.travel(world::kLeft), world_.travel(world::kRight)}; }
   Pair tensions() const { return {world_.sled().leftTension(), world_.sled().rightTension()}; }
-  Pair across() const { return {world_.across().pull.norm(), world_.across().drop}; }
+  double across() const { return world_.across().pull.norm(); }
   double height() const { return world_.travel(world::kZ); }
   int count(const std::string& axis) { return world_.count(axisNamed(axis)); }
   int duty(const std::string& axis) const { return world_.duty(axisNamed(axis)); }
@@ -192,7 +192,7 @@ NB_MODULE(_vm, module) {
       .def_prop_ro("chains", &VirtualMachine::chains, "[mm] of nominal links, left and right.")
       .def_prop_ro("tensions", &VirtualMachine::tensions, "[N] at the sprockets.")
       .def_prop_ro("across", &VirtualMachine::across,
-                   "Of a chain hooked across: pull on its motor [N], drop of its middle [mm].")
+                   "[N] Pull of a chain hooked across on its motor.")
       .def_prop_ro("height", &VirtualMachine::height, "[mm] of the bit above the sheet's face.")
       .def("count", &VirtualMachine::count, arg("axis"), "Encoder counts since the world began.")
       .def("duty", &VirtualMachine::duty, arg("axis"), "-255 to 255; positive winds in.")

@@ -70,7 +70,7 @@ class World {
   void hookAcross(Axis axis, double slack, double beyond);
   /// Hangs the sled on its chains again.
   void unhook();
-  /// The chain that is hooked across; without pull and drop where none is.
+  /// The chain that is hooked across; without pull where none is.
   const reference::Across& across() const { return across_; }
   /// Gives a number of the judge's machine a new value.
   void set(const std::string& number, double value) { sled_.set(number, value); }
