@@ -99,8 +99,8 @@ class Part:
 
 def lanes(what: str) -> list[list[Part]]:
     """Return the parts; those of a lane run one after the other, the lanes side by side."""
-    # Twice as many workers as cores, as some tests wait for a server or a browser.
-    workers = ["-n", str(2 * CORES), "--dist", "worksteal"]
+    # One more worker than cores, as some tests wait for a server or a browser.
+    workers = ["-n", str(CORES + 1), "--dist", "worksteal"]
     pytest = [sys.executable, "-u", "-m", "pytest", "-v", *workers]
     chosen = [] if what == "all" else ["-m", "not slow"]
     rooms = WAITING if what == "busy" else ["tools/tests"]
