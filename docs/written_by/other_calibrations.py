@@ -37,6 +37,7 @@ NUDGE = 0.01  # [mm] for slopes
 ACROSS, UP = 76.2 * np.arange(-15, 16), 76.2 * np.arange(-7, 8)  # [mm] of a camera's pattern
 NOTHING = slice(0)
 EYE = np.eye(2)
+BOARDS, SEED = 50, 2811  # of each kind; what draws them
 KINDS_SHOWN = ("none", "one", "typical", "several", "usual", "field")
 
 STOCK = replace(
@@ -253,13 +254,13 @@ CALIBRATIONS: tuple[tuple[str, int, Callable[[TrueMachine, Source], Way]], ...] 
 )
 
 
-def errors_on(kind: str, boards: int, seed: int) -> Array:
+def errors_on(kind: str) -> Array:
     """Return the sled's error over the sheet [mm RMS] (boards, calibrations)."""
-    errors = np.zeros((boards, len(CALIBRATIONS)))
-    for i in range(boards):
-        machine = board_of(KINDS[f"stock/{kind}"], i, marks=25, seed=seed).board.machine
+    errors = np.zeros((BOARDS, len(CALIBRATIONS)))
+    for i in range(BOARDS):
+        machine = board_of(KINDS[f"stock/{kind}"], i, marks=25, seed=SEED).board.machine
         for j, (_, _, calibrate) in enumerate(CALIBRATIONS):
-            way = calibrate(machine, np.random.default_rng([seed, i, j]))
+            way = calibrate(machine, np.random.default_rng([SEED, i, j]))
             errors[i, j] = shape_of(machine.sleds(way(sheet())))
     return errors
 
@@ -314,11 +315,9 @@ def of_marks(board: RealSet) -> tuple[str, Fitting]:
 def main(arguments: Sequence[str] | None = None) -> None:
     """Print both tables."""
     parser = argparse.ArgumentParser(prog="other_calibrations.py", description=__doc__)
-    parser.add_argument("--boards", type=int, default=50, help="of each kind [%(default)s]")
-    parser.add_argument("--seed", type=int, default=2811, help="draws the boards [%(default)s]")
     parser.add_argument("--jobs", type=int, default=1, help="processes at once [%(default)s]")
     asked = parser.parse_args(arguments)
-    tasks = (delayed(errors_on)(kind, asked.boards, asked.seed) for kind in KINDS_SHOWN)
+    tasks = (delayed(errors_on)(kind) for kind in KINDS_SHOWN)
     means = np.array([errors.mean(axis=0) for errors in Parallel(n_jobs=asked.jobs)(tasks)])
     rows = [
         [name, str(count), *(f"{error:.2f}" for error in means[:, j])]
