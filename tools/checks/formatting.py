@@ -55,7 +55,7 @@ def fix(root: Path) -> None:
 def both_kinds(root: Path) -> tuple[list[Path], list[Path]]:
     """Return the project's C++ files and its Python files."""
     files = tree.own_files(root)
-    return [f for f in files if f.suffix in tree.CXX], [f for f in files if f.suffix == ".py"]
+    return [f for f in files if f.suffix in tree.CXX], [f for f in files if tree.is_python(f)]
 
 
 def clang_format() -> list:

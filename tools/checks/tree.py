@@ -60,10 +60,20 @@ def cxx_code(root: Path) -> Iterator[tuple[Path, str]]:
             yield path.relative_to(root), code
 
 
+def is_python(path: Path) -> bool:
+    """Return whether a file is Python, by its name or its first line."""
+    return path.suffix == ".py" or first_line(path).endswith("python3")
+
+
 def is_shell(path: Path) -> bool:
     """Return whether a file is a shell script, by its name or its first line."""
-    named = "" if path.suffix else text_of(path).partition("\n")[0]
-    return path.suffix == ".sh" or (named.startswith("#!") and named.endswith("bash"))
+    return path.suffix == ".sh" or first_line(path).endswith("bash")
+
+
+def first_line(path: Path) -> str:
+    """Return the line that names the interpreter, or nothing."""
+    line = text_of(path).partition("\n")[0] if not path.suffix else ""
+    return line if line.startswith("#!") else ""
 
 
 def run(find: Callable[[Path], Iterable[str]], good: str) -> None:
