@@ -13,7 +13,6 @@ from typing import Any
 
 import numpy as np
 from joblib import Parallel, delayed  # type: ignore[import-untyped]  # it brings no types
-from numpy.typing import ArrayLike
 from plumb.bench.boards import TrueMachine, measured, plan, read
 from plumb.bench.causes import PUBLISHED, SLED
 from plumb.bench.judged_board import shape_of, sheet
@@ -38,6 +37,7 @@ NUDGE = 0.01  # [mm] for slopes
 ACROSS, UP = 76.2 * np.arange(-15, 16), 76.2 * np.arange(-7, 8)  # [mm] of a camera's pattern
 NOTHING = slice(0)
 EYE = np.eye(2)
+BOARDS, SEED = 50, 2811  # of each kind; what draws them
 KINDS_SHOWN = ("none", "one", "typical", "several", "usual", "field")
 
 STOCK = replace(
@@ -138,19 +138,8 @@ def triangular(machine: TrueMachine, source: Source) -> Way:
     return lambda wanted: chain_lengths(found, wanted)
 
 
-HOLE_PAIRS = (
-    (0, 1),
-    (1, 2),
-    (3, 4),
-    (4, 5),
-    (0, 3),
-    (1, 4),
-    (2, 5),
-    (1, 3),
-    (0, 4),
-    (2, 4),
-    (1, 5),
-)
+# Numbers of the holes between which distances are taped.
+HOLE_PAIRS = np.transpose([(0, 1, 3, 4, 0, 1, 2, 1, 0, 2, 1), (1, 2, 4, 5, 3, 4, 5, 3, 4, 4, 5)])
 
 
 def holey(machine: TrueMachine, source: Source) -> Way:
@@ -245,9 +234,9 @@ def seen(measured_by: Callable[..., Array], chains: Array, noise: float, source:
     return where + noise * source.normal(size=where.shape)
 
 
-def spans(where: Array, pairs: ArrayLike) -> Array:
+def spans(where: Array, pairs: Array) -> Array:
     """Return distances [mm] between places (n, 2)."""
-    first, second = np.asarray(pairs).T
+    first, second = pairs.T
     apart: Array = np.linalg.norm(where[first] - where[second], axis=1)
     return apart
 
@@ -265,13 +254,13 @@ CALIBRATIONS: tuple[tuple[str, int, Callable[[TrueMachine, Source], Way]], ...] 
 )
 
 
-def errors_on(kind: str, boards: int, seed: int) -> Array:
+def errors_on(kind: str) -> Array:
     """Return the sled's error over the sheet [mm RMS] (boards, calibrations)."""
-    errors = np.zeros((boards, len(CALIBRATIONS)))
-    for i in range(boards):
-        machine = board_of(KINDS[f"stock/{kind}"], i, marks=25, seed=seed).board.machine
+    errors = np.zeros((BOARDS, len(CALIBRATIONS)))
+    for i in range(BOARDS):
+        machine = board_of(KINDS[f"stock/{kind}"], i, marks=25, seed=SEED).board.machine
         for j, (_, _, calibrate) in enumerate(CALIBRATIONS):
-            way = calibrate(machine, np.random.default_rng([seed, i, j]))
+            way = calibrate(machine, np.random.default_rng([SEED, i, j]))
             errors[i, j] = shape_of(machine.sleds(way(sheet())))
     return errors
 
@@ -283,13 +272,13 @@ def on_real_set(board: RealSet) -> list[str]:
     """Return the cells of a set: errors [mm RMS] as set, and fitted / left out by the other
     calibration that takes such readings, and by Plumb.
     """
-    name, fitting = of_holes(board) if board.marks.distances else of_marks(board)
+    name, fitting = of_holes(board) if board.inputs.measurements.distances else of_marks(board)
     after_fit = fitting.misses(*fitting.best())
-    width = 1 if board.marks.distances else 2
+    width = 1 if name == "holey" else 2
     readings = [slice(i, i + width) for i in range(0, len(after_fit), width)]
     left_out = [fitting.misses(*fitting.best(each))[each] for each in readings]
     theirs = [rms(np.reshape(each, (-1, width))) for each in (after_fit, left_out)]
-    addition = decide(Inputs(board.settings, board.marks)).addition
+    addition = board.decision.addition
     ours = (addition.after.fit_rms, addition.after.left_out_rms) if addition else None
     cells = [
         " / ".join(f"{error:.2f}" for error in errors) if errors else "stays as set"
@@ -300,8 +289,8 @@ def on_real_set(board: RealSet) -> list[str]:
 
 def of_holes(board: RealSet) -> tuple[str, Fitting]:
     """Return holey calibration's fit to distances; none of them feels the height."""
-    _, rows = Inputs(board.settings, board.marks).model_and_observations()
-    start = changed(board.settings, {"chain_elasticity": ELASTICITY})
+    _, rows = board.inputs.model_and_observations()
+    start = changed(board.inputs.settings, {"chain_elasticity": ELASTICITY})
     steps = {name: step for name, step in HOLEY_FITS.items() if name != "motor_height"}
 
     def misses(settings: MachineSettings, _: Array) -> Array:
@@ -314,8 +303,8 @@ def of_holes(board: RealSet) -> tuple[str, Fitting]:
 
 def of_marks(board: RealSet) -> tuple[str, Fitting]:
     """Return the script's fit to marks."""
-    _, rows = Inputs(board.settings, board.marks).model_and_observations()
-    start = board.settings
+    _, rows = board.inputs.model_and_observations()
+    start = board.inputs.settings
     if start.controller == "plumb":
         said = PublishedSettings(**tuned_numbers(start.effects))
         start = replace(start, controller="stock", effects={}, published=said)
@@ -326,11 +315,9 @@ def of_marks(board: RealSet) -> tuple[str, Fitting]:
 def main(arguments: Sequence[str] | None = None) -> None:
     """Print both tables."""
     parser = argparse.ArgumentParser(prog="other_calibrations.py", description=__doc__)
-    parser.add_argument("--boards", type=int, default=50, help="of each kind [%(default)s]")
-    parser.add_argument("--seed", type=int, default=2811, help="draws the boards [%(default)s]")
     parser.add_argument("--jobs", type=int, default=1, help="processes at once [%(default)s]")
     asked = parser.parse_args(arguments)
-    tasks = (delayed(errors_on)(kind, asked.boards, asked.seed) for kind in KINDS_SHOWN)
+    tasks = (delayed(errors_on)(kind) for kind in KINDS_SHOWN)
     means = np.array([errors.mean(axis=0) for errors in Parallel(n_jobs=asked.jobs)(tasks)])
     rows = [
         [name, str(count), *(f"{error:.2f}" for error in means[:, j])]

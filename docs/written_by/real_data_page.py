@@ -2,23 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import combinations
 from pathlib import Path
 
 import numpy as np
-from plumb.cure.add import Addition, Parameter, add
+from plumb.cure.add import Addition, add
 from plumb.cure.decision import Decision, decide
-from plumb.diagnosis import Diagnosis, diagnose
 from plumb.diagnosis.nearest import left_out, left_out_refitted
 from plumb.fit.compare import Comparison, compare
-from plumb.fit.inputs import Inputs
+from plumb.fit.inputs import Inputs, read_inputs
 from plumb.fit.observations import rms
-from plumb.marks.read import Measurements, join_measurements, read_marks
-from plumb.model.predict import known_effects
-from plumb.settings.files import read_settings
 from plumb.settings.machine import MachineSettings
 from template import filled
 
@@ -43,31 +39,24 @@ class RealSet:
     """A published set: settings said to be in force, and marks."""
 
     name: str
-    settings: MachineSettings
-    marks: Measurements
+    inputs: Inputs
 
     @cached_property
     def raw(self) -> Comparison:
         """Against the settings as they stand."""
-        return compare(Inputs(self.settings, self.marks))
-
-    @cached_property
-    def diagnosis(self) -> Diagnosis:
-        """What `plumb diagnose` says."""
-        return diagnose(Inputs(self.settings, self.marks))
+        return compare(self.inputs)
 
     @cached_property
     def decision(self) -> Decision:
-        """What `plumb add --effect auto` does."""
-        return decide(Inputs(self.settings, self.marks), diagnosis=self.diagnosis)
+        """What `plumb add --effect auto` does, and what `plumb diagnose` says."""
+        return decide(self.inputs)
 
     @property
     def written(self) -> str:
         """The effects that are written."""
-        decision = self.decision
-        if decision.addition is None:
+        if self.decision.addition is None:
             return "nothing"
-        return ", ".join(decision.chosen) or "the frame"
+        return ", ".join(self.decision.chosen) or "the frame"
 
     @property
     def left_out(self) -> float:
@@ -78,7 +67,7 @@ class RealSet:
     @cached_property
     def forced(self) -> tuple[float, Sequence[str]]:
         """Least error [mm] of readings left out, and the set of effects that has it."""
-        readings = self.diagnosis.readings
+        readings = self.decision.diagnosis.readings
         frame, felt = readings.frame, readings.posterior.felt
         every = [few for size in range(MOST_FORCED + 1) for few in combinations(felt, size)]
         best = sorted(every, key=lambda few: left_out(frame, few))[:REFITTED]
@@ -87,88 +76,67 @@ class RealSet:
     @cached_property
     def pitched(self) -> Addition:
         """Frame and chain pitch fitted."""
-        return _with_pitch(self.settings, self.marks)
+        return add(self.inputs, effects=("chain_pitch",))
 
     @property
     def nominal_rms(self) -> float:
         """RMS [mm] of measured less nominal distances: what the settings in force left."""
-        ends = self.marks.distance_targets
-        nominal = np.linalg.norm(np.diff(ends, axis=1)[:, 0], axis=1)
-        return rms(self.marks.distance_lengths - nominal)
-
-
-@dataclass(frozen=True)
-class Pooled:
-    """All hole sets fitted together: a single machine, the settings of each set in force."""
-
-    fitted: Addition
-    errors: Mapping[str, np.ndarray]  # errors [mm] of each set's distances
+        measured = self.inputs.measurements
+        nominal = np.linalg.norm(np.diff(measured.distance_targets, axis=1)[:, 0], axis=1)
+        return rms(measured.distance_lengths - nominal)
 
 
 def real_set(
     name: str,
-    marks: str = "marks.toml",
+    *marks: str | Path,
     settings: str = "groundcontrol.ini",
-    *,
     folder: Path = EXAMPLES,
 ) -> RealSet:
     """Return a set by its folder, of examples/ unless it is said otherwise."""
-    known = known_effects()
-    machine = read_settings(folder / name / settings, known=known)
-    marks_path = folder / name / marks
-    return RealSet(name, machine, read_marks(marks_path, sheet=machine.sheet, known=known))
+    files = [folder / name / each for each in marks or ("marks.toml",)]
+    return RealSet(name, read_inputs(folder / name / settings, files))
 
 
 def other_boards() -> list[RealSet]:
     """Return the sets of marks whose places were read."""
     return [
         real_set("mibproj", "Calibration Measurements.ini"),
-        real_set("c0depr1sm-2019-01-03", "marks.csv", "machine.toml"),
+        real_set("c0depr1sm-2019-01-03", "marks.csv", settings="machine.toml"),
     ]
 
 
-def pooled(sets: Sequence[RealSet]) -> Pooled:
-    """Fit several hole sets at once."""
-    marks = join_measurements([holes.marks for holes in sets])
-    fitted = _with_pitch(sets[0].settings, marks)
-    ends = np.cumsum([len(holes.marks.distances) for holes in sets])[:-1]
-    several = np.split(fitted.after_fit.distance_errors, ends)
-    return Pooled(fitted, {holes.name: part for holes, part in zip(sets, several, strict=True)})
+def pooled() -> RealSet:
+    """Return all hole sets as one board of a single machine."""
+    return real_set(HOLES[0], *(EXAMPLES / name / "marks.toml" for name in HOLES))
+
+
+def errors_by_set(together: RealSet) -> dict[str, float]:
+    """Return the error [mm RMS] of the distances of each hole set in a fit of all."""
+    errors, sets = together.pitched.after_fit.distance_errors, together.inputs.measurements
+    of = np.array([distance.round for distance in sets.distances])
+    return {name: rms(errors[of == i]) for i, name in enumerate(HOLES)}
 
 
 def predicted(settings: MachineSettings, other: RealSet) -> Comparison:
     """Return how well a machine predicts a set that took no part in its fit."""
-    return compare(Inputs(settings, other.marks))
+    return compare(Inputs(settings, other.inputs.measurements))
 
 
 def pages() -> dict[str, str]:
     """Return the page by its name below the project's root."""
     holes = {name: real_set(name) for name in HOLES}
     boards = other_boards()
-    together = pooled(list(holes.values()))
-    cuts = real_set(CUTS)
+    together, cuts = pooled(), real_set(CUTS)
     text = filled(
         "real-data.md",
         sets=[*holes.values(), *boards],
         left_out=left_out,
         every=[*holes.values(), *boards, real_set("real-25", folder=BOARDS)],
         pairs=[(holes[before], holes[after]) for before, after in PAIRS],
-        together=together,
+        together=together.pitched,
+        by_set=errors_by_set(together),
         in_force=cuts.raw.distances,
-        foretold=predicted(together.fitted.settings, cuts).distances,
-        pitch=_pitch,
+        foretold=predicted(together.pitched.settings, cuts).distances,
         predicted=predicted,
-        rms=rms,
-        mm=lambda value: f"{value + 0.0:.2f}",
-        percent=lambda strain: f"{100 * strain + 0.0:.2f}",
     )
     return {PAGE: text}
-
-
-def _with_pitch(settings: MachineSettings, marks: Measurements) -> Addition:
-    return add(Inputs(settings, marks), effects=("chain_pitch",))
-
-
-def _pitch(fitted: Addition) -> list[Parameter]:
-    """Return how long both chains are by a fit."""
-    return [each for each in fitted.parameters if each.name.startswith("chain_pitch.")]

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from itertools import groupby
 
 from plumb.firmware.settings import Setting, every_setting, format_value
@@ -11,49 +10,7 @@ from template import filled
 
 PAGE = "docs/settings.md"
 ANY_BUT_ZERO = 255
-FEW = 4  # names that a row lists
 LAST_PUBLISHED, FIRST_OF_OURS, FIRST_EFFECT = 44, 60, 100
-
-
-@dataclass(frozen=True)
-class Row:
-    """Settings that one sentence describes."""
-
-    settings: Sequence[Setting]
-
-    @property
-    def first(self) -> Setting:
-        """The setting that speaks for all."""
-        return self.settings[0]
-
-    @property
-    def numbers(self) -> str:
-        """Their `$` numbers."""
-        numbers = [str(each.number) for each in self.settings]
-        return f"{numbers[0]} to {numbers[-1]}" if len(numbers) > 1 else numbers[0]
-
-    @property
-    def names(self) -> str:
-        """Their names: all, or the first and the last of many."""
-        names = [f"`{each.name}`" for each in self.settings]
-        return ", ".join(names) if len(names) <= FEW else f"{names[0]} to {names[-1]}"
-
-    @property
-    def defaults(self) -> str:
-        """Their defaults in order; once if they are the same."""
-        return _distinct([format_value(each.usual) for each in self.settings])
-
-    @property
-    def limits(self) -> str:
-        """What they may be."""
-        return ", ".join(dict.fromkeys(limits(each) for each in self.settings))
-
-    @property
-    def keys(self) -> str:
-        """Their keys in the clients' files."""
-        section = self.first.key.partition(": ")[0]
-        keys = [in_programs(each).removeprefix(f"{section}: ") for each in self.settings]
-        return _distinct([in_programs(self.first), *keys[1:]])
 
 
 def pages() -> dict[str, str]:
@@ -71,18 +28,28 @@ def page(settings: Sequence[Setting]) -> str:
         count=len(listed),
         hidden=[setting for setting in settings if setting.access != "listed"],
         rows=rows,
+        in_programs=in_programs,
+        defaults=lambda row: _distinct([format_value(each.usual) for each in row]),
+        limits=lambda row: ", ".join(dict.fromkeys(map(limits, row))),
         takes_effect=takes_effect,
         sentence=sentence,
     )
 
 
-def rows(settings: Sequence[Setting]) -> list[Row]:
+def rows(settings: Sequence[Setting]) -> list[list[Setting]]:
     """Return the rows of a table: neighbours with the same sentence share one."""
 
     def said(setting: Setting) -> tuple[str, ...]:
         return (setting.sentence, setting.unit, takes_effect(setting))
 
-    return [Row(list(alike)) for _, alike in groupby(settings, key=said)]
+    return [list(alike) for _, alike in groupby(settings, key=said)]
+
+
+def in_programs(row: Sequence[Setting]) -> str:
+    """Return section and keys of a row in the clients' files; the section once."""
+    said = [each.key.replace(": ", ": `") + "`" if each.key else "none" for each in row]
+    section = said[0].partition("`")[0]
+    return _distinct([said[0], *(each.removeprefix(section) for each in said[1:])])
 
 
 def limits(setting: Setting) -> str:
@@ -100,11 +67,6 @@ def takes_effect(setting: Setting) -> str:
     if "restart" in setting.touches:
         return "after a restart"
     return ", ".join(setting.touches)
-
-
-def in_programs(setting: Setting) -> str:
-    """Return section and key of a setting in the clients' files."""
-    return setting.key.replace(": ", ": `") + "`" if setting.key else "none"
 
 
 def sentence(setting: Setting) -> str:

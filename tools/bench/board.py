@@ -16,23 +16,21 @@ FLOAT = ROOT / "src/board/float.S"  # the firmware's sum, product and quotient
 ENTRY = re.compile(r"At<(\d+), (\w+)>")
 # Timed one upon the other, as every machine has them: cases.h names these by hand.
 STEPS = ("ChainSag", "ChainStretch", "ChainPitch")
+SIMULATED_BOARD = "tools/vm/mega/virtual_board.cpp"
 # Linked into a program, the simulator is a part of what a kept answer is known by.
 SIMAVR = ("-l:libsimavr.a", "-lelf")
-# As PlatformIO builds the firmware.
+# As PlatformIO builds the firmware, with what its build_flags say.
 AVR_FLAGS = [
     "-mmcu=atmega2560",
     "-Os",
     "-flto",
-    "-mrelax",
-    "-fno-split-wide-types",
-    "-fno-move-loop-invariants",
-    "-fno-tree-ter",
     "-std=gnu++11",
     "-fno-exceptions",
     "-ffunction-sections",
     "-fdata-sections",
     "-Wl,--gc-sections",
 ]
+BUILD_FLAGS = re.compile(r"^build_flags = (-\w.*)$", re.MULTILINE)
 
 Figures = dict[str, tuple[float, ...]]
 
@@ -66,14 +64,16 @@ def linked() -> Path:
     includes = [f"-I{folder}" for folder in (KINEMATICS, BENCH, BUILD)]
     names = ("Kinematics", "quadrilateral")
     sources = [BENCH / "board_program.cpp", *(KINEMATICS / f"{name}.cpp" for name in names), FLOAT]
-    output("avr-g++", *AVR_FLAGS, *includes, *sources, "-o", elf)
+    flags = BUILD_FLAGS.findall((ROOT / "platformio.ini").read_text(encoding="utf-8"))[0].split()
+    output("avr-g++", *AVR_FLAGS, *flags, *includes, *sources, "-o", elf)
     return elf
 
 
 def counted(elf: Path) -> Figures:
     """Return what the simulator says of the cases of a program."""
-    simulator, options = BUILD / "count_cycles", ["-O2", f"-I{BENCH}", f"-I{BUILD}"]
-    compiled(simulator, ["tools/bench/count_cycles.cpp"], options=options, libraries=SIMAVR)
+    simulator, sources = BUILD / "count_cycles", ["tools/bench/count_cycles.cpp", SIMULATED_BOARD]
+    options = ["-O2", "-Itools/vm", f"-I{BENCH}", f"-I{BUILD}"]
+    compiled(simulator, sources, options=options, libraries=SIMAVR)
     done = kept([simulator, elf], [elf], elf.name)
     if done.returncode:
         raise ToolError(f"{elf.name}: {done.stderr.strip()}")

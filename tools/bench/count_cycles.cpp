@@ -1,22 +1,15 @@
 // Runs board_program on a simulated Mega and counts the exact cycles between its marks. The last
 // line is JSON: {"name": [median, maximum], ...}
-#include <simavr/sim_avr.h>
-#include <simavr/sim_elf.h>
 #include <simavr/sim_io.h>
 
-#include <algorithm>
 #include <cstdio>
-#include <cstring>
-#include <vector>
 
 #include "cases.h"
+#include "mega/virtual_board.h"
 
 namespace {
 
 const avr_io_addr_t kMarkRegister = 0x3E;  // GPIOR0 in the data space
-
-// Only marks are recorded, at their instruction.
-const avr_cycle_count_t kMostAtOnce = 1000000;
 
 struct Clock {
   int running = 0;
@@ -51,27 +44,14 @@ void print(Clock& clock) {
 
 }  // namespace
 
-int main(int, char** arguments) {
-  elf_firmware_t firmware;
-  std::memset(&firmware, 0, sizeof firmware);
-  if (elf_read_firmware(arguments[1], &firmware) != 0) {
-    std::fprintf(stderr, "count_cycles: cannot read %s\n", arguments[1]);
-    return 2;
-  }
-  avr_t* avr = avr_make_mcu_by_name("atmega2560");
-  avr_init(avr);
-  avr->frequency = 16000000;
-  avr_load_firmware(avr, &firmware);
+int main(int, char** arguments) try {
+  vm::VirtualBoard board(arguments[1]);
   Clock clock;
-  avr_register_io_write(avr, kMarkRegister, onMark, &clock);
-  avr->run_cycle_limit = kMostAtOnce;
-  while (!clock.finished) {
-    const int state = avr_run(avr);
-    if (state == cpu_Done || state == cpu_Crashed) {
-      std::fprintf(stderr, "count_cycles: the simulated board stopped before its last case\n");
-      return 1;
-    }
-  }
+  avr_register_io_write(board.avr(), kMarkRegister, onMark, &clock);
+  while (!clock.finished) board.runMs(1);
   print(clock);
   return 0;
+} catch (const std::exception& error) {
+  std::fprintf(stderr, "count_cycles: %s\n", error.what());
+  return 1;
 }

@@ -3,7 +3,6 @@
 import re
 import sys
 import tomllib
-from dataclasses import dataclass
 
 import board
 import firmware
@@ -13,12 +12,7 @@ from commands import ROOT, ToolError
 NOTHING = "–"
 
 
-@dataclass(frozen=True)
-class Budgets:
-    """The budget for the first number of a figure."""
-
-    most: dict[str, float]
-    least: dict[str, float]
+Budgets = dict[str, dict[str, float]]  # for the first number of a figure: "most" or "least"
 
 
 def main() -> int:
@@ -41,12 +35,12 @@ def budgets() -> Budgets:
     for name, row in (("maximum_size", firmware.FLASH), ("maximum_ram_size", firmware.RAM)):
         limit = re.findall(rf"^board_upload\.{name} = (\d+)$", build, re.MULTILINE)[0]
         written["most"][row] = int(limit)
-    return Budgets(written["most"], written["least"])
+    return written
 
 
 def table(figures: Figures, budgets: Budgets) -> str:
     """Return all figures next to their budgets."""
-    limits = budgets.most | budgets.least
+    limits = budgets["most"] | budgets["least"]
     rows = [
         f"| {name} | {' / '.join(map(shown, figure))} | "
         f"{shown(limits[name]) if name in limits else NOTHING} |"
@@ -63,8 +57,8 @@ def shown(value: float) -> str:
 def over_budget(figures: Figures, budgets: Budgets) -> list[str]:
     """Return one line for each budget that is not kept, or of which nothing is measured."""
     lines = []
-    for limits, sign in ((budgets.most, 1), (budgets.least, -1)):
-        for name, limit in limits.items():
+    for side, sign in (("most", 1), ("least", -1)):
+        for name, limit in budgets[side].items():
             if name not in figures:
                 lines.append(f"{name}: has a budget, but no such case is measured")
             elif sign * figures[name][0] > sign * limit:

@@ -3,12 +3,11 @@
 from collections.abc import Sequence
 from pathlib import Path
 
-from board import FIRMWARE, SIMAVR, built_firmware
+from board import FIRMWARE, SIMAVR, SIMULATED_BOARD, built_firmware
 from commands import ROOT, compiled
 from kept import Done, kept, run
 
 BUILD = ROOT / ".build/vm"
-BOARD = "tools/vm/mega/virtual_board.cpp"
 STRICT = ("-O2", "-Wall", "-Wextra", "-Werror", "-Itools/vm")
 
 
@@ -26,7 +25,7 @@ def player_program(name: str, *sources: str) -> Path:
         "test/test_dialogues/player_questions.cpp",
         "tools/vm/brain/mega_brain.cpp",
         "tools/vm/world/world.cpp",
-        BOARD,
+        SIMULATED_BOARD,
         *(_from_root(path) for path in sorted(ROOT.glob("tools/judge/reference/*.cpp"))),
     ]
     folders = ["src", "test", "tools/vm/host_avr", "tools/judge", *libraries()]
@@ -41,7 +40,7 @@ def libraries() -> list[str]:
 
 def check_board() -> Path:
     """Return the program that runs an ELF file for a while and prints what it says."""
-    return _built("check_board", ["test/vm/check_board.cpp", BOARD])
+    return _built("check_board", ["test/vm/check_board.cpp", SIMULATED_BOARD])
 
 
 def play(program: Path, folder: Path, name: str) -> Done:

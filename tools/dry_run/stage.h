@@ -4,6 +4,7 @@
 
 #include <deque>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "brain/simulated_eeprom.h"
@@ -22,11 +23,8 @@ struct Queued {
   double ends;               ///< [s] when the sled reaches its end
 };
 
-/// Answer of the machine to a line.
-struct Said {
-  int line;
-  std::string text;
-};
+/// A line, and what the machine said to it.
+using Said = std::pair<int, std::string>;
 
 /// The firmware, the computer that sends it lines, and a record of what it does with them.
 class Stage : private machine::Wire,

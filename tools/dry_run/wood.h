@@ -28,6 +28,7 @@ class Wood {
   double take(const Tip& from, const Tip& to, const Bit& bit, double graze);
 
   const std::vector<float>& heights() const { return heights_; }
+  size_t columns() const { return columns_; }
 
  private:
   struct Span {

@@ -63,23 +63,13 @@ world::Axis axisNamed(const std::string& name) {
   throw nb::value_error("an axis is left, right or z");
 }
 
-world::Parts partsOf(const std::map<std::string, double>& numbers, double friction, unsigned seed,
-                     bool over_top) {
-  world::Parts parts;
-  parts.numbers = numbers;
-  parts.friction = friction;
-  parts.seed = seed;
-  parts.over_top = over_top;
-  return parts;
-}
-
 /// A machine in its garage, with the firmware that drives it.
 class VirtualMachine {
  public:
   VirtualMachine(const std::map<std::string, double>& numbers, double friction, unsigned seed,
                  double paid_out, const std::optional<std::string>& elf,
                  const nb::bytes& bootloader, bool over_top, int shield)
-      : world_(partsOf(numbers, friction, seed, over_top), paid_out),
+      : world_({numbers, friction, seed, over_top}, paid_out),
         brain_(brainFor(world_, elf, {bootloader.c_str(), bootloader.size()}, shield)) {}
 
   void advance(int milliseconds) { brain_->advance(milliseconds); }
@@ -107,7 +97,7 @@ class VirtualMachine {
   double seconds() const { return world_.seconds(); }
   Pair sled() const { return {world_.sled().place().x(), world_.sled().place().y()}; }
   Pair chains() const { return {world_.travel(world::kLeft), world_.travel(world::kRight)}; }
-  Pair across() const { return {world_.across().pull.norm(), world_.across().drop}; }
+  double across() const { return world_.across().pull.norm(); }
   double height() const { return world_.travel(world::kZ); }
   int count(const std::string& axis) { return world_.count(axisNamed(axis)); }
   int duty(const std::string& axis) const { return world_.duty(axisNamed(axis)); }
@@ -200,7 +190,7 @@ NB_MODULE(_vm, module) {
                    "(x, y) [mm] of the bit from the middle of the sheet.")
       .def_prop_ro("chains", &VirtualMachine::chains, "[mm] of nominal links, left and right.")
       .def_prop_ro("across", &VirtualMachine::across,
-                   "Of a chain hooked across: pull on its motor [N], drop of its middle [mm].")
+                   "[N] Pull of a chain hooked across on its motor.")
       .def_prop_ro("height", &VirtualMachine::height, "[mm] of the bit above the sheet's face.")
       .def("count", &VirtualMachine::count, arg("axis"), "Encoder counts since the world began.")
       .def("duty", &VirtualMachine::duty, arg("axis"), "-255 to 255; positive winds in.")

@@ -53,14 +53,6 @@ Eigen::Vector3d roughPull(const Machine& machine, Hand hand, double excess) {
   return Eigen::Vector3d(inwardSign(hand) * level, 0, 0) + weight / 2 * downOf(machine);
 }
 
-double dropOf(const Machine& machine, Hand hand, const Eigen::Vector3d& pull,
-              const Stretched& chain) {
-  const ChainSide& side = sideOf(machine, hand);
-  const Eigen::Vector3d middle = (pull + chain.ends_with) / 2;
-  const Eigen::Vector3d half = spanOf(pull, middle, chain.free_length / 2, side.compliance);
-  return chain.span.y() / 2 - half.y();
-}
-
 }  // namespace
 
 Across stretchAcross(const Machine& machine, Hand hand, double paid_out, double beyond,
@@ -77,8 +69,7 @@ Across stretchAcross(const Machine& machine, Hand hand, double paid_out, double 
   const Eigen::Vector3d pull = root.at * kUnit;
   if (!root.found || inwardSign(hand) * pull.x() <= 0 || pull.norm() >= kBreakingPull)
     return Across();
-  const Stretched chain = stretched(over, hand, paid_out, beyond, pull);
-  return {true, pull, -chain.ends_with, dropOf(over, hand, pull, chain)};
+  return {true, pull, -stretched(over, hand, paid_out, beyond, pull).ends_with};
 }
 
 }  // namespace reference

@@ -13,7 +13,6 @@ struct Across {
   bool solved = false;
   Eigen::Vector3d pull = Eigen::Vector3d::Zero();  ///< [N] on the sprocket that pays it out
   Eigen::Vector3d other_pull = pull;               ///< [N] on the sprocket that holds its end
-  double drop = 0;  ///< [mm] of its middle below the line between its ends
 };
 
 /// The chain of `hand` after `paid_out` [mm] of links, its end `beyond` [mm] of links past the

@@ -8,7 +8,7 @@ from typing import Annotated
 import numpy as np
 from numpy.typing import NDArray
 
-from plumb._dry_run import Cutting
+from plumb._dry_run import Wood
 from plumb.job.bits import USUAL_SHEET, Bit, Tools
 from plumb.job.dry_run import IN_WOOD, Flags, Moves, Rows, Samples, pieces
 from plumb.job.findings import DEEP, GOUGES, STILL, Finding
@@ -67,18 +67,15 @@ def take(moves: Moves, tools: Tools) -> WoodTaken:
     cell = max(float(radii[which[cut]].min()) / FINE, coarsest)
     columns, rows = (int(count) for count in np.ceil((high - low) / cell))
     corner = float(low[0]), float(low[1])
-    wide, cutting = (
-        np.maximum(radii, NARROWEST * cell),
-        Cutting(corner, (rows, columns), cell, GRAZE),
-    )
+    wide, wood = np.maximum(radii, NARROWEST * cell), Wood(*corner, columns, rows, cell)
     met = np.zeros(len(moves))
     for first, block in moves.blocks():
         samples = _led(block)
         with_bit = which[first + samples.move]
         radius = np.where(np.diff(samples.move, prepend=-1) > 0, 0.0, wide[with_bit])
         ways = np.column_stack([samples.places, samples.z, radius, slopes[with_bit]])
-        np.maximum.at(met, first + samples.move, cutting.take(ways))
-    heights = cutting.heights()
+        np.maximum.at(met, first + samples.move, wood.take(ways, GRAZE))
+    heights = wood.heights()
     depths = -np.minimum(moves["z_from"], moves["z_to"]) * cut
     piece = Piece(
         bits=tuple(bits[each] for each in np.unique(which[cut])),

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import plumb
 import pytest
+from asked_again import tried_less  # noqa: F401
 from example_machine import checked
 from plumb.settings.files import read_settings
 

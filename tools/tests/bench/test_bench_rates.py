@@ -26,6 +26,7 @@ def rates(kind, boards, *, marks=25):
     )
 
 
+@pytest.mark.slow
 def test_nine_marks_still_name_most():
     row = rates("known/one", range(8), marks=9)
     assert row.exact >= 0.7 and row.holds >= 0.85 and row.needless <= 0.3

@@ -26,7 +26,7 @@ COMMANDS = {
 # A row, a column and a square of marks settle little; so do three marks.
 GRIDS = ((5, 3), (3, 3), (5, 5), (3, 1), (1, 4), (2, 2), (7, 3), (4, 2))
 KNOWN = (MAKER, PUBLISHED)
-FEW, MANY, TOGETHER = 10, 200, 50
+FEW, MANY, TOGETHER = 5, 200, 50
 
 
 def board_of(index):

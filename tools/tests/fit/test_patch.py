@@ -39,7 +39,7 @@ def with_cubic(measurements, seed, size):
 @pytest.mark.parametrize("kind", ["bump", "cubic"])
 def test_it_lowers_the_error_at_marks_that_it_never_saw(kind):
     before, after = [], []
-    for seed in range(6):
+    for seed in range(3):
         if kind == "bump":
             strange = board({}, WIDE, seed=seed, bump=3.0, noise=0.3)
         else:
@@ -53,11 +53,10 @@ def test_it_lowers_the_error_at_marks_that_it_never_saw(kind):
 
 
 def test_it_is_not_added_where_nothing_is_left():
-    added = 0
-    for seed in range(12):
+    for seed in range(4):
         clean = board({}, plan(5, 5), seed=seed)
-        added += PATCH in add(Inputs(MAKER, clean, sigma=0.5), effects=(), patch=True).effects_added
-    assert added <= 1
+        added = add(Inputs(MAKER, clean, sigma=0.5), effects=(), patch=True).effects_added
+        assert PATCH not in added
 
 
 def test_auto_offers_it_and_adds_it_only_when_asked():

@@ -104,9 +104,8 @@ class Workshop:
             self.machine.advance(200)
 
 
-@pytest.mark.parametrize("seed", [1, 2, 3])
-def test_a_lost_position_is_restored_with_the_bit_in_the_hole(seed):
-    workshop, source = Workshop(seed), np.random.default_rng(seed)
+def test_a_lost_position_is_restored_with_the_bit_in_the_hole():
+    workshop, source = Workshop(seed=2), np.random.default_rng(2)
     marks = {
         name: new_home_mark(MAKER, name, place)
         for name, place in (("left", LEFT), ("right", RIGHT))

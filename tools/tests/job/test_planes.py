@@ -69,7 +69,7 @@ def apart(places, corners):
 @pytest.mark.parametrize("plane", ["G18", "G19"])
 @pytest.mark.parametrize("with_radius", [False, True])
 def test_an_arc_runs_where_the_judge_turns_it(plane, with_radius):
-    for _ in range(25):
+    for _ in range(12):
         way = Way(plane)
         x, y, z = way.start
         line = line_of(plane, way.start, way.centre, way, with_radius=with_radius)

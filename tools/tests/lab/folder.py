@@ -78,7 +78,7 @@ def awaited(client, path, true):
     end = time.monotonic() + PATIENCE
     while not true(answer := got(client.get(f"/api/{path}"))):
         assert time.monotonic() < end, answer
-        time.sleep(0.02)
+        time.sleep(0.05)
     return answer
 
 

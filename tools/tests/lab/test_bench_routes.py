@@ -4,8 +4,8 @@ import re
 
 import numpy as np
 import pytest
-from fingerprints import default_machine
 from folder import asked, got, with_marks
+from plumb.bench.causes import MAKER
 from plumb.cure.live_board import BoardView, Chosen, LiveBoard
 from plumb.fit.inputs import Inputs
 from plumb.fit.problem import Problem
@@ -94,7 +94,7 @@ def board_of(columns, rows):
         dx, dy = noise.normal(0, 0.4, 2)
         read = (x + 0.001 * y + dx, y - 0.0008 * x + 2e-6 * x * x + dy)
         marks.append(Mark(str(i), (x, y), read, approach=(1.0, 0.0)))
-    return LiveBoard(Inputs(default_machine(), Measurements(tuple(marks))))
+    return LiveBoard(Inputs(MAKER, Measurements(tuple(marks))))
 
 
 WALK = (

@@ -8,7 +8,7 @@ from folder import got, until
 from garage_at_port import SPEED
 from lab_machine import PATIENCE, bar, start_virtual
 from playwright.sync_api import expect
-from plumb.lab.broken_cut import begin, go_on, how_far, rest_of
+from plumb.lab.broken_cut import begin, go_on, how_far
 from plumb.lab.project import Project
 from plumb.line.worker import LineState
 from plumb.marks.read import read_marks
@@ -28,21 +28,6 @@ LINES = [
     "G0 Z5",
     "G0 X0",
 ]
-PLUNGES = [5, 8]
-
-
-def test_the_rest_of_a_program_has_its_modes_and_the_uncut_marks():
-    assert rest_of(LINES, PLUNGES, 0) == (LINES, 0)
-    rest, left_out = rest_of(LINES, PLUNGES, 1)
-    assert rest == [*LINES[:3], *LINES[6:]] and len(rest) + left_out == len(LINES)
-
-
-def test_the_rest_of_a_program_asks_again_for_its_preparation():
-    asks = ["(let 5 kg more hang on the sled)", "M0", "(mark 1)"]
-    lines = ["(a program)", *LINES[:3], *asks, *LINES[3:6], "(mark 2)", *LINES[6:]]
-    rest, left_out = rest_of(lines, [6, 9], 1)
-    assert rest == ["(a program)", *LINES[:3], *asks, "(mark 2)", *LINES[6:]]
-    assert left_out == 3  # comments are not sent
 
 
 @dataclass

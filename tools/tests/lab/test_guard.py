@@ -15,7 +15,7 @@ from plumb.lab.app import schema
 from plumb.lab.server import TOKEN_FILE
 from plumb.settings.cut_with import digest_of, settings_as_they_were
 from plumb.text.errors import InputError
-from plumb.text.files import links_refused, read_bytes, read_text, write_all, write_whole
+from plumb.text.files import links_refused, write_all
 from screens import measured_machine, walk
 from served_lab import serve
 from websockets.exceptions import InvalidStatus
@@ -217,13 +217,3 @@ def test_a_result_takes_the_place_of_a_link_and_never_goes_through_it(folder, ou
     assert outside.read_text() == SECRET
     assert not (folder / "machine.nc").is_symlink()
     assert (folder / "machine.nc").read_bytes() == b"new"
-
-
-def test_a_link_that_the_owner_names_in_a_terminal_is_followed(folder, outside):
-    link = folder / "machine.toml"
-    link.symlink_to(outside)
-    assert read_text(link) == SECRET
-    write_whole(link, b"new")
-    assert outside.read_bytes() == b"new" and link.is_symlink()
-    with links_refused(), pytest.raises(InputError, match="is a link"):
-        read_bytes(link)

@@ -223,7 +223,7 @@ def test_a_broken_off_proposal_goes_on_with_its_extra_weight(client, folder, mon
     borne = []
     monkeypatch.setattr(VirtualOwner, "weigh_down", lambda owner, weight: borne.append(weight))
     taking = take(client, "4 marks with 5 kg more")
-    with virtual_machine(client, speed=10):
+    with virtual_machine(client, speed=50):
         got(client.post("/api/machine/numbers", json={"file": "machine.toml"}))
         got(client.post("/api/grid/cut"))
         until(client, lambda state: state["waits_for"])

@@ -169,7 +169,7 @@ def test_a_slip_is_named_with_a_correction(client, tmp_path):
 
 
 def test_good_readings_raise_no_doubt_however_few_they_are(client, tmp_path):
-    for count in (1, 2, 3, 5, 8):
+    for count in (1, 3, 8):
         (tmp_path / "marks.toml").write_text(example_form(read=count))
         answer = client.get("/api/doubts", params={"file": "marks.toml"}).json()
         assert answer["doubts"] == [], count

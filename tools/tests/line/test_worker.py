@@ -52,21 +52,6 @@ def test_the_line_of_a_holding_machine_is_released_at_once(worker, board):
     assert board.is_closed
 
 
-def test_hold_stops_at_once_and_go_on_goes_on(worker, board):
-    board.at[20] = worker.hold
-    worker.send("grid.nc", JOB[:60])
-    until(lambda state: state.holds and not state.moves, worker)
-    x, done = board.x, worker.state.program.done
-    assert 20 <= x < 22
-    look_on(worker, board)
-    assert (board.x, worker.state.program.done) == (x, done)
-    assert worker.state.phase == "busy"
-    worker.go_on()
-    until(lambda state: state.phase == "ready", worker)
-    assert worker.state.program.outcome == "done" and board.x == 60
-    assert not worker.state.holds
-
-
 def test_stop_gives_the_program_up_even_in_a_hold(worker, board):
     board.at[20] = worker.hold
     worker.send("grid.nc", JOB)
@@ -175,21 +160,6 @@ def test_a_hold_that_the_machine_ignores_is_forgotten(worker, board, monkeypatch
 def send(worker):
     """A program of a line."""
     worker.send("one.nc", ["G1 X1"])
-
-
-def test_a_line_lost_in_mid_cut_is_reported_and_the_place_unknown(worker, board):
-    board.at[20] = lambda: setattr(board, "is_pulled", True)
-    worker.send("grid.nc", JOB)
-    until(lambda state: state.phase == "lost", worker)
-    state = worker.state
-    assert state.program.outcome == "lost" and 5 < state.program.done < len(JOB)
-    assert "USB: the line was lost" in state.trouble
-    assert f"{state.program.done} of {len(JOB)} lines of grid.nc were done" in state.trouble
-    assert not state.knows_place and not state.moves
-    with pytest.raises(InputError, match="connect it again"):
-        worker.send("grid.nc", JOB)
-    worker.await_end()
-    assert board.is_closed
 
 
 def test_a_machine_that_falls_silent_is_lost_also_at_rest(worker, board):

@@ -15,10 +15,8 @@ from plumb.model.predict import (
     TOO_TIGHT,
     TOO_VERTICAL,
     USABLE,
-    places,
     reach,
 )
-from plumb.model.predict import lengths as lengths_of
 from plumb.model.reach import survey_sheet, with_soft_chains
 from plumb.plan.sheet_reach import SIGNS, SheetReach
 from plumb.settings.toml import write_machine_toml
@@ -56,22 +54,6 @@ def test_every_verdict_has_its_place():
     heavy = replace(SOFT, sled_weight=1.5 * SOFT.sled_weight)
     assert reach(heavy, CORNERS).verdict[3] == TOO_TIGHT
     assert reach(SOFT, [[0, 1100], [np.nan, 0], [1600, 0]]).verdict.tolist() == [CANNOT_HANG] * 3
-
-
-def test_compliance_is_what_a_changed_load_does_to_the_sled():
-    # A push straight down is a heavier sled: both chains held, the place follows from the model.
-    more, point = 0.5, np.array([[700.0, -300.0]])
-    chains, _ = lengths_of(SOFT, point)
-    sag = SOFT.effect("chain_sag", "weight_ratio_squared")
-
-    def pulled(push):
-        weight = SOFT.sled_weight + push
-        ratio = sag * (SOFT.sled_weight / weight) ** 2
-        effects = {**SOFT.effects, "chain_sag": {"weight_ratio_squared": ratio}}
-        return places(replace(SOFT, sled_weight=weight, effects=effects), chains)[0][0]
-
-    moved = (pulled(more) - pulled(-more)) / (2 * more)
-    assert reach(SOFT, point).compliance[0] @ [0, -1] == pytest.approx(moved, rel=0.02)
 
 
 @pytest.mark.parametrize("gap, offset", [(2978.4, 463.0), (2900.0, 300.0), (3602.0, 250.0)])

@@ -1,19 +1,10 @@
 """The published sets of real machines: the numbers as published, and what the lab makes of them."""
 
 import pytest
-from plumb.fit.observations import rms
-from real_data_page import (
-    CUTS,
-    EXAMPLES,
-    HOLES,
-    PAIRS,
-    pooled,
-    predicted,
-    real_set,
-)
+from real_data_page import CUTS, EXAMPLES, HOLES, PAIRS, errors_by_set, pooled, predicted, real_set
 
 SETS = {name: real_set(name) for name in HOLES}
-TOGETHER = pooled(list(SETS.values()))
+TOGETHER = pooled()
 RECORDS = {HOLES[1]: 0.80, HOLES[3]: 1.00}  # [mm RMS] measured less nominal, after the owner's fits
 
 
@@ -32,9 +23,10 @@ def test_a_machine_fitted_to_one_set_predicts_the_next_better_than_its_owner_did
 
 
 def test_one_machine_explains_all_four_sets_better_than_the_owners_fits():
-    assert all(rms(TOGETHER.errors[name]) < record for name, record in RECORDS.items())
-    assert TOGETHER.fitted.after.left_out_rms < 1.1
-    pitch = [each for each in TOGETHER.fitted.parameters if each.name.startswith("chain_pitch")]
+    errors = errors_by_set(TOGETHER)
+    assert all(errors[name] < record for name, record in RECORDS.items())
+    assert TOGETHER.pitched.after.left_out_rms < 1.1
+    pitch = [each for each in TOGETHER.pitched.parameters if each.name.startswith("chain_pitch")]
     assert all(0.001 < each.value < 0.0026 for each in pitch)  # the standard allows 0.26 %
 
 
@@ -42,7 +34,7 @@ def test_it_predicts_a_cut_of_other_settings_that_took_no_part():
     cuts = real_set(CUTS)
     assert min(abs(each.error) for each in cuts.raw.distances) > 1.5
     assert (
-        max(abs(each.error) for each in predicted(TOGETHER.fitted.settings, cuts).distances) < 0.5
+        max(abs(each.error) for each in predicted(TOGETHER.pitched.settings, cuts).distances) < 0.5
     )
 
 
@@ -75,7 +67,7 @@ def test_all_hole_sets_go_into_one_command(ask):
 
 
 def test_eight_distances_are_too_few_for_seven_parameters():
-    diagnosis = SETS[HOLES[0]].diagnosis
+    diagnosis = SETS[HOLES[0]].decision.diagnosis
     for each in diagnosis.explanations:
         assert sum(len(sizes) for sizes in each.sizes.values()) < 7
     assert all(each.mm is None or each.mm < 30 for each in diagnosis.could_hide)

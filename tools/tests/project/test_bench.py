@@ -8,7 +8,7 @@ import pytest
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "bench"))
 import firmware
 import main as bench
-from main import Budgets, over_budget, table
+from main import over_budget, table
 
 FIGURES = {
     "inverse, sag": (13_425, 13_622),
@@ -16,7 +16,10 @@ FIGURES = {
     "lines a second": (240.0,),
     "share of the time": (0.102,),
 }
-BUDGETS = Budgets({"inverse, sag": 13_500, "share of the time": 0.12}, {"lines a second": 230})
+BUDGETS = {
+    "most": {"inverse, sag": 13_500, "share of the time": 0.12},
+    "least": {"lines a second": 230},
+}
 
 
 def test_a_figure_stands_beside_its_budget():
@@ -27,22 +30,22 @@ def test_a_figure_stands_beside_its_budget():
 
 
 @pytest.mark.parametrize(
-    ("budgets", "lines"),
+    ("changed", "lines"),
     [
-        (BUDGETS, []),
-        (Budgets({"inverse, sag": 13_424}, {}), ["inverse, sag: 13,425, the budget is 13,424"]),
-        (Budgets({}, {"lines a second": 241}), ["lines a second: 240, the budget is 241"]),
-        (Budgets({"mud": 9**9}, {}), ["mud: has a budget, but no such case is measured"]),
+        ({}, []),
+        ({"most": {"inverse, sag": 13_424}}, ["inverse, sag: 13,425, the budget is 13,424"]),
+        ({"least": {"lines a second": 241}}, ["lines a second: 240, the budget is 241"]),
+        ({"most": {"mud": 9**9}}, ["mud: has a budget, but no such case is measured"]),
     ],
 )
-def test_a_figure_over_its_budget_is_reported(budgets, lines):
-    assert over_budget(FIGURES, budgets) == lines
+def test_a_figure_over_its_budget_is_reported(changed, lines):
+    assert over_budget(FIGURES, BUDGETS | changed) == lines
 
 
 def test_the_bench_reads_the_budgets_of_the_build():
-    most = bench.budgets().most
+    most = bench.budgets()["most"]
     assert (most[firmware.FLASH], most[firmware.RAM]) == (184_320, 5_632)
 
 
 def test_static_ram_and_the_deepest_stack_with_a_quarter_fit_into_the_mega():
-    assert bench.budgets().most["static RAM, deepest stack and a quarter of it"] == 8_192
+    assert bench.budgets()["most"]["static RAM, deepest stack and a quarter of it"] == 8_192

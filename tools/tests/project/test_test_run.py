@@ -13,10 +13,6 @@ sys.path.insert(0, str(ROOT / "tools/steps"))
 import run_tests as run  # noqa: E402
 from run_tests import Part  # noqa: E402
 
-GOOD, SKIPPED = "<testcase name='a'/>", "<testcase name='b'><skipped/></testcase>"
-FAILED, BROKEN = SKIPPED.replace("skipped", "failure"), SKIPPED.replace("skipped", "error")
-EXIT_CODE = "<testcase name='native:test_a'><error/></testcase>"
-
 
 @pytest.fixture(autouse=True)
 def results(tmp_path, monkeypatch):
@@ -39,36 +35,31 @@ def test_a_failure_is_named_at_once_shown_at_the_end_and_leaves_the_other_parts_
     assert shown[-2].split()[:3] == ["c", "0:00", "1"] and shown[-1] == "3 passed, 1 failed"
 
 
-def test_tests_are_counted_by_the_file_of_results_and_named_as_they_fail(capsys, results):
-    junit = results / "some.xml"
-    lines = (
-        "[gw0] [ 25%] FAILED tools/tests/x.py::test_b[1 2] \\nTile.Law/Soft\\t[FAILED]\\nother\\n"
-    )
-    junit.write_text(f"<testsuite name='x' timestamp='0'>{GOOD}{GOOD}{FAILED}</testsuite>")
-    code, shown = summed(capsys, [Part("x", [["printf", "%b", lines]], junit)])
-    assert shown[:2] == ["FAILED x: tools/tests/x.py::test_b[1 2]", "FAILED x: Tile.Law/Soft"]
-    assert code == 1 and shown[-1] == "2 passed, 1 failed"
-
-
 @pytest.mark.parametrize(
-    ("cases", "status", "expected"),
+    ("said", "status", "failures"),
     [
-        (GOOD * 2, 0, (2, 0)),
-        (GOOD + FAILED, 1, (1, 1)),
-        (BROKEN, 1, (0, 1)),
-        (GOOD + SKIPPED, 0, (1, 1)),
-        (GOOD, 139, (1, 1)),
-        (GOOD + FAILED + EXIT_CODE, 1, (1, 1)),
-        (GOOD + EXIT_CODE, 1, (1, 1)),
-        ("", 0, (0, 1)),
-        (None, 0, (0, 1)),
+        ("", 0, []),
+        ("[gw0] [ 25%] FAILED tools/tests/x.py::test_b[1 2]", 1, ["tools/tests/x.py::test_b[1 2]"]),
+        ("[gw0] [ 25%] ERROR tools/tests/x.py::test_b", 1, ["tools/tests/x.py::test_b"]),
+        ("[gw1] [  5%] SKIPPED tools/tests/x.py::test_b", 0, ["tools/tests/x.py::test_b"]),
+        ("test/a.cpp:7: Tile.Law/Soft\t[FAILED]", 1, ["test/a.cpp:7: Tile.Law/Soft"]),
+        ("native:test_a\t[ERRORED]", 1, ["native:test_a"]),
+        ("", 139, ["ended with 139"]),
     ],
 )
-def test_nothing_that_failed_or_did_not_run_counts_as_passed(results, cases, status, expected):
-    junit = results / "some.xml"
-    if cases is not None:
-        junit.write_text(f"<testsuite name='native:test_a' timestamp='0'>{cases}</testsuite>")
-    assert run.counts(junit, status) == expected
+def test_nothing_that_failed_or_did_not_run_counts_as_passed(capsys, said, status, failures):
+    script = 'printf "%b\\n" "[gw0] [  1%] PASSED x::a" "x.cpp:1: T.b\\t[PASSED]" "$1"; exit $2'
+    part = Part("x", [["sh", "-c", script, "", said, str(status)]], is_suite=True)
+    code, shown = summed(capsys, [part])
+    assert [line for line in shown if line.startswith("FAILED x: ")] == [
+        f"FAILED x: {each}" for each in failures
+    ]
+    assert code == bool(failures) and shown[-1] == f"2 passed, {len(failures)} failed"
+
+
+def test_a_suite_without_a_test_fails(capsys):
+    code, shown = summed(capsys, [Part("x", [["true"]], is_suite=True)])
+    assert code == 1 and shown[-1] == "0 passed, 1 failed"
 
 
 def test_the_usual_run_leaves_out_only_what_is_slow_and_a_word_it_does_not_know_is_refused():

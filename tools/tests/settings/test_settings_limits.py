@@ -28,9 +28,9 @@ def test_every_number_has_a_limit():
     assert set(PUBLISHED_LIMITS) == {field.name for field in fields(PublishedSettings)}
 
 
-@pytest.mark.parametrize("gap", [2978.4, 3000, 3102.1, 3602.71093, 3719.6])
-@pytest.mark.parametrize("offset", [422, 463, 503, 618, 1063.2])
-@pytest.mark.parametrize("radius", [0, 100, 127, 131.9, 146.6, 250])
+@pytest.mark.parametrize("gap", [2978.4, 3719.6])
+@pytest.mark.parametrize("offset", [422, 463, 1063.2])
+@pytest.mark.parametrize("radius", [0, 100, 250])
 def test_machines_that_exist_are_accepted(gap, offset, radius):
     real = replace(GOOD, motor_gap=gap, motor_height=609.6 + offset, rotation_radius=radius)
     assert find_fault(real) is None

@@ -37,7 +37,7 @@ class Pulled:
         for _ in range(int(seconds * 100)):
             self.machine.advance(10)
             self.seconds += 0.01
-            self.most_pull = max(self.most_pull, self.machine.across[0])
+            self.most_pull = max(self.most_pull, self.machine.across)
             heard = self.machine.take_said().decode().splitlines()
             self.lines += [each for each in heard if not each.startswith(("<", "[PE"))]
             if "ok" in self.lines:
@@ -63,7 +63,7 @@ def test_three_pulls_with_the_stated_force_whatever_the_supply(volts):
     assert pulls == 3
     assert spread < 0.15
     assert force == pytest.approx(80, abs=3)
-    assert pulled.machine.across[0] == pytest.approx(force, rel=0.1)
+    assert pulled.machine.across == pytest.approx(force, rel=0.1)
     assert pulled.most_pull < 100
     assert gap == pytest.approx(pulled.machine.chains[0] - BEYOND, abs=spread + 0.02)
 
@@ -123,7 +123,7 @@ def test_a_supply_that_sags_in_the_middle_stops_it(volts, at):
 
 def test_pulls_that_differ_are_reported():
     pulled = Pulled("B11 S255 T15 L")
-    while pulled.machine.across[0] < 75:
+    while pulled.machine.across < 75:
         pulled.go_on(0.02)
     pulled.machine.set("left.inward", 0.03)  # the bracket comes loose
     lines = pulled.answered()

@@ -21,7 +21,7 @@ TRUSTED = "$77=10"  # [N m] the machine believes that its gears hold any sled
         ("host", 605.0, USUAL, STAYS, HELD),
         ("host", 450.0, USUAL, "", CREEP),
         ("host", 605.0, TRUSTED, SLIDES, MOST),
-        ("mega", 605.0, TRUSTED, SLIDES, MOST),
+        pytest.param("mega", 605.0, TRUSTED, SLIDES, MOST, marks=pytest.mark.slow),
     ],
 )
 def test_a_sled_stays_where_it_was(brain, height, setting, warned, most, elf):

@@ -23,9 +23,9 @@ struct Parts {
   std::map<std::string, double> numbers;  ///< of the judge's machine, where they differ
   double friction = 0;                    ///< [N] of the sled on the sheet
   unsigned seed = 0;                      ///< for random motors; 0: nominal motors
-  double motor_step = 1e-4;               ///< [s] of the motors' computation
-  double hang_every = 0.01;               ///< [s] in which a chain moves at most 0.3 mm
-  bool over_top = true;  ///< the chains leave over the top of the sprockets, else below
+  bool over_top = true;      ///< the chains leave over the top of the sprockets, else below
+  double motor_step = 1e-4;  ///< [s] of the motors' computation
+  double hang_every = 0.01;  ///< [s] in which a chain moves at most 0.3 mm
 };
 
 /// The machine in its garage.
@@ -70,7 +70,7 @@ class World {
   void hookAcross(Axis axis, double slack, double beyond);
   /// Hangs the sled on its chains again.
   void unhook();
-  /// The chain that is hooked across; without pull and drop where none is.
+  /// The chain that is hooked across; without pull where none is.
   const reference::Across& across() const { return across_; }
   /// Gives a number of the judge's machine a new value.
   void set(const std::string& number, double value) { sled_.set(number, value); }
