@@ -1,5 +1,4 @@
 # The types of the compiled module: tools/core/binding.cpp says what the functions do.
-# tools/tests/project/test_core_types.py holds this file against the module.
 from collections.abc import Mapping
 from typing import Any, TypedDict
 
