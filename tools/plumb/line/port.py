@@ -40,6 +40,7 @@ class LinePort(Protocol):
 
 BAUD = 57600
 PATIENCE = 0.1  # [s] that a read waits
+CHUNK = 4096
 
 
 class SerialPort:
@@ -73,6 +74,10 @@ class SerialPort:
         """Return what came; waits a moment if nothing did."""
         try:
             came: bytes = self._line.read(max(1, self._line.in_waiting))
+            if came and self.path.startswith("socket:"):  # pyserial counts but one there
+                self._line.timeout = 0
+                came += self._line.read(CHUNK)
+                self._line.timeout = PATIENCE
         except (serial.SerialException, OSError):
             raise self._lost() from None
         return came
