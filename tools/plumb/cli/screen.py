@@ -39,7 +39,9 @@ def console() -> Console:
     plain = Console(highlight=False, markup=False, emoji=False)
     piped = not plain.is_terminal and "COLUMNS" not in os.environ
     width = WIDEST if piped else min(plain.width, WIDEST)
-    return Console(highlight=False, markup=False, emoji=False, width=width)
+    # A pipe has all its columns; rich takes one from what may be an old console of Windows.
+    old = False if piped else None
+    return Console(highlight=False, markup=False, emoji=False, width=width, legacy_windows=old)
 
 
 def table(
