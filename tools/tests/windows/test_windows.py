@@ -91,14 +91,15 @@ def test_a_suite_that_needs_no_port_passes(folder, suite):
 
 
 def test_the_error_falls_and_all_is_written(folder):
-    added = plumb(
-        folder, "add", "groundcontrol.ini", "marks.toml", "--effect", "auto", "-o", "new.toml"
-    )
-    before, after = map(float, re.search(r"from ([\d.]+) to ([\d.]+) mm", added).groups())
+    words = ["--checked", "tape_scale.strain=0+-0.1mm", "--checked", "motor_gap=2980.4+-1"]
+    words += ["--checked", "motor_height=1069.6+-1", "-o", "new.toml"]
+    said = plumb(folder, "calibrate", "groundcontrol.ini", "marks.toml", *words)
+    before, after = map(float, re.search(r"from\s+([\d.]+) to ([\d.]+) mm", said).groups())
     assert after < before / 2
     plumb(folder, "report", "groundcontrol.ini", "marks.toml", "-o", "report.html")
     assert (folder / "new.toml").read_bytes().count(b"\r") == 0
-    assert (folder / "diary.jsonl").is_file() and (folder / "report.html").is_file()
+    for name in ("new-groundcontrol.ini", "diary.jsonl", "report.html"):
+        assert (folder / name).is_file()
 
 
 def test_a_virtual_machine_is_sent_a_program_and_read(folder, served):
