@@ -9,6 +9,7 @@ import time
 from pathlib import Path
 from urllib.request import Request, urlopen
 
+import asked_again
 import pytest
 
 pytestmark = pytest.mark.slow
@@ -87,7 +88,8 @@ def test_the_diagnosis_is_that_of_linux(folder):
 
 
 @pytest.mark.parametrize("suite", (*SUITES, LAB))
-def test_a_suite_that_needs_no_pseudo_terminal_passes(folder, suite):
+def test_a_suite_that_needs_no_pseudo_terminal_passes(folder, suite, monkeypatch):
+    monkeypatch.delenv(asked_again.FOLDER, raising=False)  # it works out answers of its own
     paths = [f"tools/tests/{name}" for name in suite.split()]
     left_out = [f"--ignore=tools/tests/{name}" for name in NOT_UNDER_WINE]
     command = [PYTHON, "-m", "pytest", "-q", "-p", "no:cacheprovider", "-m", "not slow"]
