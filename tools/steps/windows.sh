@@ -39,6 +39,8 @@ windows_python() {
     --implementation cp -d "$packages" -r "$packages.txt" >"$log" 2>&1 || stop "pip failed: $(tail -n 1 "$log")"
   for wheel in "$packages"/*.whl; do .venv/bin/python -m zipfile -e "$wheel" "$site"; done
   cp tools/windows/sitecustomize.py "$site"
+  # Wine 8 lacks the function by which Matplotlib turns its arrows.
+  sed -i 's/np.exp(1j \* theta)/(np.cos(theta) + 1j * np.sin(theta))/' "$site/matplotlib/quiver.py"
   x86_64-w64-mingw32-gcc-posix -shared -o "$windows_folder/python/bcryptprimitives.dll" tools/windows/for_wine.c -ladvapi32
 }
 

@@ -85,7 +85,8 @@ class _Reader:
 
     def look(self, machine: VirtualMachine) -> None:
         """Look whether a form waits, and whether its marks are cut."""
-        with suppress(FileNotFoundError):  # what is taken away meanwhile waits no more
+        # What is taken away meanwhile waits no more; Windows keeps others out while it is written.
+        with suppress(FileNotFoundError, PermissionError):
             for path in sorted(self._folder.glob("*.toml"), key=lambda path: -path.stat().st_mtime):
                 form = path.read_text(encoding="utf-8", errors="replace")
                 if BLANK in form:

@@ -36,10 +36,12 @@ COLOURS = {GOOD: "bold green", OPEN: "bold yellow", BAD: "bold red"}
 
 def console() -> Console:
     """Return the screen, or what takes its place."""
-    plain = Console(highlight=False, markup=False, emoji=False)
+    # A pipe has all its columns; rich takes one from what may be an old console of Windows.
+    old = None if Console().is_terminal else False
+    plain = Console(highlight=False, markup=False, emoji=False, legacy_windows=old)
     piped = not plain.is_terminal and "COLUMNS" not in os.environ
     width = WIDEST if piped else min(plain.width, WIDEST)
-    return Console(highlight=False, markup=False, emoji=False, width=width)
+    return Console(highlight=False, markup=False, emoji=False, width=width, legacy_windows=old)
 
 
 def table(

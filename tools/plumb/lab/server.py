@@ -8,7 +8,6 @@ import re
 import secrets
 import socket
 import stat
-import sys
 import webbrowser
 from collections.abc import Callable
 from contextlib import suppress
@@ -24,6 +23,7 @@ from plumb.lab.app import lab_app
 from plumb.lab.guard import Address
 from plumb.lab.phones import Phones, Sharing
 from plumb.text.errors import InputError
+from plumb.text.locks import is_private
 
 HOST, NETWORK = "127.0.0.1", "0.0.0.0"  # the second takes what comes by the network too
 TOKEN_FILE = ".lab.token"  # keeps the token, so that an open page survives a restart
@@ -125,9 +125,7 @@ def _kept_token(path: Path) -> str:
     """Return the token that an earlier server wrote; empty if others can read or wrote it."""
     with suppress(OSError):
         kept = path.lstat()
-        private = stat.S_ISREG(kept.st_mode)
-        if sys.platform != "win32":  # where a folder of one's own is closed to others
-            private = private and not kept.st_mode & 0o077 and kept.st_uid == os.getuid()
+        private = stat.S_ISREG(kept.st_mode) and is_private(kept)
         text = path.read_text().strip() if private else ""
         return text if TOKEN.fullmatch(text) else ""
     return ""

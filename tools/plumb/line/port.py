@@ -13,7 +13,7 @@ import serial
 from serial.tools import list_ports
 
 from plumb.text.errors import InputError, to_do
-from plumb.text.locks import NO_LINKS, hold
+from plumb.text.locks import NO_LINKS, close_to_others, hold
 
 
 class LostError(InputError):
@@ -40,6 +40,7 @@ class LinePort(Protocol):
 
 BAUD = 57600
 PATIENCE = 0.1  # [s] that a read waits
+CHUNK = 4096
 
 
 class SerialPort:
@@ -57,7 +58,8 @@ class SerialPort:
             self._line = serial.serial_for_url(path, BAUD, timeout=PATIENCE, exclusive=True)
         except serial.SerialException as error:
             self._lock.release()
-            busy = "busy" in str(error).lower() or "lock" in str(error).lower()
+            # Windows says PermissionError, and the rest in its own language.
+            busy = any(word in str(error).lower() for word in ("busy", "lock", "permissionerror"))
             remedy = "close the program that has it" if busy else "check the cable and the name"
             raise InputError(path, "cannot be opened", remedy=remedy) from None
         refuse_others(path, self._line)
@@ -73,6 +75,10 @@ class SerialPort:
         """Return what came; waits a moment if nothing did."""
         try:
             came: bytes = self._line.read(max(1, self._line.in_waiting))
+            if came and self.path.startswith("socket:"):  # pyserial counts but one there
+                self._line.timeout = 0
+                came += self._line.read(CHUNK)
+                self._line.timeout = PATIENCE
         except (serial.SerialException, OSError):
             raise self._lost() from None
         return came
@@ -144,13 +150,8 @@ class LineLock:
 def refuse_others(path: str, line: serial.SerialBase) -> None:
     """Have the kernel refuse to open the line again, except for root; Windows does so by itself."""
     # A pseudo terminal would refuse on, even when the program that had it was killed.
-    if sys.platform == "win32" or os.path.realpath(path).startswith(PSEUDO):
-        return
-    import fcntl
-    import termios
-
-    with suppress(OSError):  # what is no terminal knows no such refusal
-        fcntl.ioctl(line.fileno(), termios.TIOCEXCL)
+    if sys.platform != "win32" and not os.path.realpath(path).startswith(PSEUDO):
+        close_to_others(line.fileno())
 
 
 def _lock_file(path: str) -> Path:

@@ -6,7 +6,7 @@ All that the systems do differently with open files is here.
 import os
 import sys
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 
 import portalocker  # flock where there is one, msvcrt on Windows
@@ -35,6 +35,22 @@ def hold(handle: int, *, wait: bool = True) -> None:
         portalocker.lock(handle, flags)
     except portalocker.LockException as error:
         raise OSError(str(error)) from None
+
+
+def close_to_others(handle: int) -> None:
+    """Have the kernel refuse to open a terminal again, except for root. POSIX alone."""
+    import fcntl
+    import termios
+
+    with suppress(OSError):  # what is no terminal knows no such refusal
+        fcntl.ioctl(handle, termios.TIOCEXCL)
+
+
+def is_private(file: os.stat_result) -> bool:
+    """Return whether others can neither read a file nor have written it. Windows closes a folder of
+    one's own to others.
+    """
+    return sys.platform == "win32" or (not file.st_mode & 0o077 and file.st_uid == os.getuid())
 
 
 def reaches_disk(folder: Path) -> None:

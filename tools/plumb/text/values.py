@@ -222,7 +222,7 @@ def length(value: object, *, unit: float = 1.0) -> float:
 
 _ASIDE = re.compile(r"(\"(?:[^\"\\]|\\.)*\"|'[^']*'|#[^\n]*)")  # what TOML quotes, and comments
 _BARE_FRACTION = re.compile(
-    r"(?<=[\[,=])([ \t]*)([+-]?(?:\d+[ -]+)?\d+[ \t]*/[ \t]*\d+)(?=[ \t]*(?:[\],\n]|$))"
+    r"(?<=[\[,=])([ \t]*)([+-]?(?:\d+[ -]+)?\d+[ \t]*/[ \t]*\d+)(?=[ \t]*(?:[\],\r\n]|$))"
 )
 
 

@@ -1,7 +1,6 @@
 """`plumb add --checked`: a number that was measured directly counts in the fit, or is refused."""
 
 import re
-import shlex
 from dataclasses import replace
 from pathlib import Path
 
@@ -11,6 +10,7 @@ from plumb import api
 from plumb.cli.main import main
 from plumb.settings.toml import write_machine_toml
 from synthetic import BELIEVED, csv_of, grid, marks_on
+from systems import words_of
 
 EXAMPLE = Path(__file__).resolve().parents[3] / "docs/example"
 BOARD = (str(EXAMPLE / "groundcontrol.ini"), str(EXAMPLE / "marks.toml"))
@@ -19,7 +19,7 @@ COMMAND = re.compile(r"^  plumb (?:.*\\\n)*.*", re.MULTILINE)
 
 
 def next_command(said):
-    return shlex.split(COMMAND.findall(said)[-1].replace("\\\n", " "))[1:]
+    return words_of(COMMAND.findall(said)[-1])[1:]
 
 
 def test_auto_uses_checked_numbers(ask, run):

@@ -4,7 +4,6 @@ Each command ends with the next command; here the printed commands are run as th
 """
 
 import re
-import shlex
 import shutil
 from dataclasses import replace
 from importlib import resources
@@ -17,6 +16,7 @@ from plumb.cli.main import build_parser
 from plumb.settings.files import read_settings
 from plumb.settings.toml import write_machine_toml
 from synthetic import BELIEVED, EFFECTS, TRUE, csv_of, grid, marks_on
+from systems import widest, words_of
 
 EXAMPLE = Path(__file__).resolve().parents[3] / "docs/example"
 INI = "groundcontrol.ini"
@@ -33,7 +33,7 @@ def _shop(tmp_path, monkeypatch):
 
 def printed(said):
     """The commands that an answer ends with."""
-    commands = [shlex.split(text.replace("\\\n", " ")) for text in COMMAND.findall(said)]
+    commands = [words_of(text) for text in COMMAND.findall(said)]
     return [words[1:] for words in commands]
 
 
@@ -82,7 +82,7 @@ def test_an_open_question_names_a_measurement_and_writes_nothing(run):
     assert first == ["calibrate", INI, "marks.toml", "--checked", "tape_scale.strain=VALUE+-0.1mm"]
     _, other = printed(run("calibrate", INI, "marks.toml", "--details")[1])
     assert other[:5] == ["add", INI, "marks.toml", "--effect", "auto"]
-    assert max(map(len, said.splitlines())) <= 80
+    assert widest(said) <= 80
 
 
 def test_the_printed_commands_lead_to_the_files_and_to_a_second_round(run):

@@ -3,6 +3,7 @@
 import pytest
 from plumb.cli.demo import main
 from plumb.settings.files import read_settings
+from systems import ON_POSIX
 
 
 def test_a_folder_that_cannot_be_made_is_refused_in_one_line(tmp_path, capsys):
@@ -12,6 +13,7 @@ def test_a_folder_that_cannot_be_made_is_refused_in_one_line(tmp_path, capsys):
     assert said.out == "" and said.err.startswith("demo: ") and said.err.count("\n") == 1
 
 
+@ON_POSIX
 def test_mega_alone_runs_the_program_that_was_built(tmp_path, monkeypatch, capsys):
     monkeypatch.setattr("plumb.cli.demo.BUILT", "absent.elf")
     assert main(["--folder", str(tmp_path), "--mega"]) == 2

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pytest
 from plumb.cli.main import main
+from systems import ON_POSIX
 
 ROOT = Path(__file__).resolve().parents[3]
 EXAMPLE = ROOT / "docs/example"
@@ -64,6 +65,7 @@ def through_a_pipe(name, write):
     return got[0], answer
 
 
+@ON_POSIX
 @pytest.mark.parametrize(("command", "name"), WRITERS)
 def test_a_pipe_stays_a_pipe_and_gets_the_bytes(command, name, run):
     got, answer = through_a_pipe(name, lambda: run(*command, name))
@@ -72,6 +74,7 @@ def test_a_pipe_stays_a_pipe_and_gets_the_bytes(command, name, run):
     assert got == Path(name).read_bytes()
 
 
+@ON_POSIX
 def test_a_link_to_a_pipe_or_a_device_is_not_replaced(run):
     os.symlink("/dev/null", "null.toml")
     os.symlink("pipe", "link.toml")
@@ -81,6 +84,7 @@ def test_a_link_to_a_pipe_or_a_device_is_not_replaced(run):
     assert answer[0] == 0 and b"[frame]" in got and os.path.islink("link.toml")
 
 
+@ON_POSIX
 def test_a_link_to_a_file_stays_and_its_file_is_replaced(run):
     assert run(*ADD, "-o", "machine.toml")[0] == 0
     written = Path("machine.toml").read_bytes()
@@ -115,6 +119,7 @@ def test_a_dash_is_the_standard_output_and_the_report_goes_beside(run):
     assert not Path("-").exists()
 
 
+@ON_POSIX
 def test_a_pipe_is_read_once(run):
     os.mkfifo("settings.ini")
     content = Path(SETTINGS).read_bytes()

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 from plumb.diary.file import append, read_diary
+from systems import words_of
 
 EXAMPLE = Path(__file__).resolve().parents[3] / "docs/example"
 SLIPPED = ("--touch=-900,250:-902.4,256.1", "--touch=900,-250:894.5,-247.1")
@@ -47,7 +48,7 @@ def test_touches_odds_and_the_line_are_said(run):
     assert [row[7:] for row in rows] == [["+0.24,", "+0.15"], ["-0.33,", "-0.32"]]
     assert "a slip, links: left +1  > 99.9 %" in said
     line = next(each for each in said.splitlines() if each.startswith("  plumb send "))
-    assert line == "  plumb send 'B06 L2589.564 R1315.333'"
+    assert words_of(line) == ["plumb", "send", "B06 L2589.564 R1315.333"]
     said = run("recover", "machine.toml", "--touch=0,0:5,5", "--sigma", "3")[1]
     shown = said[said.index("what may have happened") : said.index("Touch another")]
     odds = [each.split()[-2] for each in shown.splitlines() if each.endswith(" %")]

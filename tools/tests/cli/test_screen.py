@@ -6,6 +6,7 @@ from pathlib import Path
 import pytest
 from plumb.cli import screen
 from plumb.cli.screen import BAD, GOOD, OPEN, Bar, headline, table
+from systems import widest
 
 EXAMPLE = Path(__file__).resolve().parents[3] / "docs/example"
 INI, MARKS = EXAMPLE / "groundcontrol.ini", EXAMPLE / "marks.toml"
@@ -35,7 +36,7 @@ def _no_screen(monkeypatch):
 def test_no_line_is_longer_than_80_columns(command, run):
     code, said, complaint = run(*command)
     assert code < 2 and complaint == ""
-    assert max(map(len, said.splitlines())) <= 80, said
+    assert widest(said) <= 80, said
     assert "…" not in said and "\x1b" not in said
 
 

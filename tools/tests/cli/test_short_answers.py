@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 from example_machine import checked
 from plumb.model.catalogue import effect_names, parameter_words
+from systems import widest
 
 ROOT = Path(__file__).resolve().parents[3]
 BOARDS = {
@@ -81,7 +82,7 @@ def verdict_of(lines):
 def test_an_answer_fits_a_screen_ends_with_its_verdict_and_details_say_more(board, command, run):
     lines = answer(run, board, command)
     plain = [ESCAPE.sub("", line) for line in lines]
-    assert len(plain) <= SCREEN and max(map(len, plain)) <= 80, "\n".join(plain)
+    assert len(plain) <= SCREEN and widest("\n".join(plain)) <= 80, "\n".join(plain)
     if command[0] == "calibrate":
         assert sum(bool(line) for line in plain) <= TEN + 3 * ("- " in "\n".join(plain[:3]))
     verdict, behind = verdict_of(lines)

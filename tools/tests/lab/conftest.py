@@ -6,12 +6,9 @@ from urllib.parse import urljoin
 import pytest
 from asked_again import tried_less  # noqa: F401
 from folder import with_settings
-from garage_at_port import Garage
-from playwright.sync_api import Error, expect
 from served_lab import SharedLab
 
 BUSY_MS = 120_000  # of a busy computer
-expect.set_options(timeout=BUSY_MS)
 
 
 @pytest.fixture(scope="session")
@@ -38,6 +35,9 @@ def client(tmp_path):
 @contextmanager
 def looked_at(page):
     """A page of desktop size. What its scripts complain of fails the test."""
+    from playwright.sync_api import expect  # Windows' Python has no browser under Wine
+
+    expect.set_options(timeout=BUSY_MS)
     page.set_viewport_size({"width": 1280, "height": 900})
     page.context.set_default_timeout(BUSY_MS)
     page.set_default_timeout(BUSY_MS)
@@ -66,6 +66,8 @@ def used_page(browser):
 @pytest.fixture
 def page(used_page):
     """The page that tests before have used; nothing of them is left in it."""
+    from playwright.sync_api import Error
+
     used_page.mouse.move(0, 0)
     try:
         with looked_at(used_page):
@@ -92,6 +94,8 @@ def fresh_page(browser):
 @pytest.fixture
 def cable():
     """A virtual machine at a serial port, whose cable can be pulled; it hurries at rest too."""
+    from garage_at_port import Garage  # at a pseudo terminal
+
     garage = Garage(20, at_rest=20)
     yield garage
     garage.pull_out()
@@ -100,6 +104,8 @@ def cable():
 @pytest.fixture
 def garage():
     """A machine at a serial port, and its sheet."""
+    from garage_at_port import Garage
+
     garage = Garage()
     yield garage
     garage.pull_out()

@@ -19,6 +19,7 @@ from plumb.lab.machine_line import MachineLine
 from plumb.line import worker
 from plumb.line.sender import STOP
 from plumb.line.worker import LineWorker
+from systems import ON_POSIX
 from websockets.sync.client import connect
 
 PATIENCE = 120  # [s] of a busy computer
@@ -70,6 +71,7 @@ def test_only_a_serial_port_is_opened(ask, port):
     assert ask("GET", "machine")["kind"] == "none"
 
 
+@ON_POSIX
 def test_a_link_leads_to_its_port_and_to_nothing_else(ask, cable, tmp_path):
     port = cable.path
     link, other = tmp_path / "maslow", tmp_path / "other"
@@ -233,6 +235,7 @@ def test_another_firmware_is_named_and_ours_is_written_over_it(client, monkeypat
     got(client.post("/api/machine/disconnect"))
 
 
+@ON_POSIX
 def test_a_cable_pulled_in_mid_cut_is_reported(ask, cable):
     ask("POST", "machine/board", port=cable.path)
     until(ask, lambda state: state["phase"] == "ready")

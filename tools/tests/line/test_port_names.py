@@ -48,6 +48,7 @@ def test_with_several_boards_the_port_must_be_named(plug):
     [
         ("[Errno 16] Device or resource busy", "close the program that has it"),
         ("Could not exclusively lock port", "close the program that has it"),
+        ("could not open port: PermissionError(13, 'Zugriff', None, 5)", "close the program"),
         ("[Errno 2] No such file or directory", "check the cable and the name"),
     ],
 )
@@ -56,5 +57,5 @@ def test_the_remedy_depends_on_why_a_line_cannot_be_opened(monkeypatch, error, r
         raise serial.SerialException(error)
 
     monkeypatch.setattr(port.serial, "Serial", refuse)
-    with pytest.raises(InputError, match=f"^COM3: cannot be opened; {remedy}$"):
+    with pytest.raises(InputError, match=f"^COM3: cannot be opened; {remedy}"):
         SerialPort("COM3")

@@ -86,11 +86,13 @@ def test_fractions_need_no_quotes_and_names_stay_as_they_are(tmp_path):
     bare = INCHES.replace('["5 1/8", "4 15/16"]', "[5 1/8, 4-15/16]").replace(
         'inch = "45 1/16"', "inch = 45 1/16  # once [1/2, 3]"
     )
+    windows = bare.replace("  # once [1/2, 3]", "").replace("\n", "\r\n")
     read = []
-    for text in (INCHES, bare, bare.replace('"1"', '"a [1/2, 3]"')):
-        path.write_text(text)
+    for text in (INCHES, bare, bare.replace('"1"', '"a [1/2, 3]"'), windows):
+        path.write_bytes(text.encode())
         read.append(read_marks(path, sheet=SHEET))
-    assert read[0].marks == read[1].marks and read[0].distances == read[1].distances
+    assert read[0].marks == read[1].marks == read[3].marks
+    assert read[0].distances == read[1].distances == read[3].distances
     assert read[2].marks[0].name == "a [1/2, 3]"
     assert read[2].marks[0].measured == read[0].marks[0].measured
 

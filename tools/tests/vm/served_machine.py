@@ -3,6 +3,7 @@
 import contextlib
 import functools
 import io
+import os
 import signal
 import subprocess
 import sys
@@ -19,9 +20,8 @@ PLUMB = [sys.executable, hurried_plumb.__file__]
 START = 120  # [s] in which a program on a busy computer must have begun
 
 # A lane of tools/test ignores Ctrl-C, and what it starts would too.
-INTERRUPTIBLE = functools.partial(
-    subprocess.Popen, preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL)
-)
+HEARS_CTRL_C = None if os.name == "nt" else lambda: signal.signal(signal.SIGINT, signal.SIG_DFL)
+INTERRUPTIBLE = functools.partial(subprocess.Popen, preexec_fn=HEARS_CTRL_C)
 
 
 def plumb(*words: str, folder: Path, code: int = 0, typed: str | None = None) -> str:

@@ -13,6 +13,7 @@ from plumb.vm.garage import Garage, sled_error
 from plumb.vm.practice import Secret, score, secret_in
 from plumb.vm.tape import BLANK
 from served_machine import INTERRUPTIBLE, PLUMB, plumb
+from systems import ON_POSIX
 
 GRID = ("grid", "--places=-1119,510 1119,510 1119,-510 -1119,-510")
 
@@ -29,6 +30,7 @@ def machine(tmp_path):
     assert program.wait() == 0
 
 
+@ON_POSIX
 def test_a_practice_is_cut_read_and_revealed_with_the_commands_of_a_machine(machine, tmp_path):
     plumb(*GRID, "--output", "game/grid.nc", "--marks", "game/marks.toml", folder=tmp_path)
     plumb("send", "game/grid.nc", "--port", "game/port", folder=tmp_path)

@@ -5,7 +5,7 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from dataclasses import replace
 from pathlib import Path
-from tempfile import NamedTemporaryFile
+from tempfile import mkstemp
 from typing import Annotated, TypeVar
 
 from fastapi import APIRouter, Depends, Request, UploadFile
@@ -152,14 +152,16 @@ def laid_down(project: Project, file: UploadFile, ending: str) -> Iterator[Path]
     a refusal names it as its owner does.
     """
     file.file.seek(0)
-    with NamedTemporaryFile(dir=project.folder, prefix=".", suffix=ending) as copy:
-        copy.write(file.file.read())
-        copy.flush()
-        try:
-            yield Path(copy.name)
-        except InputError as error:
-            said = str(error).replace(copy.name, file.filename or f"the file{ending}")
-            raise InputError(said.replace(f"{project.folder}{os.sep}", "")) from None
+    handle, name = mkstemp(dir=project.folder, prefix=".", suffix=ending)
+    try:
+        with os.fdopen(handle, "wb") as copy:  # shut at once: Windows reads no open one
+            copy.write(file.file.read())
+        yield Path(name)
+    except InputError as error:
+        said = str(error).replace(name, file.filename or f"the file{ending}")
+        raise InputError(said.replace(f"{project.folder}{os.sep}", "")) from None
+    finally:
+        Path(name).unlink()
 
 
 def machine_of(settings: MachineSettings, file: str) -> Machine:
