@@ -81,7 +81,6 @@ class _Reader:
     def __init__(self, folder: Path, tape: Tape) -> None:
         self._folder, self._tape = folder, tape
         self._form = ""
-        tape.get_ready(f'[[mark]]\nname = "1"\ntarget = [0, 0]\n{BLANK}\n')
 
     def look(self, machine: VirtualMachine) -> None:
         """Look whether a form waits, and whether its marks are cut."""

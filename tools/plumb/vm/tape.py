@@ -4,7 +4,8 @@ import tomllib
 from collections.abc import Sequence
 
 import numpy as np
-import scipy
+from scipy.optimize import linear_sum_assignment
+from scipy.spatial.distance import cdist
 
 from plumb._vm import VirtualMachine
 from plumb.vm.garage import Garage
@@ -47,12 +48,6 @@ class Tape:
         """Another sheet, whose readings draw their noise from another source."""
         self._source = source
         self.garage, self._read, self._places, self._rounds = garage, 0, {}, []
-
-    def get_ready(self, form: str) -> None:
-        """Load what reading this form takes: a client takes a machine that is silent for two
-        seconds for lost, and so long may it take on a busy computer."""
-        places = np.zeros((len(_waiting(form)), 2))
-        order_of(form, self.garage.read(places), sheet=self.garage.settings.sheet)
 
     def begin(self) -> None:
         """Count cuts from here on; what was read stays read."""
@@ -169,8 +164,7 @@ def order_of(form: str, readings: Array, *, sheet: tuple[float, float]) -> Array
         raise ValueError(
             f"the form waits for {len(targets)} marks, and the sheet has {len(readings)}"
         )
-    distances = scipy.spatial.distance.cdist(targets, _from_corner(readings, sheet))
-    _, order = scipy.optimize.linear_sum_assignment(distances)
+    _, order = linear_sum_assignment(cdist(targets, _from_corner(readings, sheet)))
     chosen: Array = order
     return chosen
 

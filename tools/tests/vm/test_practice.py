@@ -106,9 +106,6 @@ class CountingTape:
 
     passed_over = 0
 
-    def get_ready(self, form):
-        pass
-
     def pass_over(self, machine):
         self.passed_over += 1
 
