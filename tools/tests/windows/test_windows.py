@@ -18,7 +18,7 @@ PLUMB, PYTHON = ROOT / "tools/windows/plumb", ROOT / "tools/windows/python"
 HEARD = {"stdout": subprocess.PIPE, "stderr": subprocess.STDOUT}  # Wine knows not all files
 SUITES = (
     "text settings marks grid diary line model pictures",
-    *("fit", "diagnosis", "plan", "cure", "cli", "job", "api guide", "vm"),
+    *("fit", "diagnosis", "plan", "cure", "cli", "job", "api guide bench firmware", "vm"),
 )
 # Of the lab, what needs no browser.
 ROUTES = ("bench_routes", "by_hand", "machine", "next_routes", "readings", "same_numbers")
@@ -27,6 +27,9 @@ NOT_UNDER_WINE = (
     "cli/test_short_answers.py",  # rich takes it for an old console, whose lines are one shorter
     "diagnosis/test_evidence_by_force.py",  # asks SciPy for what that of Wine 8 lacks
     "text/test_compiled.py",  # of the tree, not of a package
+    # They need the simulated Mega.
+    *(f"firmware/test_{name}_on_the_mega.py" for name in ("dialogues", "two_events")),
+    "firmware/test_firmware_elf.py",
     # They open pseudo terminals.
     *("line/test_line_lock.py", "vm/test_clients.py", "vm/test_flash.py", "vm/test_links.py"),
     *(f"vm/test_{name}.py" for name in ("port_library", "serial_port", "whole_lines")),
