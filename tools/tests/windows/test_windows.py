@@ -28,8 +28,8 @@ NOT_UNDER_WINE = (
     "diagnosis/test_evidence_by_force.py",  # asks SciPy for what that of Wine 8 lacks
     "text/test_compiled.py",  # of the tree, not of a package
     # They need the simulated Mega.
-    *(f"firmware/test_{name}_on_the_mega.py" for name in ("dialogues", "two_events")),
-    "firmware/test_firmware_elf.py",
+    *(f"firmware/test_{name}.py" for name in ("dialogues_on_the_mega", "firmware_elf")),
+    "firmware/test_two_events_on_the_mega.py",
     # They open pseudo terminals.
     *("line/test_line_lock.py", "vm/test_clients.py", "vm/test_flash.py", "vm/test_links.py"),
     *(f"vm/test_{name}.py" for name in ("port_library", "serial_port", "whole_lines")),

@@ -61,7 +61,6 @@ class VirtualRequest(BaseModel):
     """A virtual machine to try: what it hides, drawn by the seed; how fast it works."""
 
     hides: Literal["random", "nothing"] = "random"
-    millimetres: float = Field(default=3.0, gt=0, le=20)  # RMS by which marks are moved
     noise: float = Field(default=0.4, ge=0, le=10)  # [mm] of the tape
     seed: int = Field(default=0, ge=0, le=2**31)
     speed: Speed = 100.0
@@ -153,7 +152,7 @@ def write_firmware(line: TheLine) -> MachineAnswer:
 def connect_virtual(request: VirtualRequest, project: TheProject, line: TheLine) -> MachineAnswer:
     """Switch on a virtual machine; the folder keeps its secret."""
     hides = (RANDOM,) if request.hides == "random" else ()
-    secret = Secret(request.seed, request.millimetres, hides)
+    secret = Secret(request.seed, hides=hides)
     owner = VirtualOwner(secret.garage, noise=request.noise)
     project.save({SECRET: secret.text.encode()}, read={})
     end_virtual(project)  # with the sheet of the machine before
