@@ -6,7 +6,7 @@ from math import cos, sin
 
 import numpy as np
 
-from plumb._vm import VirtualMachine
+from plumb._vm import VirtualMachine as VirtualMachine
 from plumb.bench import judge
 from plumb.bench.boards import plan, size_for
 from plumb.bench.causes import MAKER, SLED, Cause, Hidden, causes_of
@@ -19,8 +19,6 @@ from plumb.model.predict import judged
 from plumb.settings.machine import MachineSettings
 from plumb.text.errors import InputError, to_do
 from plumb.text.values import refuse_unknown
-
-__all__ = ["Garage", "VirtualMachine", "random_garage", "set_up", "with_new_sheet"]
 
 Array = np.ndarray
 GAP_SIGMA, POSE_SIGMA, TURN_SIGMA = 3.0, 5.0, 0.002  # [mm, mm, rad] how far a frame is off
