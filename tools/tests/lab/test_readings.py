@@ -149,11 +149,11 @@ def test_a_picked_file_of_another_form_becomes_a_form_with_the_same_readings(
 
 
 def test_a_file_without_marks_is_refused_in_a_line(client, tmp_path):
-    files = {"file": ("holiday.csv", b"sun,sea\n1,2\n")}
-    refused = client.post("/api/marks", files=files)
+    refused = client.post("/api/marks", files={"file": ("holiday.csv", b"sun,sea\n1,2\n")})
     assert refused.status_code == 422
     assert "\n" not in refused.json()["error"]
     assert not (tmp_path / "marks.toml").exists()
+    assert not [*tmp_path.glob(".*.csv")]  # no copy of it is left
 
 
 def test_a_slip_is_named_with_a_correction(client, tmp_path):
