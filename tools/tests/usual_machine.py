@@ -4,8 +4,8 @@ import numpy as np
 from plumb.bench.causes import MAKER
 from plumb.line.sender import Sender
 from plumb.model.predict import judged, lengths
-from plumb.vm.garage import VirtualMachine, set_up
-from plumb.vm.owner import InProcessPort
+from plumb.vm.garage import VirtualMachine
+from plumb.vm.owner import InProcessPort, set_up
 
 
 def usual_machine(**how) -> VirtualMachine:
@@ -16,11 +16,13 @@ def usual_machine(**how) -> VirtualMachine:
 
 def switched_on(machine, settings=None, **how) -> Sender:
     """Power on; the numbers of these settings, if any, go to the machine."""
-    machine.start()
-    sender = Sender(InProcessPort(machine), **how)
-    sender.await_start()
+    port = InProcessPort(machine)
     if settings:
-        set_up(sender, settings)
+        set_up(port, settings)
+        return Sender(port, **how)
+    machine.start()
+    sender = Sender(port, **how)
+    sender.await_start()
     return sender
 
 

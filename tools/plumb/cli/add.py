@@ -38,7 +38,6 @@ from plumb.cure.live_board import refuse_other_origin
 from plumb.cure.machine_file import record_of, toml_of
 from plumb.diary.file import FIT, fit_entry, keep
 from plumb.firmware.client_files import ClientFiles
-from plumb.fit.compare import Comparison
 from plumb.fit.covariates import PATCH
 from plumb.fit.inputs import Inputs
 from plumb.model.plain import noun_of
@@ -252,35 +251,21 @@ def _files(wanted: WantedFiles, inputs: Inputs, result: Addition) -> dict[str, b
 
 
 def fall_of(result: Addition, *, form: str = "png") -> bytes:
-    """Return the picture of how the error falls, effect by effect."""
-    heading = heading_of(result, result.raw.rms, result.after.fit_rms)
-    return draw(stairs_of(result), heading=heading, sheet=result.settings.sheet, form=form)
-
-
-def heading_of(result: Addition, before: float, after: float) -> str:
-    """Return which effects were added, and from which RMS error [mm] to which."""
+    """Return the picture of how the error falls, effect by effect: as set, with the frame fitted,
+    and with each effect.
+    """
     added = " and ".join(_noun(step.effect) for step in result.by_effect)
     done = f"Added: {added}" if added else "Frame fitted, nothing added"
-    return f"{done}. From {about(before)} to {about(after)} mm RMS"
-
-
-def stairs_of(result: Addition, *, raw: Comparison | None = None) -> list[Panel]:
-    """Return the sheets: as set, frame fitted, and with each effect; raw: the marks as set,
-    if not all.
-    """
-    as_set = raw or result.raw
+    before, after = about(result.raw.rms), about(result.after.fit_rms)
     fits = [("Frame fitted", result.before_fit)]
     fits += [(f"+ {_noun(step.effect)}", step.fit) for step in result.by_effect]
-    fitted = [
-        Panel(stair_title(title, fit.rms), fit.predicted, fit.errors, good=True)
+    stairs = [replace(panel_of(result.raw), title=f"As set\n{before} mm RMS")]
+    stairs += [
+        Panel(f"{title}\n{about(fit.rms)} mm RMS", fit.predicted, fit.errors, good=True)
         for title, fit in fits
     ]
-    return [replace(panel_of(as_set), title=stair_title("As set", as_set.rms)), *fitted]
-
-
-def stair_title(what: str, rms: float) -> str:
-    """Return what was done, and the error that is left [mm]."""
-    return f"{what}\n{about(rms)} mm RMS"
+    heading = f"{done}. From {before} to {after} mm RMS"
+    return draw(stairs, heading=heading, sheet=result.settings.sheet, form=form)
 
 
 def _noun(effect: str) -> str:

@@ -64,7 +64,7 @@ def kind_of(comparison: Comparison, inputs: Inputs) -> str:
     return GOOD if comparison.rms <= NOISY * read else OPEN
 
 
-def panel_of(comparison: Comparison, *, good: bool = False) -> Panel:
+def panel_of(comparison: Comparison) -> Panel:
     """Return the comparison as a panel of a picture."""
     if not comparison.marks:
         raise InputError("--picture: there are distances only, so no errors to draw on a sheet")
@@ -73,7 +73,6 @@ def panel_of(comparison: Comparison, *, good: bool = False) -> Panel:
         title=f"As the settings are: {sizes}",
         predicted=np.array([mark.predicted for mark in comparison.marks]),
         errors=np.array([mark.error for mark in comparison.marks]),
-        good=good,
     )
 
 

@@ -10,7 +10,7 @@ import numpy as np
 
 from plumb.cli.arguments import add_shared
 from plumb.cli.screen import headline, print_json, sentences, table
-from plumb.cli.vm import add_pace, serve
+from plumb.cli.vm import add_brain, serve
 from plumb.model.predict import known_effects
 from plumb.settings.files import read_settings
 from plumb.settings.toml import machine_toml
@@ -58,7 +58,7 @@ def _start(folder: Path, arguments: argparse.Namespace) -> int:
         flush=True,
     )
     link = str(folder / PORT) if sys.platform == "linux" else None
-    vars(arguments).update(link=link, mega=None, eeprom=None, fresh=False)
+    vars(arguments).update(link=link, eeprom=None, fresh=False)
     return serve(garage, arguments, _Reader(folder, tape).look)
 
 
@@ -152,5 +152,5 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         type=int,
         help="start: the same number gives the same machine [random]",
     )
-    add_pace(parser, "start: ")
+    add_brain(parser, "start: ")
     add_shared(parser, "--units", "--json")

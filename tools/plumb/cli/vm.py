@@ -9,7 +9,6 @@ from pathlib import Path
 
 from plumb.cli.arguments import length, positive
 from plumb.firmware.hex_file import hex_bytes
-from plumb.line.sender import Sender
 from plumb.settings.machine import MachineSettings
 from plumb.text.errors import InputError
 from plumb.text.files import read_bytes, write_whole
@@ -19,9 +18,8 @@ from plumb.vm.garage import (
     described,
     hide,
     random_garage,
-    set_up,
 )
-from plumb.vm.owner import InProcessPort
+from plumb.vm.owner import InProcessPort, set_up
 from plumb.vm.served_port import BOOTLOADER, Pace, ServedPort
 from plumb.vm.socket_port import ANY, SocketPort
 
@@ -99,12 +97,7 @@ def _wake(
         if content[EEPROM_BYTES:]:
             _hang(machine, content[EEPROM_BYTES:])
     elif not arguments.fresh:
-        machine.start()
-        sender = Sender(InProcessPort(machine))
-        sender.await_start()
-        set_up(sender, settings)
-        # Until all is in the EEPROM.
-        machine.advance(10_000)
+        set_up(InProcessPort(machine), settings)
         machine.stop()
 
 
@@ -196,22 +189,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         action="store_true",
         help="begin with an empty memory: no settings, no chain lengths",
     )
-    _add_brain(parser)
-
-
-def _add_brain(parser: argparse.ArgumentParser) -> None:
-    """Add the options for what runs, how fast, and what clients need for its port."""
-    parser.add_argument(
-        "--mega",
-        metavar="ELF",
-        help="run this flashed program on a simulated Mega, not the firmware built for the PC",
-    )
+    add_brain(parser)
     parser.add_argument(
         "--bootloader",
         metavar="HEX",
         help="what the simulated Mega starts first, so that plumb flash can write its port",
     )
-    add_pace(parser)
     parser.add_argument(
         "--preload",
         action="store_true",
@@ -219,8 +202,14 @@ def _add_brain(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def add_pace(parser: argparse.ArgumentParser, when: str = "") -> None:
-    """Add the options --speed and --seconds; `when` says when they count."""
+def add_brain(parser: argparse.ArgumentParser, when: str = "") -> None:
+    """Add the options for what runs and how fast; `when` says when they count."""
+    parser.add_argument(
+        "--mega",
+        metavar="ELF",
+        help=f"{when}run this flashed program on a simulated Mega, not the firmware built for the "
+        "PC",
+    )
     parser.add_argument(
         "--speed",
         metavar="N",

@@ -31,11 +31,9 @@ from plumb.line.port import SerialPort
 from plumb.line.sender import Sender, StoppedError
 from plumb.line.worker import LineState, LineWorker
 from plumb.text.errors import InputError
-from plumb.vm.garage import set_up
-from plumb.vm.owner import PacedPort, VirtualOwner
+from plumb.vm.owner import PacedPort, VirtualOwner, set_up
 
 Result = TypeVar("Result")
-SETTLING = 10_000  # [ms] until all is in the EEPROM and the motors are off
 PATIENCE = 60.0  # [s] for an answer of the machine
 # What may be opened as a serial line: never a file.
 PORT = re.compile(
@@ -132,17 +130,11 @@ class MachineLine:
         self.connect_board(self.name, first=write)
 
     def connect_virtual(self, owner: VirtualOwner, *, speed: float) -> None:
-        """Switch on a virtual machine and connect it. Its time runs `speed` times as fast at work.
-
-        `owner.sender` is the line's from now on: use it inside of `do`.
-        """
+        """Switch on a virtual machine and connect it. Its time runs `speed` times as fast at
+        work."""
 
         def opened() -> PacedPort:
-            owner.machine.start()
-            owner.sender = Sender(port)
-            owner.sender.await_start()
-            set_up(owner.sender, owner.settings)
-            owner.machine.advance(SETTLING)
+            set_up(port, owner.settings)
             return port
 
         with self._lock:

@@ -246,17 +246,13 @@ def _mode_for(target: Path) -> int:
 
 # Whether a file was written by the lab, so that the next run may replace it.
 
-DEMO_MARKS = b"# Marks of a virtual machine, read by the demo.\n"
 # How our text files begin: a machine.toml, a grid's program, that of proposed marks, a job's
-# outline, a program for known holes, the page of the bench, the marks of a demo, a report.
+# outline, a program for known holes, a report.
 BEGINNINGS = (
     b"# Settings of one hanging machine, for plumb.",
     b"(Plumb calibration grid)",
     b"(Plumb: ",
     b"(plumb: ",
-    b"# How often the diagnosis is right",
-    b"# How often the closed loop finds what is hidden",
-    DEMO_MARKS,
     b"<!doctype html>\n<!-- A report of Plumb. -->",
 )
 MAKER = "Plumb"  # what a picture says of the program that drew it

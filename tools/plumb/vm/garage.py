@@ -12,9 +12,6 @@ from plumb.bench.boards import plan, size_for
 from plumb.bench.causes import MAKER, SLED, Cause, Hidden, causes_of
 from plumb.bench.hiding import REAL
 from plumb.bench.judged_board import shape_error
-from plumb.firmware.client_files import gcode
-from plumb.firmware.settings import CLIENT_NUMBERS, firmware_numbers
-from plumb.line.sender import Sender
 from plumb.model.predict import judged
 from plumb.settings.machine import MachineSettings
 from plumb.text.errors import InputError, to_do
@@ -116,13 +113,6 @@ def with_new_sheet(garage: Garage, seed: int, *, raised: float = 0.0) -> Garage:
         sheet_center=(was_x + STOP_SIGMA * x, was_y + STOP_SIGMA * y),
         sheet_turn=garage.sheet_turn + (raised + STOP_SIGMA * turn) / garage.settings.sheet_width,
     )
-
-
-def set_up(sender: Sender, settings: MachineSettings) -> None:
-    """Send the owner's numbers and the lengths of the chains, as on the first day."""
-    lines = gcode(firmware_numbers(settings)).decode().splitlines()
-    client = [f"${number}={value:g}" for number, value in CLIENT_NUMBERS.items()]
-    sender.stream([*client, *lines, f"B06 L{EXTENDED:g} R{EXTENDED:g}", "G10 Z0"])
 
 
 # What is hidden in a virtual machine: effects by name, or one that is drawn.

@@ -7,7 +7,7 @@ of the machine is the garage's.
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 
 import numpy as np
 
@@ -15,16 +15,12 @@ from plumb._vm import VirtualMachine
 from plumb.bench.causes import CHAIN
 from plumb.diagnosis import Checked
 from plumb.firmware.client_files import gcode
-from plumb.firmware.settings import firmware_numbers
-from plumb.grid.options import Grid
-from plumb.grid.program import marks_list, program
+from plumb.firmware.settings import CLIENT_NUMBERS, firmware_numbers
 from plumb.line.sender import Sender
 from plumb.model.lab_effects import LAB_EFFECTS
-from plumb.model.reach import plain_machine
 from plumb.plan.case import PlannedCheck
-from plumb.plan.planned_visits import Visits, marks_file, visit_lines
 from plumb.settings.machine import MachineSettings
-from plumb.vm.garage import Garage, set_up, with_new_sheet
+from plumb.vm.garage import EXTENDED, Garage, with_new_sheet
 from plumb.vm.tape import Tape
 
 # The number by which the lab knows friction: of the effect that drags a sled.
@@ -34,58 +30,14 @@ FRICTION_NAME = next(each.parameter for each in LAB_EFFECTS if each.hidden_as ==
 class VirtualOwner:
     """Somebody with a garage, a machine and a tape."""
 
-    def __init__(
-        self,
-        garage: Garage,
-        *,
-        noise: float = 0.4,
-        slip: float = 0.0,
-        elf: str | None = None,
-    ) -> None:
-        """noise [mm] of the tape; slip [mm] by which it reads one mark of the first sheet wrongly;
-        elf: the flashed program, else the firmware for the host."""
+    def __init__(self, garage: Garage, *, noise: float = 0.4) -> None:
+        """noise [mm] of the tape."""
         self.garage = garage
-        self._elf = elf
         self.settings = garage.settings
         self._sheets = 1  # that lay on this machine so far
-        self.machine: VirtualMachine = garage.machine(elf=elf)
-        self.sender = Sender(InProcessPort(self.machine))
+        self.machine: VirtualMachine = garage.machine()
         self._source = np.random.default_rng([garage.seed, 5])
-        self.tape = Tape(garage, self._source, noise=noise, slip=slip)
-
-    def switch_on(self) -> None:
-        """Power on; the owner's numbers go to the machine and the chains are declared."""
-        self.machine.start()
-        self.sender.await_start()
-        set_up(self.sender, self.settings)
-
-    def restart(self) -> None:
-        """Lay the chains over the sprockets again, as on the first day; the sheet stays."""
-        self.machine.stop()
-        self.machine = self.garage.machine(elf=self._elf)
-        self.sender = Sender(InProcessPort(self.machine))
-        self.tape.begin()
-        self.switch_on()
-
-    def grid_program(self, grid: Grid) -> tuple[list[str], str]:
-        """Return the G-code of a grid for this sheet, and the form for its marks."""
-        machine = plain_machine(self.settings)
-        return program(grid, machine).splitlines(), marks_list(grid, machine)
-
-    def cut_grid(self, grid: Grid, *, answered: Callable[[int], None] | None = None) -> str:
-        """Cut a grid and read it: the filled form."""
-        lines, form = self.grid_program(grid)
-        self.sender.stream(lines, answered=answered)
-        return self.tape.fill(form, self.machine)
-
-    def carry_out(self, visits: Visits) -> str:
-        """Cut what `plumb next` proposes on the same sheet and read it: the filled form."""
-        for lines, weight in zip(visit_lines(visits), visits.sled_weights, strict=True):
-            self.weigh_down(weight)
-            self.sender.stream([*lines, "G4 P1"])
-        self.weigh_down(self.settings.sled_weight)
-        form = marks_file(visits, sheet=self.settings.sheet, controller="plumb", said=())
-        return self.tape.fill(form, self.machine)
+        self.tape = Tape(garage, self._source, noise=noise)
 
     def weigh_down(self, weight: float) -> None:
         """Let as much hang on the sled as gives it that weight [N] by what the owner knows."""
@@ -104,21 +56,14 @@ class VirtualOwner:
             for check in checks
         ]
 
-    def send(self, settings: MachineSettings) -> None:
-        """Send the numbers of a fitted machine; from now on it computes with them."""
-        self.sender.stream(gcode(firmware_numbers(settings)).decode().splitlines())
-        self.settings = settings
-
-    def lay_new_sheet(self, seed: int, *, raised: float) -> None:
-        """Take the sheet off and lay another on the same stops, the right sheet `raised` [mm]."""
+    def lay_next_sheet(self, *, raised: float) -> None:
+        """Take the sheet off and lay another on the same stops, the right stop `raised` [mm]; each
+        lies a little otherwise than those before."""
+        seed = self.garage.seed + self._sheets
         self.garage = with_new_sheet(self.garage, seed, raised=raised)
         self.machine.replace_sheet()
         self.tape.lay(self.garage, np.random.default_rng([seed, 5]))
         self._sheets += 1
-
-    def lay_next_sheet(self, *, raised: float) -> None:
-        """Lay the next sheet; each lies a little otherwise than those before."""
-        self.lay_new_sheet(self.garage.seed + self._sheets, raised=raised)
 
 
 def true_value(garage: Garage, name: str) -> float:
@@ -162,6 +107,20 @@ class InProcessPort:
 
     def close(self) -> None:
         """Do nothing: there is nothing to let go of."""
+
+
+SETTLING = 10_000  # [ms] until all that was sent is in the EEPROM, and the motors are off
+
+
+def set_up(port: InProcessPort, settings: MachineSettings) -> None:
+    """Power on; the owner's numbers and the lengths of the chains are sent, as on the first day."""
+    port.machine.start()
+    sender = Sender(port)
+    sender.await_start()
+    lines = gcode(firmware_numbers(settings)).decode().splitlines()
+    client = [f"${number}={value:g}" for number, value in CLIENT_NUMBERS.items()]
+    sender.stream([*client, *lines, f"B06 L{EXTENDED:g} R{EXTENDED:g}", "G10 Z0"])
+    port.machine.advance(SETTLING)
 
 
 # A line to a virtual machine in the same program, whose time runs with this computer's.

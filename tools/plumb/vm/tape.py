@@ -33,12 +33,9 @@ def marks_on(cuts: Sequence[Cut]) -> Array:
 class Tape:
     """Somebody who reads marks on a garage's sheet."""
 
-    def __init__(
-        self, garage: Garage, source: np.random.Generator, *, noise: float, slip: float = 0.0
-    ) -> None:
-        """noise [mm] of a coordinate; slip [mm] by which one reading of the first form is wrong."""
+    def __init__(self, garage: Garage, source: np.random.Generator, *, noise: float) -> None:
+        """noise [mm] of a coordinate."""
         self.garage, self._source, self._noise = garage, source, noise
-        self._slip = slip
         self._read = 0  # marks on this sheet that were read already
         self._places: dict[str, list[Array]] = {}  # on the sheet [mm], by the mark's name
         # Where marks are [mm], by target, and by form in the order in which the forms were read.
@@ -48,10 +45,6 @@ class Tape:
         """Another sheet, whose readings draw their noise from another source."""
         self._source = source
         self.garage, self._read, self._places, self._rounds = garage, 0, {}, []
-
-    def begin(self) -> None:
-        """Count cuts from here on; what was read stays read."""
-        self._read = 0
 
     def pass_over(self, machine: VirtualMachine) -> None:
         """Leave the marks that were cut so far, so that all are cut again."""
@@ -72,19 +65,7 @@ class Tape:
             self._places.setdefault(name, []).append(seen[i])
             first.setdefault(_as_key(target), seen[i])
         self._rounds.append(first)
-        if self._slip and len(read):
-            turn = self._source.uniform(0, 2 * np.pi)
-            slipped = self._source.integers(len(read))
-            read[slipped] += self._slip * np.array([np.cos(turn), np.sin(turn)])
-            self._slip = 0.0
         return filled_form(form, read, sheet=sheet)
-
-    @property
-    def places(self) -> dict[str, list[tuple[float, float]]]:
-        """Where the marks on this sheet are [mm from its middle], by their names."""
-        return {
-            name: [(float(x), float(y)) for x, y in places] for name, places in self._places.items()
-        }
 
     def lengths(self, spans: Sequence[tuple[str, str]]) -> list[float]:
         """Return the tape's readings [mm] of distances between marks that were read on this
@@ -95,16 +76,6 @@ class Tape:
             float(np.linalg.norm(self._places[second][-1] - self._places[first][-1]))
             + noise * float(self._source.standard_normal())
             for first, second in spans
-        ]
-
-    def read_again(self, name: str) -> list[tuple[float, float]]:
-        """Return new readings of a name's marks on this sheet, in their order [mm from its
-        middle].
-        """
-        noise = self._noise
-        return [
-            (x + noise * self._source.standard_normal(), y + noise * self._source.standard_normal())
-            for x, y in self._places[name]
         ]
 
     def fill_again(self, form: str) -> str:

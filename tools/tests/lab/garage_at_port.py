@@ -3,7 +3,7 @@
 import threading
 
 from plumb.vm.garage import hide, random_garage
-from plumb.vm.owner import VirtualOwner
+from plumb.vm.owner import InProcessPort, VirtualOwner, set_up
 from plumb.vm.pseudo_terminal import PseudoTerminal
 from plumb.vm.served_port import Pace
 from plumb.vm.tape import marks_on
@@ -17,8 +17,7 @@ class Garage:
 
     def __init__(self, speed=SPEED, *, at_rest=1):
         self.owner = VirtualOwner(random_garage(hide([], millimetres=3, seed=1), 1))
-        self.owner.switch_on()
-        self.owner.machine.advance(10_000)
+        set_up(InProcessPort(self.owner.machine), self.owner.settings)
         self._mine = threading.Lock()
         # To hurry at rest costs a whole processor.
         self._at_rest = at_rest

@@ -21,7 +21,6 @@ STORIES = {
     # A question to the owner about the links of a chain.
     "lab/known.py",
     "cure/machine_file.py",
-    "cli/demo.py",
 }
 REMEDY = "give the effect a trait (lib/Kinematics/src/effect.h) and ask plumb.model.catalogue"
 

@@ -13,7 +13,7 @@ from pathlib import Path
 import pytest
 import serial
 from plumb.vm.garage import hide, random_garage
-from plumb.vm.owner import VirtualOwner
+from plumb.vm.owner import InProcessPort, VirtualOwner, set_up
 from plumb.vm.pseudo_terminal import PseudoTerminal
 
 AHEAD = 126  # characters that a client sends without an answer
@@ -170,8 +170,7 @@ GREETINGS = {"groundcontrol": greet_as_groundcontrol, "webcontrol": greet_as_web
 def opened_terminal() -> PseudoTerminal:
     """The port of a machine whose time the client lets pass."""
     owner = VirtualOwner(random_garage(hide([], millimetres=3, seed=1), 1))
-    owner.switch_on()
-    owner.machine.advance(10_000)  # until all is in the EEPROM
+    set_up(InProcessPort(owner.machine), owner.settings)
     return PseudoTerminal(owner.machine)
 
 

@@ -1,4 +1,4 @@
-"""The closed loop: a hidden effect is found, added, and the next sheet is better."""
+"""A virtual machine and its owner: it cuts as the judge says, and its readings are true."""
 
 from dataclasses import replace
 
@@ -7,15 +7,13 @@ import pytest
 from plumb.bench.boards import plan, size_for
 from plumb.bench.causes import MAKER, Hidden, causes_of
 from plumb.grid.options import Grid
+from plumb.grid.program import marks_list, program
+from plumb.line.sender import Sender
 from plumb.marks.read import read_marks
+from plumb.model.reach import plain_machine
 from plumb.plan.case import PlannedCheck
-from plumb.plan.planned_visits import sent
-from plumb.vm.garage import Garage, astray, random_garage
-from plumb.vm.loop import closed_loop
-from plumb.vm.owner import VirtualOwner, true_value
-
-GRID = Grid(columns=5, rows=5)
-NOISE = 0.4
+from plumb.vm.garage import Garage, astray
+from plumb.vm.owner import InProcessPort, VirtualOwner, set_up, true_value
 
 
 def hiding(effect: str, millimetres: float = 3.0) -> Hidden:
@@ -27,9 +25,11 @@ def hiding(effect: str, millimetres: float = 3.0) -> Hidden:
 def test_a_machine_without_a_fault_cuts_where_it_should(tmp_path, feed):
     garage = Garage(Hidden(), friction=0.0, settings=replace(MAKER, feed=feed))
     owner = VirtualOwner(garage, noise=0.0)
-    owner.switch_on()
+    set_up(port := InProcessPort(owner.machine), owner.settings)
     path = tmp_path / "marks.toml"
-    path.write_text(owner.cut_grid(Grid(columns=2, rows=2, repeats=False)))
+    grid, machine = Grid(columns=2, rows=2, repeats=False), plain_machine(owner.settings)
+    Sender(port).stream(program(grid, machine).splitlines())
+    path.write_text(owner.tape.fill(marks_list(grid, machine), owner.machine))
     marks = read_marks(path, sheet=MAKER.sheet).marks
     assert {mark.name for mark in marks} == {"1", "2", "3", "4"}
     for mark in marks:
@@ -47,14 +47,6 @@ def test_the_simulated_owners_readings_are_true_and_no_better_than_a_tapes():
     assert true_value(owner.garage, "sled_friction.drag") == owner.garage.friction
 
 
-@pytest.mark.slow
-def test_a_slip_is_read_again_and_then_the_effect_is_named():
-    owner = VirtualOwner(random_garage(hiding("sled_swing", 6.0), 1), slip=10.0)
-    loop = closed_loop(owner, grid=Grid(columns=5, rows=5, repeats=False))
-    assert loop.auto.diagnosis.verdict == "one_suspect" and loop.auto.chosen == ("sled_swing",)
-    # A reading costs no hole.
-
-
 def test_an_unexplained_field_moves_marks_by_its_size():
     hidden = Hidden(outside="bump", outside_mm=3.0)
     across, up = np.meshgrid(np.linspace(-1100, 1100, 5), np.linspace(-500, 500, 5))
@@ -66,15 +58,3 @@ def test_an_unexplained_field_moves_marks_by_its_size():
     assert not astray(Hidden(), places, 4).any()
     garage = Garage(hidden, seed=4)
     assert garage.read(places) == pytest.approx(places + moved)
-
-
-def test_a_halted_machine_starts_again_on_the_same_sheet():
-    owner = VirtualOwner(random_garage(Hidden(), 3))
-    owner.switch_on()
-    owner.cut_grid(Grid(columns=2, rows=2, repeats=False))
-    places = owner.tape.places
-    owner.restart()
-    assert owner.tape.places == places
-    visits = sent(MAKER, np.array([(0.0, 0.0)]), controller="plumb", sled_weight=MAKER.sled_weight)
-    form = owner.carry_out(visits)
-    assert form.count("\nmeasured = ") == 1 and len(owner.tape.places) == 5
