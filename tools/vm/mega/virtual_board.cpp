@@ -235,13 +235,21 @@ avr_cycle_count_t VirtualBoard::onNextCharacter(avr_t* avr, avr_cycle_count_t, v
   return board.to_send_.empty() ? 0 : board.next_character_;
 }
 
-avr_cycle_count_t VirtualBoard::onEndOfRun(avr_t*, avr_cycle_count_t, void*) { return 0; }
+// It comes again, so that a processor that falls asleep in the last instructions does not wake a
+// millisecond later.
+avr_cycle_count_t VirtualBoard::onEndOfRun(avr_t*, avr_cycle_count_t when, void*) {
+  return when + 1;
+}
 
 void VirtualBoard::run(avr_cycle_count_t cycles) {
-  const avr_cycle_count_t end = avr_->cycle + cycles;
+  // What the last instruction took too long is taken off the next run. Else the board would gain on
+  // the world, and every few seconds all axes would seem to stand still for a millisecond.
+  const avr_cycle_count_t left = cycles - beyond_, end = avr_->cycle + left;
   // No burst of instructions and no sleep goes past a timer.
-  avr_cycle_timer_register(avr_, cycles, onEndOfRun, this);
+  avr_cycle_timer_register(avr_, left, onEndOfRun, this);
   while (avr_->cycle < end) step(is_stack_followed_ ? 1 : kMostAtOnce);
+  avr_cycle_timer_cancel(avr_, onEndOfRun, this);
+  beyond_ = avr_->cycle - end;
 }
 
 void VirtualBoard::step(avr_cycle_count_t most_cycles) {

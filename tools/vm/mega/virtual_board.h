@@ -163,6 +163,7 @@ class VirtualBoard {
   uint32_t program_end_;
   bool are_skips_marked_ = false;
   avr_flashaddr_t hung_at_ = 0;
+  avr_cycle_count_t beyond_ = 0;  ///< by which the last run was too long
   avr_cycle_count_t in_tick_ = 0, longest_tick_ = 0, tick_since_ = 0, watched_from_ = 0;
   avr_cycle_count_t longest_gap_ = 0, asleep_ = 0;
   avr_cycle_count_t bitten_since_ = 0;
