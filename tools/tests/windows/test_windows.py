@@ -22,7 +22,8 @@ SUITES = (
 )
 # Of the lab, what needs no browser.
 ROUTES = ("bench_routes", "by_hand", "machine", "next_routes", "readings", "same_numbers")
-LAB = " ".join(f"lab/test_{name}.py" for name in (*ROUTES, "shown_commands", "verdict"))
+GUARD = ("attacks", "guard", "robust", "slow_clients")
+LAB = " ".join(f"lab/test_{name}.py" for name in (*ROUTES, *GUARD, "shown_commands", "verdict"))
 NOT_UNDER_WINE = (
     "cli/test_short_answers.py",  # rich takes it for an old console, whose lines are one shorter
     "diagnosis/test_evidence_by_force.py",  # asks SciPy for what that of Wine 8 lacks
