@@ -163,6 +163,8 @@ class Connection(H11Protocol):
             self._give_way()
 
     def data_received(self, data: bytes) -> None:
+        if self.transport.is_closing():
+            return  # on Windows what was on its way still comes
         asked = self.cycle
         if self not in self.silent and (asked is None or asked.response_complete):
             self._wait()

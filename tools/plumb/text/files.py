@@ -18,7 +18,7 @@ from pathlib import Path
 from typing import Any
 
 from plumb.text.errors import InputError, Source
-from plumb.text.locks import AS_IT_IS, NO_LINKS
+from plumb.text.locks import AS_IT_IS, NO_LINKS, replaced
 
 MB = 1_000_000
 # A file of marks or settings has a few kilobytes; more is some other file picked by mistake.
@@ -178,7 +178,7 @@ def write_all(files: Mapping[str, bytes]) -> None:
             if handle is not None:
                 # Any folder's handle makes Python follow the link to the file without a name.
                 os.link(f"/proc/self/fd/{handle}", name, src_dir_fd=handle)
-            os.replace(name, target)
+            replaced(target, name)
     except OSError as error:
         raise InputError(path, f"cannot be written ({error.strerror})") from None
     finally:

@@ -5,6 +5,7 @@ All that the systems do differently with open files is here.
 
 import os
 import sys
+import time
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
@@ -14,6 +15,7 @@ from portalocker import LockFlags
 
 # A link is never followed. Windows has no such flag, and lets only administrators make links.
 NO_LINKS = getattr(os, "O_NOFOLLOW", 0)
+READ_S = 2.0  # [s] within which another program has read a file
 AS_IT_IS = getattr(os, "O_BINARY", 0)  # else Windows writes \r\n for \n
 
 
@@ -35,6 +37,19 @@ def hold(handle: int, *, wait: bool = True) -> None:
         portalocker.lock(handle, flags)
     except portalocker.LockException as error:
         raise OSError(str(error)) from None
+
+
+def replaced(old: Path, new: str) -> None:
+    """Put a file in the place of another. Windows refuses as long as somebody reads that one."""
+    end = time.monotonic() + READ_S
+    while True:
+        try:
+            os.replace(new, old)
+            return
+        except PermissionError:
+            if sys.platform != "win32" or time.monotonic() > end:
+                raise
+            time.sleep(0.01)
 
 
 def close_to_others(handle: int) -> None:

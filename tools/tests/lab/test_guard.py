@@ -18,6 +18,7 @@ from plumb.text.errors import InputError
 from plumb.text.files import links_refused, write_all
 from screens import measured_machine, walk
 from served_lab import serve
+from systems import ON_POSIX
 from websockets.exceptions import InvalidStatus
 from websockets.sync.client import connect
 
@@ -83,13 +84,17 @@ def test_a_live_line_needs_our_page_and_the_key(lab):
         assert refused.value.response.status_code == 403, each
 
 
+@ON_POSIX
 def test_the_key_is_for_its_owner_alone(lab):
     kept = lab.folder / TOKEN_FILE
     assert stat.S_IMODE(kept.stat().st_mode) == 0o600
     assert len(lab.token) == 43
 
 
-@pytest.mark.parametrize("brought", ["readable", "short", "link"])
+@pytest.mark.parametrize(
+    "brought",
+    [pytest.param("readable", marks=ON_POSIX), "short", pytest.param("link", marks=ON_POSIX)],
+)
 def test_a_key_that_others_may_know_is_replaced(tmp_path, monkeypatch, brought):
     folder = tmp_path / "machine"
     folder.mkdir()
@@ -113,6 +118,7 @@ def test_a_key_that_others_may_know_is_replaced(tmp_path, monkeypatch, brought):
 EVIL = "<img src=x onerror=window.ran=1>"
 
 
+@ON_POSIX
 def test_nothing_in_a_name_runs_and_the_name_is_shown(tmp_path, browser):
     folder = measured_machine(tmp_path / f"garage {EVIL}")
     marks = folder / "marks.toml"
@@ -157,6 +163,7 @@ def folder(tmp_path):
     return folder
 
 
+@ON_POSIX
 @pytest.mark.parametrize("is_there", [True, False])
 def test_a_diary_that_is_a_link_is_neither_written_nor_read(folder, outside, is_there):
     if not is_there:
@@ -174,6 +181,7 @@ LINKED = ["lab.json", "groundcontrol.ini", "marks.toml", "guide.json", "practice
 READING = ["project", "readings", "grid", "verdict", "guide", "correction"]
 
 
+@ON_POSIX
 @pytest.mark.parametrize("name", LINKED)
 def test_no_route_reads_a_link(folder, outside, name):
     with_settings(folder)
@@ -199,6 +207,7 @@ def test_no_route_reads_a_link(folder, outside, name):
     assert os.stat(outside).st_mtime_ns == before.st_mtime_ns
 
 
+@ON_POSIX
 def test_settings_by_their_digest_are_not_sought_through_a_link(folder, outside):
     outside.write_bytes((EXAMPLE / "groundcontrol.ini").read_bytes())
     (folder / "old.ini").symlink_to(outside)
@@ -210,6 +219,7 @@ def test_settings_by_their_digest_are_not_sought_through_a_link(folder, outside)
     assert settings_as_they_were(named, digest_of(outside)) == str(folder / "old.ini")
 
 
+@ON_POSIX
 def test_a_result_takes_the_place_of_a_link_and_never_goes_through_it(folder, outside):
     (folder / "machine.nc").symlink_to(outside)
     with links_refused():

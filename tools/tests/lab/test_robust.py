@@ -2,7 +2,6 @@
 
 import json
 import random
-import resource
 import signal
 import socket
 import subprocess
@@ -24,6 +23,7 @@ from folder import (
 from plumb.lab.project import digest_of
 from screens import measured_machine
 from served_lab import PLUMB, serve
+from systems import ON_POSIX
 
 
 def save_choices(lab, choices, read):
@@ -72,7 +72,10 @@ def save_until_killed(lab, seconds):
     return saves
 
 
+@ON_POSIX
 def test_a_full_disk_changes_nothing_and_is_shown_until_there_is_room(lab):
+    import resource
+
     _, most = resource.prlimit(lab.process.pid, resource.RLIMIT_FSIZE)
     try:
         assert status(save_choices(lab, {"fineness": 1.0}, "")) == 200
@@ -132,11 +135,13 @@ def test_a_port_in_use_is_refused(tmp_path, run):
     assert code == 2 and f"plumb: port {port} is not free" in said and said.count("\n") == 1
 
 
+@ON_POSIX
 def test_a_folder_that_cannot_be_written_is_refused_at_the_start(run):
     code, _, said = run("lab", "/proc", "--no-browser", "--port", "0")
     assert code == 2 and said.startswith("plumb: /proc: cannot be written")
 
 
+@ON_POSIX
 def test_the_lab_ends_quietly(tmp_path):
     lab = serve(measured_machine(tmp_path / "garage"))
     assert status(answered(lab, Try("GET", "/api/project", body=b"").bytes(lab))) == 200
@@ -145,6 +150,7 @@ def test_the_lab_ends_quietly(tmp_path):
     assert (lab.process.returncode, said, complained) == (0, "", "")
 
 
+@ON_POSIX
 def test_a_missing_folder_is_made_and_the_address_is_printed(tmp_path):
     folder = tmp_path / "shop/my-maslow"
     process = subprocess.Popen(

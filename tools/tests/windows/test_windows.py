@@ -16,21 +16,21 @@ pytestmark = pytest.mark.slow
 ROOT = Path(__file__).resolve().parents[3]
 PLUMB, PYTHON = ROOT / "tools/windows/plumb", ROOT / "tools/windows/python"
 HEARD = {"stdout": subprocess.PIPE, "stderr": subprocess.STDOUT}  # Wine knows not all files
+# Not: pages and project, which are of the tree; senders, whose machine is at a pseudo terminal.
 SUITES = (
     "text settings marks grid diary line model pictures",
-    *("fit", "diagnosis", "plan", "cure", "cli", "job", "api guide bench firmware", "vm"),
+    *("fit", "diagnosis", "plan", "cure", "cli", "job", "api guide bench firmware", "vm", "report"),
+    "lab",
 )
-# Of the lab, what needs no browser.
-ROUTES = ("bench_routes", "by_hand", "machine", "next_routes", "readings", "same_numbers")
-LAB = " ".join(f"lab/test_{name}.py" for name in (*ROUTES, "shown_commands", "verdict"))
 NOT_UNDER_WINE = (
     "cli/test_short_answers.py",  # rich takes it for an old console, whose lines are one shorter
     "diagnosis/test_evidence_by_force.py",  # asks SciPy for what that of Wine 8 lacks
-    "text/test_compiled.py",  # of the tree, not of a package
+    *("text/test_compiled.py", "lab/test_built_page.py"),  # of the tree, not of a package
     # They need the simulated Mega.
     *(f"firmware/test_{name}.py" for name in ("dialogues_on_the_mega", "firmware_elf")),
     "firmware/test_two_events_on_the_mega.py",
     # They open pseudo terminals.
+    "lab/test_broken_cut.py",
     *("line/test_line_lock.py", "vm/test_clients.py", "vm/test_flash.py", "vm/test_links.py"),
     *(f"vm/test_{name}.py" for name in ("port_library", "serial_port", "whole_lines")),
 )
@@ -90,7 +90,7 @@ def test_the_diagnosis_is_that_of_linux(folder):
     assert plumb(folder, *words, code=linux.returncode) == linux.stdout
 
 
-@pytest.mark.parametrize("suite", (*SUITES, LAB))
+@pytest.mark.parametrize("suite", SUITES)
 def test_a_suite_that_needs_no_pseudo_terminal_passes(folder, suite, monkeypatch):
     monkeypatch.delenv(asked_again.FOLDER, raising=False)  # it works out answers of its own
     paths = [f"tools/tests/{name}" for name in suite.split()]
