@@ -17,7 +17,8 @@ from plumb.cli.main import main
 from plumb.text.compiled import stale_source
 
 if os.name == "nt":  # there the tests without a browser run alone
-    sys.modules["playwright"] = sys.modules["playwright.sync_api"] = MagicMock()
+    none = MagicMock(sync_playwright=lambda: pytest.skip("Wine has no browser"))
+    sys.modules["playwright"] = sys.modules["playwright.sync_api"] = none
 SCHEMA = json.loads(resources.files("plumb.cli").joinpath("answers.schema.json").read_text("utf-8"))
 
 
@@ -75,8 +76,6 @@ def file(tmp_path):
 @pytest.fixture(scope="session")
 def browser():
     """Debian's Chromium, one for all rooms that a worker tests."""
-    if os.name == "nt":
-        pytest.skip("Wine has no browser")
     from playwright.sync_api import sync_playwright  # most rooms need no browser
 
     with sync_playwright() as playwright:

@@ -42,14 +42,12 @@ def hold(handle: int, *, wait: bool = True) -> None:
 def replaced(old: Path, new: str) -> None:
     """Put a file in the place of another. Windows refuses as long as somebody reads that one."""
     end = time.monotonic() + READ_S
-    while True:
-        try:
+    while sys.platform == "win32" and time.monotonic() < end:
+        with suppress(PermissionError):
             os.replace(new, old)
             return
-        except PermissionError:
-            if sys.platform != "win32" or time.monotonic() > end:
-                raise
-            time.sleep(0.01)
+        time.sleep(0.01)
+    os.replace(new, old)
 
 
 def close_to_others(handle: int) -> None:
