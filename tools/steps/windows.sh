@@ -63,4 +63,6 @@ windows_package() {
     stop "no wheel for Windows: $(tail -n 1 "$log")"
   rm -rf "$site"/plumb "$site"/plumb_maslow-*
   .venv/bin/python -m zipfile -e "$windows_folder"/plumb_maslow-*.whl "$site"
+  # Wine says a lot when it starts for the first time.
+  tools/windows/python -c "" </dev/null 2>&1 | cat >"$log" || stop "Wine does not start: $(tail -n 1 "$log")"
 }

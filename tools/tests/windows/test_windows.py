@@ -95,7 +95,8 @@ def test_a_suite_that_needs_no_pseudo_terminal_passes(folder, suite, monkeypatch
     paths = [f"tools/tests/{name}" for name in suite.split()]
     left_out = [f"--ignore=tools/tests/{name}" for name in NOT_UNDER_WINE]
     command = [PYTHON, "-m", "pytest", "-q", "-p", "no:cacheprovider", "-m", "not slow"]
-    done = subprocess.run([*command, *left_out, *paths], cwd=ROOT, input="", text=True, **HEARD)
+    how = {"cwd": ROOT, "input": "", "text": True, "timeout": 1800, **HEARD}
+    done = subprocess.run([*command, *left_out, *paths], **how)
     assert done.returncode == 0, done.stdout[-3000:]
 
 
