@@ -252,3 +252,28 @@ TEST(Registry, PublishedNumbersKeepTheirMeaning) {
   for (const std::string& number : released)
     EXPECT_NE(numbers.end(), std::find(numbers.begin(), numbers.end(), number)) << number;
 }
+
+/// Leaves what is no number on the stack, where the next function has its variables.
+__attribute__((noinline)) void litterTheStack() {
+  volatile double litter[4096];
+  for (volatile double& each : litter) each = NAN;
+}
+
+// A chain that neither sags nor stretches asks for no direction.
+TEST(EffectAlone, ReadsNothingThatNobodyWorkedOut) {
+  for (const AnyParam& any : everyParam()) {
+    EffectParams<double> alone = {};
+    alone.value[any.index] = any.info.typical;
+    const Machine<double> machine = machineWith(alone);
+    for (const Point<double>& place : places<double>()) {
+      const Hanging<double> drawn = hang(machine, place, true);
+      litterTheStack();
+      const PaidOut<double> paid = inverse(machine, place);
+      ASSERT_EQ(drawn.found, paid.found) << any.effect << "." << any.info.name;
+      if (paid.found != Found::kYes) continue;
+      const Strand<double>& left = drawn.strand[kLeft];
+      ASSERT_NEAR(left.length + left.wrap, paid.chains.left, 1e-9)
+          << any.effect << "." << any.info.name;
+    }
+  }
+}

@@ -131,7 +131,7 @@ struct PublishedChains {
 template <class Real>
 struct Effect {
   // For the firmware, at compile time.
-  enum { kNeedsForces = 0 };   ///< 1 where a hook reads pull or bend
+  enum { kNeedsForces = 0 };   ///< 1 where a hook reads more than Strand<Real, false>
   enum { kMovesEnds = 0 };     ///< 1 where moveEnds does anything
   enum { kPushesSled = 0 };    ///< 1 where pushSled does anything
   enum { kBends = 0 };         ///< 1 where it grows as sag does: the planner's bound measures it
@@ -160,7 +160,7 @@ struct Effect {
   static void moveEnds(const Real*, const Strand<Real>*, const SomeForces&, Point<Real>*) {}
 
   /// Changes strand.length, the free chain in nominal links [mm], which starts as strand.free.
-  static void adjustLength(const Real*, Strand<Real>&) {}
+  static void adjustLength(const Real*, Strand<Real, false>&) {}
 
   /// Adds to the parameters what the published settings say of this effect.
   static void addPublished(const Frame<Real>&, const PublishedChains<Real>&, Real*) {}

@@ -115,7 +115,10 @@ struct Listed<Real, Index, First, Rest...> {
   }
 
   static void adjustLength(const Real* c, uint16_t present, Strand<Real>& strand) {
-    if (present & (1u << Index)) ThisEffect::adjustLength(c, strand);
+    // No more than is worked out: a hook that reads a direction without kNeedsForces does not
+    // compile.
+    Strand<Real, bool(ThisEffect::kNeedsForces)>& given = strand;
+    if (present & (1u << Index)) ThisEffect::adjustLength(c, given);
     Next::adjustLength(c + kTheseCoefficients, present, strand);
   }
 

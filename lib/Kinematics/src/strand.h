@@ -40,16 +40,25 @@ struct Frame {
 ///
 /// "Straight" is the line that touches the sprocket and passes through the bit. The last
 /// rotation_radius of the line is the ring's arm, the rest is free chain.
+template <class Real, bool kWithForces = true>
+struct Strand;
+
+/// What every drawing of it says.
 template <class Real>
-struct Strand {
+struct Strand<Real, false> {
   Side side;
-  bool deep;    ///< the chains hang so deep that the second order of sag counts
   Real free;    ///< [mm] straight chain between sprocket and arm
   Real length;  ///< [mm] free chain in nominal links: what the effects adjust
   Real wrap;    ///< [mm] sprocket_radius * angle: chain on the teeth, without the term r^2 / d
-  Real pull;    ///< [1] tension / sled weight; only where an effect asks for forces
-  Real slack;   ///< [1] 1 / pull
-  Real bend;    ///< [1] cosine / pull: how easily its weight bends the chain
+};
+
+/// The same with its direction and what it carries, which are worked out only where it is asked.
+template <class Real>
+struct Strand<Real, true> : Strand<Real, false> {
+  bool deep;          ///< the chains hang so deep that the second order of sag counts
+  Real pull;          ///< [1] tension / sled weight; only where an effect asks for forces
+  Real slack;         ///< [1] 1 / pull
+  Real bend;          ///< [1] cosine / pull: how easily its weight bends the chain
   Real sine, cosine;  ///< [1] of the straight line's angle below the horizontal
   Real lean;          ///< [1] sine / pull; only on deep machines
   Real ease;          ///< [1] share by which deep chains pull less; only on deep machines

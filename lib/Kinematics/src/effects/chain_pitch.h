@@ -66,7 +66,7 @@ struct ChainPitch : Effect<Real> {
     for (uint8_t i = 0; i < kParamCount; ++i) c[i] = -(parameter[i] / (Real(1) + parameter[i]));
   }
 
-  static void adjustLength(const Real* c, Strand<Real>& strand) {
+  static void adjustLength(const Real* c, Strand<Real, false>& strand) {
     strand.length += c[strand.side] * strand.length;
   }
 };

@@ -57,7 +57,7 @@ struct ChainPlane : Effect<Real> {
     c[kAcross] = parameter[kGapSquared];
   }
 
-  PLUMB_RARE static void adjustLength(const Real* c, Strand<Real>& strand) {
+  PLUMB_RARE static void adjustLength(const Real* c, Strand<Real, false>& strand) {
     strand.length += sqrt(strand.free * strand.free + c[kAcross]) - strand.free;
   }
 };

@@ -66,7 +66,7 @@ struct ChainZero : Effect<Real> {
     for (uint8_t i = 0; i < kParamCount; ++i) c[i] = parameter[i];
   }
 
-  PLUMB_RARE static void adjustLength(const Real* c, Strand<Real>& strand) {
+  PLUMB_RARE static void adjustLength(const Real* c, Strand<Real, false>& strand) {
     strand.length -= c[strand.side];
   }
 };

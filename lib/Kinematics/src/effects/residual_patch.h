@@ -19,7 +19,7 @@ struct ResidualPatch : Effect<Real> {
   enum { kParamCount = kSideCount * kTerms };
   enum { kConstant, kPowers = 1 + kTerms };  // for each side
   enum { kArm = kSideCount * kPowers, kPerAcross, kAcross, kPerDown, kDown, kCoefficientCount };
-  enum { kEmpirical = 1 };
+  enum { kEmpirical = 1, kNeedsForces = 1 };  // forces for the directions
   enum { kExampleCount = 0 };
 
   static EffectInfo info() {

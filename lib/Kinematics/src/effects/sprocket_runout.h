@@ -88,7 +88,7 @@ struct SprocketRunout : Effect<Real> {
     c[kQuartersByLength] = Real(1) / (frame.sprocket_radius * Real(runout::kQuarterTurn));
   }
 
-  PLUMB_RARE static void adjustLength(const Real* c, Strand<Real>& strand) {
+  PLUMB_RARE static void adjustLength(const Real* c, Strand<Real, false>& strand) {
     const Real* amplitude = strand.side == kLeft ? c + kLeftSine : c + kRightSine;
     const Real quarters = strand.length * c[kQuartersByLength];
     const int16_t whole = nearest(quarters);
