@@ -53,7 +53,7 @@ def test_the_drawing_of_the_machine_has_the_sled_where_the_bar_says(lab, page):
         got(client.post("/api/machine/virtual", json={"seed": 9, "speed": 1000}))
         until(client, lambda machine: machine["phase"] == "ready")
         got(client.post("/api/machine/settings"))
-        got(client.post("/api/grid/cut"))
+        got(client.post("/api/rounds/marks/cut"))
         until(client, lambda machine: machine["program"]["outcome"] == "done")
     for screen in ("known", "open"):
         page.goto(f"{lab.url}#/{screen}")
