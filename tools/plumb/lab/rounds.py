@@ -29,8 +29,12 @@ from plumb.text.errors import InputError
 from plumb.text.files import is_ours, numbered
 
 ENDING = ".toml"  # of a form
-CHECK = "check"  # beginning of the names of check marks, which take part only on request
-MARKS, CHECKS = ("marks", "grid"), (CHECK, CHECK)  # beginnings of the names of form and program
+MARKS, PROOFS = ("marks", "grid"), ("proof", "proof")  # beginnings of the names of form and program
+
+
+def is_proof(name: str) -> bool:
+    """Return whether a form is of proof marks, which take part only on request."""
+    return name.startswith(("proof", "check"))  # as they were called before
 
 
 def on_new_sheet(choices: Choices) -> bool:
@@ -182,7 +186,7 @@ def in_turn(places: Sequence[Place]) -> list[Place]:
 # A round: marks that are to be cut, whoever proposed them.
 
 # Who says where they are: the owner, the verdict, or nobody: they are as far away as can be.
-Origin = Literal["chosen", "proposed", "check"]
+Origin = Literal["chosen", "proposed", "proof"]
 
 
 @dataclass(frozen=True, kw_only=True)

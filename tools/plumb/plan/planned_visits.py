@@ -279,14 +279,14 @@ def usable(settings: MachineSettings, places: Array, sled_weight: float) -> Arra
     return is_usable
 
 
-# Where to cut check marks: reachable places, as far as can be from marks that were fitted.
+# Where to cut proof marks: reachable places, as far as can be from marks that were fitted.
 
 FINE = (15, 9)  # places across and up that are considered
 COUNT = 2
 BELOW = 40.0  # [mm] that a sled comes from below, so this far down it must hang too
 
 
-def check_places(settings: MachineSettings, known: Array) -> Array:
+def proof_places(settings: MachineSettings, known: Array) -> Array:
     """Return the places (COUNT, 2) [mm], given the targets (n, 2) of the marks there are."""
     places = grid(settings.sheet, *FINE)
     for shift in (0.0, BELOW):

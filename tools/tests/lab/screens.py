@@ -84,11 +84,11 @@ def fitted_machine(folder: Path) -> Path:
     return folder
 
 
-def with_check_marks(lab):
-    """Two check marks are cut and read, the second far off."""
+def with_proof_marks(lab):
+    """Two proof marks are cut and read, the second far off."""
     with lab.client() as client:
-        got(client.post("/api/rounds/check"))
-        type_in(client, "check.toml", (0.3, 0), (4.0, 0))
+        got(client.post("/api/rounds/proof"))
+        type_in(client, "proof.toml", (0.3, 0), (4.0, 0))
 
 
 def with_virtual_machine(lab):

@@ -67,30 +67,30 @@ def test_a_mark_counts_as_cut_or_perhaps_cut_and_never_back(tmp_path):
     line.sent["came"](3, 4)  # its modes come again
     assert far() == (1, 0)
     assert far("grid-2.nc") == far(text=text + "G0") == (None, 0)
-    begin(project, line, "check.nc", text)
+    begin(project, line, "proof.nc", text)
     line.sent["came"](0, 5)
-    assert (far(), far("check.nc")) == ((1, 0), (0, 1))
+    assert (far(), far("proof.nc")) == ((1, 0), (0, 1))
     line.sent["then"](None)
-    assert (far(), far("check.nc")) == ((1, 0), (2, 0))  # all are cut
+    assert (far(), far("proof.nc")) == ((1, 0), (2, 0))  # all are cut
 
 
 def test_check_marks_that_broke_off_are_asked_for_too(lab, page):
     fitted_machine(lab.folder)
     with lab.client() as client:
-        got(client.post("/api/rounds/check"))
+        got(client.post("/api/rounds/proof"))
         # It is sent as it was made; in the folder it names its form too.
-        told = (lab.folder / "check.nc").read_text().splitlines(keepends=True)
+        told = (lab.folder / "proof.nc").read_text().splitlines(keepends=True)
         line = Line()
         sent = "".join(line for line in told if not line.startswith("("))
-        begin(Project(lab.folder), line, "check.nc", sent)
+        begin(Project(lab.folder), line, "proof.nc", sent)
         line.sent["came"](0, 7)  # the first plunge has left
-        check = got(client.get("/api/check"))["round"]
+        check = got(client.get("/api/proof"))["round"]
         assert (check["broke_off"], check["perhaps"], check["goes_on"]) == (0, 1, True)
         assert (
             "no machine is connected"
-            in got(client.post("/api/rounds/check/go-on", json={"cut": 0}), 422)["error"]
+            in got(client.post("/api/rounds/proof/go-on", json={"cut": 0}), 422)["error"]
         )
-    page.goto(f"{lab.url}#/check")
+    page.goto(f"{lab.url}#/prove")
     said = "Cut 0 of 2 marks, then it broke off. The machine may have cut mark 1 too."
     expect(page.get_by_text(said)).to_be_visible()
     line.sent["came"](0, len(sent.splitlines()))

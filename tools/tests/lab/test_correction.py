@@ -159,7 +159,7 @@ def test_a_reading_changed_after_writing_marks_the_correction_as_stale(lab, page
     write(page, lab, *ALL)
     form = lab.folder / "marks.toml"
     form.write_text(form.read_text().replace("[659.5, 110.5]", "[659.5, 111.5]"))
-    for step in ("verdict", "check", "correct"):
+    for step in ("verdict", "prove", "correct"):
         page.goto(f"{lab.site}#/{step}")
         expect(page.locator(TITLE)).to_have_text("Your readings have changed", timeout=PATIENCE)
     expect(page.locator(".say")).to_contain_text("The numbers in machine.toml are stale")

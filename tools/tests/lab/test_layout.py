@@ -9,7 +9,7 @@ from lab_machine import AT_REST, PATIENCE, with_machine
 from playwright.sync_api import expect
 from plumb.lab.broken_cut import NOTES, BrokenCut, digest_of_sent
 from plumb.lab.project import CUT
-from screens import at_rest, fitted_machine, measured_machine, with_check_marks
+from screens import at_rest, fitted_machine, measured_machine, with_proof_marks
 
 WIDE, NARROW = {"width": 1280, "height": 800}, {"width": 390, "height": 844}
 SMALLER, LEAST_WIDE = {"width": 375, "height": 740}, {"width": 1024, "height": 768}
@@ -81,7 +81,7 @@ WANTED = {
     "readings": "Go to the verdict",
     "verdict": "Find the best next measurement",
     "correct": "Accept a number first",
-    "check": "To the correction",
+    "prove": "To the correction",
     "bench": "Write these numbers to new.toml",
     "practice": "To the machines: start a virtual machine there",
 }
@@ -190,10 +190,10 @@ def test_while_the_machine_cuts_every_screen_shows_stop(opened):
 def test_so_do_the_screens_of_a_machine_that_was_corrected(opened, lab):
     sends = "Connect the machine, then send machine.toml"
     page = opened(fitted_machine)
-    none_out_of_view(page, {"correct": sends, "check": "Save check.nc; nothing moves"})
-    with_check_marks(lab)
+    none_out_of_view(page, {"correct": sends, "prove": "Save proof.nc; nothing moves"})
+    with_proof_marks(lab)
     page.reload()
-    none_out_of_view(page, {"check": "Diary →"})
+    none_out_of_view(page, {"prove": "Diary →"})
 
 
 @pytest.mark.parametrize(

@@ -291,8 +291,8 @@ def bring_settings(client):
     return client.post("/api/settings", files={"file": ("groundcontrol.ini", settings)})
 
 
-def use_check_marks(client):
-    return client.post("/api/check/use")
+def use_proof_marks(client):
+    return client.post("/api/proof/use")
 
 
 WAYS = [
@@ -301,7 +301,7 @@ WAYS = [
     (say_how_fine_the_tape_is, {"fineness": 1.0}),
     (bring_marks, {"marks": ["marks-2.toml"]}),
     (bring_settings, {"settings": "groundcontrol.ini"}),
-    (use_check_marks, {"marks": ["check.toml"]}),
+    (use_proof_marks, {"marks": ["proof.toml"]}),
 ]
 
 
@@ -309,7 +309,7 @@ WAYS = [
 def test_a_choice_during_a_save_is_kept_and_the_save_completes(
     client, tmp_path, meanwhile, save, chosen
 ):
-    (tmp_path / "check.toml").write_text(example_form())
+    (tmp_path / "proof.toml").write_text(example_form())
     got(save(client))
     choices = json.loads((tmp_path / "lab.json").read_text())
     assert choices["units"] == "inch" and len(meanwhile) == 2

@@ -17,19 +17,19 @@ from screens import (
     measured_machine,
     tabbed,
     walk,
-    with_check_marks,
+    with_proof_marks,
     with_virtual_machine,
 )
 
 FEWEST_SCREENS = 12
-WHEN_FITTED = ("correct", "check", "diary")
+WHEN_FITTED = ("correct", "prove", "diary")
 AT_FIRST = ("open", "practice")
 IN_MID_CUT = ("open", "measure", "cut", "readings")
 
 
 def corrected(lab):
     fitted_machine(lab.folder)
-    with_check_marks(lab)
+    with_proof_marks(lab)
 
 
 STATES = {

@@ -134,11 +134,11 @@ def test_the_check(client):
     fitted = ["groundcontrol.ini", "marks.toml", "--effect", "chain_pitch", "-o", "machine.toml"]
     assert main(["add", *fitted]) == 0
     choose(client, settings="machine.toml", units="inch")
-    got(client.post("/api/rounds/check"))
-    type_in(client, "check.toml", (0, 4.0))
-    shown = got(client.get("/api/check"))
+    got(client.post("/api/rounds/proof"))
+    type_in(client, "proof.toml", (0, 4.0))
+    shown = got(client.get("/api/proof"))
     assert not shown["holds"]
-    assert shown["command"] == "plumb calibrate machine.toml check.toml --units inch"
+    assert shown["command"] == "plumb calibrate machine.toml proof.toml --units inch"
     assert main(shlex.split(shown["command"])[1:]) == 1
 
 

@@ -118,14 +118,14 @@ def write_and_send(visit, count):
         back = visit.page.get_by_role("button", name="Give back its numbers from before")
         expect(back).to_be_enabled(timeout=PATIENCE)
         # What comes next is said by what the machine holds, not by what was pressed.
-        comes_next = "Send machine-2.toml" if kind == "old" else "Check it with two marks"
+        comes_next = "Send machine-2.toml" if kind == "old" else "Prove it with two marks"
         expect(wanted).to_contain_text(comes_next, timeout=PATIENCE)
     assert len(list(visit.folder.glob("machine-2-before-*.nc"))) >= 1
 
 
 def check_two_marks(visit):
     """Cut, read and judged: promised and found, each mark [mm]."""
-    visit.go_to("Check")
+    visit.go_to("Prove")
     visit.press("Move the sled and cut 2 marks")
     visit.press("Let a tape read the 2 marks")
     visit.see(re.compile("The machine is as it was fitted"))
@@ -153,14 +153,14 @@ def test_from_an_empty_folder_to_a_machine_whose_error_has_fallen(lab, page):
     write_and_send(visit, count)
     checked = check_two_marks(visit)
     assert len(checked) == 2 and all(off < within < 1.9 for within, off in checked)
-    assert "check.toml" not in (lab.folder / "lab.json").read_text()
+    assert "proof.toml" not in (lab.folder / "lab.json").read_text()
     visit.go_to("Cut")
     page.get_by_role("checkbox", name="On another sheet than marks.toml").check()
     visit.see(re.compile(r"its right end 6\.\d mm lower"))
     second = visit.cut_and_read("marks-2.toml")
     assert "new_sheet = true" in (lab.folder / "marks-2.toml").read_text()
     assert second < 2 * promised + 0.2 and second < 0.15 * first
-    visit.go_to("Check")
+    visit.go_to("Prove")
     rounds = page.locator(".off-target tr")
     expect(rounds).to_have_count(3, timeout=PATIENCE)
     assert [visit.millimetres(row) for row in rounds.all()][:2] == [first, second]

@@ -3,13 +3,13 @@ import type { ComponentType } from "preact";
 import type { Project, Schemas } from "../api/client";
 import { Bench } from "../bench/Bench";
 import { Practice } from "../practice/Practice";
-import { Check } from "../steps/Check";
 import { Correct } from "../steps/Correct";
 import { Cut } from "../steps/Cut";
 import { Diary } from "../steps/Diary";
 import { Known } from "../steps/Known";
 import { Measure } from "../steps/Measure";
 import { Open } from "../steps/Open";
+import { Prove } from "../steps/Prove";
 import { Reach } from "../steps/Reach";
 import { Readings } from "../steps/Readings";
 import { Verdict } from "../steps/Verdict";
@@ -74,7 +74,7 @@ export const STEPS: Step[] = [
     result: accepted,
     isDone: isCorrected,
   },
-  { id: "check", title: "Check", Screen: Check, needs: marks },
+  { id: "prove", title: "Prove", Screen: Prove, needs: marks },
   { id: "diary", title: "Diary", Screen: Diary, needs: nothing },
 ];
 

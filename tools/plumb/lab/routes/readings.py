@@ -8,10 +8,10 @@ from pydantic import BaseModel
 
 from plumb.lab.project import Choices, Edges, Project, save_choices, with_marks
 from plumb.lab.rounds import (
-    CHECK,
     ENDING,
     command,
     form_of,
+    is_proof,
     is_read_again,
     known_words,
     opened,
@@ -125,7 +125,7 @@ def show_readings(project: TheProject, file: str = "") -> ReadingsAnswer:
     name = file or next(iter(_by_use(forms, choices)), "")
     digest = digests.get(name, "")
     form = forms.get(name) if name else None
-    if file.startswith(CHECK) and project.read(file) is not None:
+    if is_proof(file) and project.read(file) is not None:
         form = form_of(project, choices, file)
     if name and not form:
         raise InputError(f"{name}: there is no such form of marks in the folder")
@@ -222,7 +222,7 @@ def _as_toml(path: Path, content: bytes, sheet: tuple[float, float]) -> bytes:
 def _saved(project: Project, name: str, digest: str, text: str) -> ReadingsAnswer:
     """Save a form; from its first reading on the verdict goes by it."""
     files, read = {name: text.encode()}, {name: digest}
-    if name in project.choices.marks or name.startswith(CHECK):
+    if name in project.choices.marks or is_proof(name):
         project.save(files, read=read)
     else:
         save_choices(project, lambda now: with_marks(now, name), files=files, read=read)
@@ -242,7 +242,7 @@ def _forms(project: Project, choices: Choices) -> dict[str, Form]:
     for name in project.names():
         if not name.endswith(ENDING) or name == choices.settings:
             continue
-        if name.startswith(CHECK) and name not in choices.marks:
+        if is_proof(name) and name not in choices.marks:
             continue
         try:
             forms[name] = form_of(project, choices, name)

@@ -1,6 +1,6 @@
 """Rounds of marks: written into the folder, cut, gone on with, and read by a virtual tape.
 
-The marks of the chosen layout, those that the verdict proposed and two check marks go the same way.
+The marks of the chosen layout, those that the verdict proposed and two proof marks go the same way.
 """
 
 from collections.abc import Callable
@@ -11,10 +11,10 @@ from pydantic import BaseModel
 
 from plumb.job.time_left import timetable
 from plumb.lab.broken_cut import HowFar, OnSheet, begin, go_on, how_far, plunges_in
-from plumb.lab.check_marks import check_round
 from plumb.lab.machine_line import MachineLine, TheLine, refuse_other_machine, refuse_unknown_place
 from plumb.lab.project import Choices, Project, save_choices, with_marks
-from plumb.lab.rounds import CHECK, Origin, Round, chosen_round, form_of, is_read_again, opened
+from plumb.lab.proof_marks import proof_round
+from plumb.lab.rounds import Origin, Round, chosen_round, form_of, is_proof, is_read_again, opened
 from plumb.lab.routes.machine import MachineAnswer, machine
 from plumb.lab.routes.project import ProjectAnswer, TheProject, show
 from plumb.line.progress import Wait, waits_in
@@ -25,7 +25,7 @@ from plumb.text.errors import InputError
 from plumb.vm.owner import VirtualOwner
 
 router = APIRouter(tags=["rounds"])
-Which = Literal["marks", "check"]
+Which = Literal["marks", "proof"]
 
 
 class RoundMark(BaseModel):
@@ -57,14 +57,14 @@ class RoundAnswer(HowFar):
 
 @router.get("/rounds/{which}")
 def show_round(which: Which, project: TheProject, line: TheLine) -> RoundAnswer:
-    """Return the marks to be cut next, as they would be written now; check marks that are in the
+    """Return the marks to be cut next, as they would be written now; proof marks that are in the
     folder as they are there.
     """
     return round_answer(_round(which, project), project, line)
 
 
 def _round(which: Which, project: Project, *, anew: bool = False) -> Round:
-    return check_round(project, anew=anew) if which == CHECK else chosen_round(project)
+    return proof_round(project, anew=anew) if which == "proof" else chosen_round(project)
 
 
 def round_answer(this: Round, project: Project, line: MachineLine) -> RoundAnswer:
@@ -187,7 +187,7 @@ def read_with_tape(
     if filled is None:
         raise InputError("the marks are not all cut yet: cut them first")
     files = {form: _as_asked(filled, form_of(project, project.choices, form), owner)}
-    if form.startswith(CHECK):
+    if is_proof(form):
         project.save(files, read=known)
     else:
         save_choices(project, lambda now: with_marks(now, form), files=files, read=known)

@@ -65,7 +65,7 @@ export function ToMachine({ writing, isNext, isHeld, last }: ToMachineParts) {
   );
 }
 
-/** Connects the machine, sends it the open file, and then checks it. */
+/** Connects the machine, sends it the open file, and then proves it. */
 export function ToSend({ writing, isNext, isHeld, last }: ToMachineParts) {
   const { project } = useProject();
   const machine = useMachine();
@@ -81,8 +81,8 @@ export function ToSend({ writing, isNext, isHeld, last }: ToMachineParts) {
   if (isHeld)
     return (
       isNext && (
-        <a class={`button ${look}`} href="#/check">
-          Check it with two marks
+        <a class={`button ${look}`} href="#/prove">
+          Prove it with two marks
         </a>
       )
     );

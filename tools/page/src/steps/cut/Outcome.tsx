@@ -54,7 +54,7 @@ export function Read({ round }: { round: Round }) {
   if (!hasTape(round, machine)) return <ToReadings round={round} isNext />;
   const read = async () => {
     await tell("machine/readings", { form: round.form });
-    if (round.origin !== "check") location.hash = "#/readings";
+    if (round.origin !== "proof") location.hash = "#/readings";
   };
   return (
     <Do isNext disabled={!isReady(machine)} work={read}>
@@ -72,9 +72,9 @@ interface ToReadingsParts {
   isNext?: boolean;
 }
 
-/** To where they are typed; check marks are read on their own screen. */
+/** To where they are typed; proof marks are read on their own screen. */
 export function ToReadings({ round, isNext }: ToReadingsParts) {
-  if (round.origin === "check") return null;
+  if (round.origin === "proof") return null;
   return (
     <a class={isNext ? "button primary" : "button"} href="#/readings">
       {round.waits === 0 ? "Look at the readings" : "Type what your tape says"}

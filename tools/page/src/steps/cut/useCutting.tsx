@@ -23,7 +23,7 @@ export function useRoundOf<Answer>(path: string): Answer | undefined {
 }
 
 function pathOf({ origin }: Round): string {
-  return origin === "check" ? "rounds/check" : "rounds/marks";
+  return origin === "proof" ? "rounds/proof" : "rounds/marks";
 }
 
 /** The screen's button, its fields, and while the round is cut, what the screen is called and says. */

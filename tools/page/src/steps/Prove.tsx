@@ -8,26 +8,26 @@ import { Grid } from "../readings/Grid";
 import { useReadings } from "../readings/useReadings";
 import { useProject } from "../shell/project";
 import { Screen } from "../shell/Screen";
-import { type CheckAnswer, Judged, JudgedMap, Promised } from "./check/Judged";
 import { Refused } from "./correct/Refused";
 import { useWriting } from "./correct/useWriting";
 import { CutMap } from "./cut/CutMap";
 import type { Round } from "./cut/round";
 import { useCutting, useRoundOf } from "./cut/useCutting";
+import { Judged, JudgedMap, Promised, type ProofAnswer } from "./prove/Judged";
 import "../readings/readings.css";
 
-export function Check() {
+export function Prove() {
   const { project } = useProject();
-  const answer = useRoundOf<CheckAnswer>("check");
+  const answer = useRoundOf<ProofAnswer>("proof");
   const writing = useWriting();
   useNoted(answer);
   if (!answer && project.changed_since_fit)
     return <Refused title="Is it true?" refused="" writing={writing} />;
   if (!answer) return <Screen title="Is it true?" say="One moment …" busy />;
-  return answer.round ? <OpenCheck answer={answer} round={answer.round} /> : <NoPromise />;
+  return answer.round ? <OpenProof answer={answer} round={answer.round} /> : <NoPromise />;
 }
 
-function OpenCheck({ answer, round }: { answer: CheckAnswer; round: Round }) {
+function OpenProof({ answer, round }: { answer: ProofAnswer; round: Round }) {
   const units = useUnits();
   const { act, fields, running } = useCutting(round);
   const isJudged = answer.sentence !== "";
@@ -61,18 +61,18 @@ function OpenCheck({ answer, round }: { answer: CheckAnswer; round: Round }) {
           {fields}
         </>
       )}
-      {round.is_saved && !running && <CheckReadings file={round.form} />}
+      {round.is_saved && !running && <ProofReadings file={round.form} />}
       {isJudged && <Promised {...{ answer, round }} />}
     </Screen>
   );
 }
 
-/** The readings of the check marks, typed as all others are. */
-function CheckReadings({ file }: { file: string }) {
+/** The readings of the proof marks, typed as all others are. */
+function ProofReadings({ file }: { file: string }) {
   const readings = useReadings(file);
   if (!readings.form) return null;
   return (
-    <section aria-label="Readings of the check marks">
+    <section aria-label="Readings of the proof marks">
       <h2>What does the tape say?</h2>
       <Grid form={readings.form} readings={readings} doubts={[]} />
     </section>
@@ -80,13 +80,13 @@ function CheckReadings({ file }: { file: string }) {
 }
 
 /** Writes a result into the diary, once there is one. */
-function useNoted(answer: CheckAnswer | undefined): void {
+function useNoted(answer: ProofAnswer | undefined): void {
   const { take } = useProject();
   const isNew = !!answer?.sentence && !answer.is_noted;
   useEffect(() => {
     if (!isNew) return;
     // If it fails, the next look at the result writes it.
-    send<Project>("POST", "check/note").then(take, () => undefined);
+    send<Project>("POST", "proof/note").then(take, () => undefined);
   }, [isNew, answer?.sentence, take]);
 }
 
@@ -100,7 +100,7 @@ function Why() {
   );
 }
 
-/** Nothing can be checked before there is a correction. */
+/** Nothing can be proved before there is a correction. */
 function NoPromise() {
   return (
     <Screen

@@ -1,4 +1,4 @@
-"""Check marks, the diary, and marks on another sheet, by the routes and on the page."""
+"""Proof marks, the diary, and marks on another sheet, by the routes and on the page."""
 
 import json
 import math
@@ -26,26 +26,26 @@ def fitted_machine(folder):
 
 
 def type_off(lab, page, mark, x, y):
-    """Type a check mark that lies so far [mm] right of its target, and so far below it."""
-    meant = got(lab.client().get("/api/check"))["meant"][mark - 1]
+    """Type a proof mark that lies so far [mm] right of its target, and so far below it."""
+    meant = got(lab.client().get("/api/proof"))["meant"][mark - 1]
     for edge, place, off in zip(("left", "top"), meant, (x, y), strict=True):
         field = page.get_by_label(f"Mark {mark} from the {edge}, mm", exact=True)
         field.fill(f"{place + off:.6f}")
 
 
 def where(page):
-    """Where the check marks are, as numbers."""
+    """Where the proof marks are, as numbers."""
     expect(page.get_by_text("from your edges")).to_be_visible(timeout=PATIENCE)
     return re.findall(r"\d+", page.get_by_text("from your edges").inner_text())
 
 
 def test_two_check_marks_hold_then_miss_and_others_are_planned(lab, page):
     fitted_machine(lab.folder)
-    page.goto(f"{lab.url}#/check")
-    page.get_by_role("button", name="Save check.nc; nothing moves").click(timeout=PATIENCE)
+    page.goto(f"{lab.url}#/prove")
+    page.get_by_role("button", name="Save proof.nc; nothing moves").click(timeout=PATIENCE)
     page.get_by_label("Mark 2 from the left, mm").wait_for(timeout=PATIENCE)
     first = where(page)
-    assert "G1" in (lab.folder / "check.nc").read_text()
+    assert "G1" in (lab.folder / "proof.nc").read_text()
     expect(page.locator(".sheet .spot.faint")).to_have_count(23)  # that were fitted
     type_off(lab, page, 1, 0.3, 0.1)
     type_off(lab, page, 2, -0.2, 0.4)
@@ -78,24 +78,24 @@ def test_two_check_marks_hold_then_miss_and_others_are_planned(lab, page):
     expect(page.get_by_role("button", name="Let the verdict")).to_have_count(0, timeout=PATIENCE)
     assert json.loads((lab.folder / "lab.json").read_text())["marks"] == [
         "marks.toml",
-        "check.toml",
+        "proof.toml",
     ]
     results = [each.content for each in read_diary(lab.folder).of_kind("check")]
     assert [result["holds"] for result in results] == [True, False]  # each once
     assert results[-1]["machine"] == "machine.toml"
     page.goto(f"{lab.site}#/diary")
     expect(page.locator(".noted li").first).to_contain_text(
-        re.compile("check.toml, by machine.toml: .* First read mark 2 again"),
+        re.compile("proof.toml, by machine.toml: .* First read mark 2 again"),
         timeout=PATIENCE,
     )
-    page.goto(f"{lab.site}#/check")
+    page.goto(f"{lab.site}#/prove")
     expect(page.locator(JUDGED)).to_contain_text("First read mark 2 again", timeout=PATIENCE)
-    kept = (lab.folder / "check.toml").read_bytes()
+    kept = (lab.folder / "proof.toml").read_bytes()
     page.get_by_role("button", name="Write two other marks").click()
     expect(page.locator(JUDGED)).to_have_count(0, timeout=PATIENCE)
     assert where(page) != first
-    assert (lab.folder / "check-2.nc").exists()
-    assert (lab.folder / "check.toml").read_bytes() == kept
+    assert (lab.folder / "proof-2.nc").exists()
+    assert (lab.folder / "proof.toml").read_bytes() == kept
 
 
 def test_the_diary_shows_a_fit_that_comes_in_and_a_number_that_moved(lab, page):
@@ -114,7 +114,7 @@ def test_the_diary_shows_a_fit_that_comes_in_and_a_number_that_moved(lab, page):
     expect(rows.last).to_contain_text("0.020 inch")
 
 
-FORM = "check.toml"
+FORM = "proof.toml"
 
 
 @pytest.fixture
@@ -123,15 +123,15 @@ def client(tmp_path):
 
 
 def test_check_marks_take_no_part_unless_asked_for(client, tmp_path):
-    client.post("/api/rounds/check")
+    client.post("/api/rounds/proof")
     type_in(client, FORM, (0.3, 0.1), (-0.2, 0.4))
     assert client.get("/api/project").json()["choices"]["marks"] == ["marks.toml"]
     names = [file["name"] for file in client.get("/api/readings").json()["files"]]
     assert names == ["marks.toml"]
     before = len(got(client.get("/api/bench"))["marks"])
-    got(client.post("/api/check/use"))
+    got(client.post("/api/proof/use"))
     assert len(got(client.get("/api/bench"))["marks"]) == before + 2
-    assert got(client.get("/api/check"))["is_used"]
+    assert got(client.get("/api/proof"))["is_used"]
 
 
 def places_in(form):
@@ -140,15 +140,29 @@ def places_in(form):
 
 
 def test_a_second_round_gets_other_places_and_keeps_the_first(client, tmp_path):
-    client.post("/api/rounds/check")
-    kept = (tmp_path / "check.toml").read_bytes()
-    got(client.post("/api/rounds/check"))
-    assert (tmp_path / "check.toml").read_bytes() == kept
+    client.post("/api/rounds/proof")
+    kept = (tmp_path / "proof.toml").read_bytes()
+    got(client.post("/api/rounds/proof"))
+    assert (tmp_path / "proof.toml").read_bytes() == kept
     type_in(client, FORM, (0.3, 0.1), (-0.2, 0.4))
-    got(client.post("/api/rounds/check"))
-    assert got(client.get("/api/check"))["round"]["form"] == "check-2.toml"
-    assert (tmp_path / "check.toml").read_bytes() != kept
-    first, second = (places_in(tmp_path / name) for name in ("check.toml", "check-2.toml"))
+    got(client.post("/api/rounds/proof"))
+    assert got(client.get("/api/proof"))["round"]["form"] == "proof-2.toml"
+    assert (tmp_path / "proof.toml").read_bytes() != kept
+    first, second = (places_in(tmp_path / name) for name in ("proof.toml", "proof-2.toml"))
+    assert min(math.dist(here, there) for here in first for there in second) > 100
+
+
+def test_a_folder_that_calls_them_check_marks_is_still_read(client, tmp_path):
+    client.post("/api/rounds/proof")
+    type_in(client, FORM, (0.3, 0.1), (-0.2, 0.4))
+    for name in ("toml", "nc"):
+        (tmp_path / f"proof.{name}").rename(tmp_path / f"check.{name}")
+    shown = got(client.get("/api/proof"))
+    assert shown["round"]["form"] == "check.toml" and shown["holds"]
+    assert [file["name"] for file in got(client.get("/api/readings"))["files"]] == ["marks.toml"]
+    got(client.post("/api/rounds/proof"))
+    assert got(client.get("/api/proof"))["round"]["form"] == FORM
+    first, second = (places_in(tmp_path / name) for name in ("check.toml", FORM))
     assert min(math.dist(here, there) for here in first for there in second) > 100
 
 
@@ -203,16 +217,16 @@ def test_the_next_sheet_is_turned_back_once(client, tmp_path):
 
 
 def test_check_marks_go_by_the_sheet_that_they_are_on(client, tmp_path):
-    client.post("/api/rounds/check")
-    type_in(client, "check.toml", (0.3, 0))
-    before = client.get("/api/check").json()
+    client.post("/api/rounds/proof")
+    type_in(client, "proof.toml", (0.3, 0))
+    before = client.get("/api/proof").json()
     assert before["holds"]
-    assert [each["form"] for each in before["rounds"]] == ["marks.toml", "check.toml"]
+    assert [each["form"] for each in before["rounds"]] == ["marks.toml", "proof.toml"]
     first, check = (each["off_target"] for each in before["rounds"])
     assert first > 8 and check == pytest.approx(0.3, abs=1e-6)
-    assert [each["is_check"] for each in before["rounds"]] == [False, True]
+    assert [each["is_proof"] for each in before["rounds"]] == [False, True]
     another_sheet(tmp_path, shift=12)
     chosen(tmp_path, marks=["marks.toml", "marks-2.toml"])
-    after = client.get("/api/check").json()
+    after = client.get("/api/proof").json()
     assert after["marks"] == before["marks"] and after["holds"]
     assert len(after["rounds"]) == 3 and after["rounds"][1]["off_target"] > 12

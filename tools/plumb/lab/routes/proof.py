@@ -1,4 +1,4 @@
-"""Two check marks: whether they are where the settings promise."""
+"""Two proof marks: whether they are where the settings promise."""
 
 from collections.abc import Mapping
 from datetime import datetime
@@ -13,10 +13,10 @@ from plumb.diary.file import FIT, Entry, append, fit_entry, read_diary
 from plumb.diary.recheck import Recheck, RecheckedMark, fit_of, recheck
 from plumb.fit.inputs import Inputs
 from plumb.job.home import HomeTouch
-from plumb.lab.check_marks import check_forms, check_round, inputs_of_promise
 from plumb.lab.machine_line import TheLine
 from plumb.lab.project import Choices, Project, save_choices
-from plumb.lab.rounds import CHECK, command, form_of, unit_words
+from plumb.lab.proof_marks import inputs_of_promise, proof_forms, proof_round
+from plumb.lab.rounds import command, form_of, is_proof, unit_words
 from plumb.lab.routes.project import ProjectAnswer, TheProject, show
 from plumb.lab.routes.rounds import RoundAnswer, round_answer
 from plumb.marks.model import Measurements
@@ -24,7 +24,7 @@ from plumb.marks.plausible import from_edges
 from plumb.model.catalogue import effect_names
 from plumb.text.errors import InputError
 
-router = APIRouter(tags=["check"])
+router = APIRouter(tags=["proof"])
 
 
 class RoundError(BaseModel):
@@ -32,35 +32,35 @@ class RoundError(BaseModel):
 
     form: str
     off_target: float  # [mm] RMS
-    is_check: bool
+    is_proof: bool
 
 
-class CheckAnswer(BaseModel):
-    """The check marks: to be cut, to be read, or judged."""
+class ProofAnswer(BaseModel):
+    """The proof marks: to be cut, to be read, or judged."""
 
     trouble: str  # why nothing can be checked yet; empty if it can
     round: RoundAnswer | None  # the marks; None: nothing can be checked yet
     earlier: list[tuple[float, float]]  # of the marks that were fitted, machine frame
-    meant: list[tuple[float, float]]  # the check marks from the chosen edges
+    meant: list[tuple[float, float]]  # the proof marks from the chosen edges
     marks: tuple[RecheckedMark, ...]  # empty: not all is read yet
     sentence: str  # empty: not all is read yet
-    rounds: list[RoundError]  # in the order they were cut, the check marks last
+    rounds: list[RoundError]  # in the order they were cut, the proof marks last
     holds: bool
     is_used: bool  # the verdict goes by these marks too
     is_noted: bool  # the diary has this result
     command: str
 
 
-@router.get("/check")
-def show_check(project: TheProject, line: TheLine) -> CheckAnswer:
-    """Return the newest check round, or a plan for the first."""
+@router.get("/proof")
+def show_proof(project: TheProject, line: TheLine) -> ProofAnswer:
+    """Return the newest round of proof marks, or a plan for the first."""
     choices, inputs = project.choices, inputs_of_promise(project)
     trouble = "" if inputs.settings.fitted else "write a correction first: it makes the promise"
-    shown = None if trouble else round_answer(check_round(project), project, line)
+    shown = None if trouble else round_answer(proof_round(project), project, line)
     form = shown.form if shown else ""
-    checked = _checked(project, inputs, form) if form in check_forms(project) else None
+    checked = _checked(project, inputs, form) if form in proof_forms(project) else None
     corner, sheet = choices.edges, inputs.settings.sheet
-    return CheckAnswer(
+    return ProofAnswer(
         trouble=trouble,
         round=shown,
         earlier=[mark.target for mark in inputs.measurements.marks if mark.measured],
@@ -77,22 +77,22 @@ def show_check(project: TheProject, line: TheLine) -> CheckAnswer:
     )
 
 
-@router.post("/check/note")
-def note_check(project: TheProject) -> ProjectAnswer:
-    """Write the result of the newest check round into the folder's diary, once."""
+@router.post("/proof/note")
+def note_proof(project: TheProject) -> ProjectAnswer:
+    """Write the result of the newest round of proof marks into the folder's diary, once."""
     choices, form = project.choices, _newest(project)
     checked = _checked(project, inputs_of_promise(project), form)
     if checked is None:
-        raise InputError("not all check marks are read: there is no result yet")
+        raise InputError("not all proof marks are read: there is no result yet")
     entry = _entry(choices, form, checked)
     if not _is_noted(project, entry):
         append(project.folder, NOTED, entry)
     return show(project)
 
 
-@router.post("/check/use")
-def use_check(project: TheProject) -> ProjectAnswer:
-    """Let the verdict go by the check marks too, so that the next check needs new marks."""
+@router.post("/proof/use")
+def use_proof(project: TheProject) -> ProjectAnswer:
+    """Let the verdict go by the proof marks too, so that the next check needs new marks."""
     form = _newest(project)
 
     def with_it_last(choices: Choices) -> Choices:
@@ -104,15 +104,15 @@ def use_check(project: TheProject) -> ProjectAnswer:
 
 
 def _newest(project: Project) -> str:
-    """Return the form of the newest check marks. Raises InputError if there are none."""
-    forms = check_forms(project)
+    """Return the form of the newest proof marks. Raises InputError if there are none."""
+    forms = proof_forms(project)
     if not forms:
-        raise InputError("there are no check marks yet: cut them first")
+        raise InputError("there are no proof marks yet: cut them first")
     return forms[-1]
 
 
 def _command(project: Project, inputs: Inputs, shown: RoundAnswer) -> str:
-    """Return the same in a terminal: what the fit promises of the check marks that were read, or
+    """Return the same in a terminal: what the fit promises of the proof marks that were read, or
     what makes them.
     """
     if project.read(shown.form) is None:
@@ -123,7 +123,7 @@ def _command(project: Project, inputs: Inputs, shown: RoundAnswer) -> str:
 
 
 def _entry(choices: Choices, form: str, checked: Recheck) -> dict[str, Any]:
-    """Return the result of a round of check marks as the diary has it. mm."""
+    """Return the result of a round of proof marks as the diary has it. mm."""
     return {
         "form": form,
         "machine": choices.settings,
@@ -147,19 +147,19 @@ def _is_noted(project: Project, entry: Mapping[str, Any]) -> bool:
     return bool(noted) and all(noted[-1].content[key] == entry[key] for key in same)
 
 
-def _rounds(project: Project, choices: Choices, check_form: str) -> list[RoundError]:
+def _rounds(project: Project, choices: Choices, proof_form: str) -> list[RoundError]:
     """Return how far off the marks of each round are."""
-    names = [*(name for name in choices.marks if not name.startswith(CHECK)), check_form]
+    names = [*(name for name in choices.marks if not is_proof(name)), proof_form]
     forms = {name: form_of(project, choices, name).measurements for name in names}
     return [
-        RoundError(form=name, off_target=off, is_check=name == check_form)
+        RoundError(form=name, off_target=off, is_proof=name == proof_form)
         for name, form in forms.items()
         if (off := form.off_target) is not None
     ]
 
 
 def _checked(project: Project, inputs: Inputs, form: str) -> Recheck | None:
-    """Return the check marks against the fit; None before all are read."""
+    """Return the proof marks against the fit; None before all are read."""
     marks = _measured(project, form)
     touches = [HomeTouch(mark.name, where, mark.target) for mark, where in marks.readings]
     if len(touches) < len(marks.marks):

@@ -1,4 +1,4 @@
-// Check marks that are read, against what was promised: in a sentence, on the sheet, and in numbers.
+// Proof marks that are read, against what was promised: in a sentence, on the sheet, and in numbers.
 import { type Schemas, send } from "../../api/client";
 import { Bar } from "../../controls/Bar";
 import { namedLength } from "../../controls/lengths";
@@ -10,10 +10,10 @@ import { useMachine } from "../../shell/machine";
 import { useProject, useTell } from "../../shell/project";
 import type { Round } from "../cut/round";
 
-export type CheckAnswer = Schemas["CheckAnswer"];
+export type ProofAnswer = Schemas["ProofAnswer"];
 
 interface JudgedParts {
-  answer: CheckAnswer;
+  answer: ProofAnswer;
   round: Round;
 }
 
@@ -26,7 +26,7 @@ export function JudgedMap({ answer: { marks, earlier }, round }: JudgedParts) {
   const read = marks.map(({ name, hole }, i) => ({ name, target: round.marks[i]?.place ?? hole }));
   const fitted = earlier.map((target) => ({ name: "", target, look: "faint" as const }));
   return (
-    <Sheet label="How far the check marks are off" marks={[...read, ...fitted]} states={[off]} />
+    <Sheet label="How far the proof marks are off" marks={[...read, ...fitted]} states={[off]} />
   );
 }
 
@@ -44,29 +44,29 @@ export function Judged({ answer: { sentence, holds, rounds, is_used } }: JudgedP
       <Table
         class="wide off-target"
         caption="Off from the target, RMS: how far the marks are from where they were sent"
-        rows={rounds.map(({ form, off_target, is_check }) => [
+        rows={rounds.map(({ form, off_target, is_proof }) => [
           form,
           <div key={form} class="bars">
-            <Bar share={off_target / most} colour={is_check ? "var(--after)" : "var(--before)"} />
+            <Bar share={off_target / most} colour={is_proof ? "var(--after)" : "var(--before)"} />
             {namedLength(off_target, units, 2)}
           </div>,
         ])}
       />
       <p class="row">
         {kind === "none" ? (
-          <Do work={() => tell("rounds/check")}>Write two other marks</Do>
+          <Do work={() => tell("rounds/proof")}>Write two other marks</Do>
         ) : (
-          <Do work={() => send("POST", "rounds/check/cut").then(reload)}>
+          <Do work={() => send("POST", "rounds/proof/cut").then(reload)}>
             Cut two other marks: the sled moves
           </Do>
         )}
-        {!is_used && <Do work={() => tell("check/use")}>Let the verdict go by these marks too</Do>}
+        {!is_used && <Do work={() => tell("proof/use")}>Let the verdict go by these marks too</Do>}
       </p>
     </>
   );
 }
 
-/** How far off each check mark may be, and is. */
+/** How far off each proof mark may be, and is. */
 export function Promised({ answer, round }: JudgedParts) {
   const units = useUnits();
   return (
