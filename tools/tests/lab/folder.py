@@ -112,6 +112,7 @@ def note_fit(folder, at, rms, gap):
     number = {"name": "motor_gap", "unit": "mm", "value": gap, "low": gap - 1, "high": gap + 1}
     content = {
         "machine": "machine.toml",
+        "settings": (EXAMPLE / "machine.toml").read_text().replace("2978.274402400813", str(gap)),
         "marks": [{}] * 9,
         "distances": [],
         "before_mm": 8.9,
