@@ -64,10 +64,9 @@ class Decision:
     @in_json
     def state(self) -> Annotated[str, among(STATES)]:
         """Result for the machine."""
-        if self.diagnosis.outliers:
-            return "read_again"
         if self.addition is None:
-            return "good" if self.diagnosis.is_good else "measure_first"
+            state = self.diagnosis.state
+            return state if state in ("read_again", "good") else "measure_first"
         if self.addition.stops:
             return "impossible"
         if not self.is_explained:
@@ -156,12 +155,13 @@ def decide(inputs: Inputs, *, patch: bool = False, diagnosis: Diagnosis | None =
     """
     diagnosis = diagnosis or diagnose(inputs)
     inputs = replace(inputs, checked=(*inputs.checked, *diagnosis.usual))
-    if diagnosis.verdict == "slip":
-        return Decision(diagnosis, inputs, _slip_reason(diagnosis))
-    if diagnosis.left_open.is_too_much:
-        return Decision(diagnosis, inputs, f"nothing was added. {diagnosis.left_open.sentence}")
-    if diagnosis.is_good:
-        return Decision(diagnosis, inputs, GOOD)
+    nothing = {
+        "read_again": _slip_reason(diagnosis),
+        "measure_first": f"nothing was added. {diagnosis.left_open.sentence}",
+        "good": GOOD,
+    }
+    if diagnosis.state in nothing:
+        return Decision(diagnosis, inputs, nothing[diagnosis.state])
     is_known = diagnosis.verdict != "not_in_library"
     try:
         # The noise is that of the diagnosis: what is usual would count twice in another posterior.
