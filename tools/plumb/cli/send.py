@@ -30,7 +30,7 @@ from plumb.settings.files import read_settings
 from plumb.settings.machine import MachineSettings
 from plumb.text.answers import meant
 from plumb.text.errors import InputError
-from plumb.text.files import read_text
+from plumb.text.files import ReadOnce, read_text
 
 SETTINGS = (
     "machine.toml",
@@ -79,8 +79,7 @@ def run(arguments: argparse.Namespace) -> int:
 
 def _send(arguments: argparse.Namespace, answer: SendAnswer) -> bool:
     """Send it and note what comes of it; whether all was done."""
-    what = arguments.what
-
+    what = ReadOnce(arguments.what)
     numbers = _numbers(what, back=arguments.undo) if not arguments.more else None
     text = _program(what, arguments.more) if numbers is None else []
     marks_of = None if arguments.force else _cut_with(what, text)

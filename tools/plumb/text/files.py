@@ -24,10 +24,13 @@ MB = 1_000_000
 # A file of marks or settings has a few kilobytes; more is some other file picked by mistake.
 LARGEST_FILE = 5 * MB
 _follows: ContextVar[bool] = ContextVar("follows", default=True)
-_PIPED: dict[str, bytes] = {}  # what came through pipes, which can be read only once
-
-
 CODE = re.compile(r"(?mi)^\s*(?:n\d+\s*)?[gm]\d{1,3}(?![\w=:])")  # a line of G-code
+
+
+class ReadOnce(str):
+    """The name of a file, with what was in it when it was read: a pipe can be read only once."""
+
+    content = b""
 
 
 @contextmanager
@@ -61,15 +64,15 @@ def read_bytes(path: Source, *, most: int = LARGEST_FILE) -> bytes:
         if place.is_dir():
             raise InputError(path, "is a folder", remedy="name the file inside it")
         # A device says no size, so one byte more than allowed is asked for.
-        content = _PIPED.get(str(path))
+        content = path.content if isinstance(path, ReadOnce) else b""
         if not content:
             with os.fdopen(opened(path, os.O_RDONLY), "rb") as file:
                 content = file.read(most + 1)
         if len(content) > most:
             why = f"is larger than {most // MB} MB"
             raise InputError(path, why, remedy="check that it is the right file")
-        if not place.is_file():
-            _PIPED[str(path)] = content
+        if isinstance(path, ReadOnce):
+            path.content = content
     except FileNotFoundError:
         raise InputError(path, "there is no such file", remedy="check the name") from None
     except (OSError, ValueError) as error:
