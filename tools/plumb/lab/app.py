@@ -23,7 +23,7 @@ from plumb.lab.guide_desk import GuideDesk
 from plumb.lab.machine_line import MachineLine
 from plumb.lab.phones import Phones
 from plumb.lab.project import ChangedError, Project
-from plumb.text.errors import InputError, read_on_page
+from plumb.text.errors import InputError, on_page
 from plumb.text.files import links_refused
 
 PAGE = Path(__file__).parent / "page"
@@ -67,19 +67,19 @@ def lab_app(folder: Path, *, address: Address, token: str, paired: Phones | None
 
 
 class _ForPage:
-    """Messages are read on the page, and no link is followed: a folder may come from elsewhere."""
+    """No link is followed: a folder may come from elsewhere."""
 
     def __init__(self, app: ASGIApp) -> None:
         self._app = app
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
-        with read_on_page(), links_refused():
+        with links_refused():
             await self._app(scope, receive, send)
 
 
 async def _refusal(request: Request, error: Exception) -> JSONResponse:
     """Return what cannot be used, in a line."""
-    return JSONResponse({"error": str(error)}, 422)
+    return JSONResponse({"error": on_page(error)}, 422)
 
 
 async def _changed(request: Request, error: Exception) -> JSONResponse:

@@ -34,7 +34,7 @@ from plumb.line.sender import Sender
 from plumb.line.worker import LineState
 from plumb.settings.files import read_settings
 from plumb.settings.toml import machine_toml
-from plumb.text.errors import InputError
+from plumb.text.errors import InputError, on_page
 from plumb.vm.garage import RANDOM
 from plumb.vm.owner import VirtualOwner
 from plumb.vm.practice import SECRET, Secret
@@ -327,5 +327,5 @@ def _press(line: MachineLine, what: str) -> str:
     try:
         line.worker.stop() if what == "stop" else line.worker.hold()
     except InputError as error:
-        return str(error)
+        return on_page(error)
     return ""
