@@ -108,7 +108,7 @@ def _send(arguments: argparse.Namespace, answer: SendAnswer) -> bool:
 def _numbers(what: str, *, back: bool) -> list[str] | None:
     """Return the numbers of a machine.toml, or those before it was sent; None for a program."""
     if back:
-        return kept_before(what)
+        return kept_before(Path(what))
     if not what.endswith(".toml"):
         return None
     refuse_other_files(what, read_text(what))
@@ -152,9 +152,9 @@ def _write(
     sender: Sender, path: str, lines: list[str], *, back: bool
 ) -> tuple[WrittenNumbers, str]:
     """Write numbers; the file that keeps the numbers before."""
-    written, kept, failure = write_and_keep(sender, path, lines, back=back)
+    written, kept, failure = write_and_keep(sender, Path(path), lines, back=back)
     say_failure(failure)
-    return written, kept
+    return written, str(kept)
 
 
 def _print_written(arguments: argparse.Namespace, done: tuple[WrittenNumbers, str]) -> None:

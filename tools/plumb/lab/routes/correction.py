@@ -295,7 +295,7 @@ def _client_files(project: Project, choices: Choices, made: Addition, name: str)
         made.settings,
         client=CLIENT_OF[Path(original).suffix] if original else NO_CLIENT,
         firmware="plumb",
-        original=str(project.path(original)) if original else None,
+        original=project.path(original) if original else None,
         lines=str(project.path(f"{Path(name).stem}.nc")),
     )
 

@@ -243,9 +243,9 @@ def undo(request: NumbersRequest, project: TheProject, line: TheLine) -> Numbers
 def _written(
     line: MachineLine, project: Project, file: str, lines: list[str], *, back: bool = False
 ) -> NumbersAnswer:
-    path = str(project.path(file))
+    path = project.path(file)
 
-    def write(sender: Sender) -> tuple[WrittenNumbers, str, str]:
+    def write(sender: Sender) -> tuple[WrittenNumbers, Path, str]:
         # With other numbers the reported place is another, which looks like a move.
         sender.await_rest()
         try:

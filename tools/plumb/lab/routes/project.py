@@ -156,7 +156,7 @@ def laid_down(project: Project, file: UploadFile, ending: str) -> Iterator[Path]
     try:
         with os.fdopen(handle, "wb") as copy:  # shut at once: Windows reads no open one
             copy.write(file.file.read())
-        yield Path(name)
+        yield project.folder / Path(name).name
     except InputError as error:
         said = on_page(error).replace(name, file.filename or f"the file{ending}")
         raise InputError(said.replace(f"{project.folder}{os.sep}", "")) from None
