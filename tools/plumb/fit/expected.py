@@ -238,4 +238,4 @@ def _why(check: Checked, settings: MachineSettings) -> str:
 
 
 def _said(check: Checked) -> str:
-    return f"{to_do('--checked', page='known')} {check.name}={check.value:g}"
+    return to_do("--checked", page="known") + f" {check.name}={check.value:g}"

@@ -23,7 +23,7 @@ from plumb.plan.options import MARK, READING, ROUND
 from plumb.settings.cut_with import cut_with_lines, digest_of, with_form
 from plumb.settings.machine import MachineSettings
 from plumb.text.commands import quoted
-from plumb.text.errors import InputError
+from plumb.text.errors import InputError, Source
 from plumb.text.files import is_ours, numbered
 
 FORM, PROGRAM = "marks{}.toml", "grid{}.nc"
@@ -38,7 +38,7 @@ def round_files(
     project: Project, choices: Choices, plan: Planned, text: str, *, form: str, program: str
 ) -> dict[str, bytes]:
     """Return the form of a round and its program, by their names."""
-    settings, path = str(project.path(choices.settings)), str(project.path(form))
+    settings, path = project.path(choices.settings), str(project.path(form))
     filled = plan.form(path, settings=settings, new_sheet=on_new_sheet(choices))
     return {form: filled.encode(), program: with_form(text, form, program).encode()}
 
@@ -132,7 +132,7 @@ class Planned:
         read = READING * len(self.spans)
         return ROUND + MARK * len(self.touches) + read
 
-    def form(self, path: str, *, settings: str, new_sheet: bool = False) -> str:
+    def form(self, path: str, *, settings: Source, new_sheet: bool = False) -> str:
         """Return the form at that path that waits for readings of marks cut with these settings."""
         named = cut_with_lines(settings, path)
         return marks_list(self.grid, self.machine, named, new_sheet=new_sheet)

@@ -15,7 +15,7 @@ from plumb.lab.app import schema
 from plumb.lab.server import TOKEN_FILE
 from plumb.settings.cut_with import digest_of, settings_as_they_were
 from plumb.text.errors import InputError
-from plumb.text.files import links_refused, write_all
+from plumb.text.files import Unlinked, write_whole
 from screens import measured_machine, walk
 from served_lab import serve
 from systems import ON_POSIX
@@ -216,14 +216,13 @@ def test_settings_by_their_digest_are_not_sought_through_a_link(folder, outside)
     assert settings_as_they_were(named, digest_of(outside)) is None
     (folder / "old.ini").unlink()
     (folder / "old.ini").write_bytes(outside.read_bytes())
-    assert settings_as_they_were(named, digest_of(outside)) == str(folder / "old.ini")
+    assert settings_as_they_were(named, digest_of(outside)) == folder / "old.ini"
 
 
 @ON_POSIX
 def test_a_result_takes_the_place_of_a_link_and_never_goes_through_it(folder, outside):
     (folder / "machine.nc").symlink_to(outside)
-    with links_refused():
-        write_all({str(folder / "machine.nc"): b"new"})
+    write_whole(Unlinked(folder) / "machine.nc", b"new")
     assert outside.read_text() == SECRET
     assert not (folder / "machine.nc").is_symlink()
     assert (folder / "machine.nc").read_bytes() == b"new"

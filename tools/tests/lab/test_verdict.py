@@ -8,7 +8,6 @@ from folder import PATIENCE, example_form, finished, with_marks
 from plumb import api
 from plumb.diagnosis.answer import verdict_sentence
 from plumb.fit.observations import rms
-from plumb.text.errors import read_on_page
 
 
 @pytest.fixture
@@ -20,8 +19,7 @@ def test_the_verdict_is_that_of_the_command_line(client, tmp_path):
     verdict = finished(client, "verdict")["verdict"]
     inputs = api.read(tmp_path / "groundcontrol.ini", tmp_path / "marks.toml")
     diagnosis = api.diagnose(inputs)
-    with read_on_page():
-        assert verdict["sentence"] == verdict_sentence(diagnosis)
+    assert verdict["sentence"] == verdict_sentence(diagnosis)
     assert "(chain_" not in verdict["sentence"]
     assert verdict["apart"].startswith("On the sheet the likely causes differ by 2.1 mm in")
     assert len(verdict["cards"]) + verdict["more_cards"] == len(diagnosis.explanations)

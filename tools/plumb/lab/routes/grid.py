@@ -51,7 +51,7 @@ from plumb.model.predict import known_effects
 from plumb.plan.options import HANGING, MARK, ROUND
 from plumb.plan.planned_visits import refuse_way
 from plumb.settings.machine import MachineSettings
-from plumb.text.errors import InputError
+from plumb.text.errors import InputError, on_page
 from plumb.vm.owner import VirtualOwner
 
 router = APIRouter(tags=["grid"])
@@ -125,7 +125,7 @@ def _shown(project: Project) -> GridAnswer:
         refuse_unreachable(plan, settings)
         text = program(plan.grid, plan.machine)
     except (ValueError, InputError) as error:
-        text, trouble = "", str(error)
+        text, trouble = "", on_page(error)
     form, file = next_names(project)
     files = round_files(project, choices, plan, text, form=form, program=file)
     there = project.read(form)
@@ -150,7 +150,7 @@ def _shown_taken(taken: Taken, settings: MachineSettings, choices: Choices) -> G
     try:
         refuse_way(settings, taken.marks)
     except InputError as error:
-        trouble = str(error)
+        trouble = on_page(error)
     lines = _lines_of_marks(taken.text)
     minutes = ROUND + MARK * len(taken.marks) + HANGING * bool(taken.waits)
     return GridAnswer(

@@ -28,7 +28,7 @@ from plumb.marks.model import tape_sigma
 from plumb.plan.preview import Outline, Preview, as_read, preview
 from plumb.plan.sheet_reach import SheetReach, reach_of
 from plumb.settings.machine import MachineSettings
-from plumb.text.errors import InputError
+from plumb.text.errors import InputError, on_page
 from plumb.text.values import worded
 
 router = APIRouter(tags=["plan"])
@@ -222,5 +222,5 @@ def _trouble(settings: MachineSettings, request: PlanRequest) -> str:
     try:
         refuse_unreachable(planned(settings, request.layout, request.places), settings)
     except (ValueError, InputError) as error:
-        return str(error)
+        return on_page(error)
     return ""

@@ -23,6 +23,7 @@ from plumb.lab.routes.project import TheProject, of_lab
 from plumb.model.catalogue import every_effect
 from plumb.model.plain import noun_of, plainly, ranked
 from plumb.text.answers import like
+from plumb.text.errors import on_page
 from plumb.text.values import worded
 
 router = APIRouter(tags=["verdict"])
@@ -148,7 +149,7 @@ def verdict_of(inputs: api.Inputs, diagnosis: Diagnosis, decision: Decision) -> 
         sureness=_sureness(decision),
         unseen=unseen_by(diagnosis, SHOWN),
         slips=[slip.sentence for slip in diagnosis.outliers],
-        notes=[*diagnosis.disagreements, *diagnosis.warnings],
+        notes=[*diagnosis.disagreements, *map(on_page, diagnosis.warnings)],
         step=decision.step,
     )
 
