@@ -25,11 +25,12 @@ from plumb.firmware.settings import (
 )
 from plumb.fit.inputs import settings_in
 from plumb.lab.project import Project
-from plumb.lab.rounds import opened, taken_marks
+from plumb.lab.rounds import opened, settings_of
 from plumb.line.bootloader import hex_file, write_program
 from plumb.line.port import SerialPort
 from plumb.line.sender import Sender, StoppedError
 from plumb.line.worker import LineState, LineWorker
+from plumb.settings.machine import MachineSettings
 from plumb.text.errors import InputError
 from plumb.vm.owner import PacedPort, VirtualOwner, set_up
 
@@ -236,21 +237,16 @@ def held_otherwise(project: Project, line: MachineLine) -> tuple[Difference, ...
     """Return what the open settings and the connected machine say otherwise, as far as both are
     known.
     """
-    choices = project.choices
-    if not choices.settings or not line.state.numbers:
-        return ()
-    return differences(settings_in(project.path(choices.settings)), line.state.numbers)
+    settings = settings_of(project, project.choices)
+    return differences(settings, line.state.numbers) if settings and line.state.numbers else ()
 
 
 def is_fit_of_machine(project: Project, line: MachineLine) -> bool:
     """Return whether the open settings were fitted to marks of the machine as it is: they go into
     it next.
     """
-    choices = project.choices
-    if not choices.settings:
-        return False
-    record = settings_in(project.path(choices.settings)).fitted
-    boards = record.boards if record else ()
+    settings = settings_of(project, project.choices)
+    boards = settings.fitted.boards if settings and settings.fitted else ()
     return any(not differences(board.cut_with, line.state.numbers) for board in boards)
 
 
@@ -260,15 +256,14 @@ def refuse_unknown_place(line: MachineLine) -> None:
         raise InputError("where the sled is, is not known: set its chains first")
 
 
-def refuse_other_machine(project: Project, line: MachineLine) -> None:
+def refuse_other_machine(
+    project: Project, line: MachineLine, cut_with: MachineSettings | None
+) -> None:
     """InputError unless the machine, asked now, holds the numbers that its next marks name: those
-    of the open settings, or of the form that somebody took."""
-    choices = project.choices
+    of the open settings, or of their form."""
     settings = opened(project)
-    taken = taken_marks(project, choices)
-    named = taken and taken.cut_with
-    file = named.file.name if named and named.file else choices.settings
-    refuse_other_numbers(named or settings, line.read_numbers(), file=file)
+    file = cut_with.file.name if cut_with and cut_with.file else project.choices.settings
+    refuse_other_numbers(cut_with or settings, line.read_numbers(), file=file)
 
 
 def refuse_unanswered(project: Project, line: MachineLine) -> None:

@@ -1,24 +1,26 @@
-"""The files of a round of marks, form and program, numbered; readings are never replaced."""
+"""Rounds of marks: form and program, numbered, where the marks are, and who proposed them. Readings
+are never replaced."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Container, Mapping, Sequence
-from dataclasses import dataclass, replace
-from pathlib import Path, PurePath
+from collections.abc import Container, Iterable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from pathlib import PurePath
+from typing import Literal
 
 from plumb import api
 from plumb.fit.inputs import settings_in
 from plumb.fit.problem import PRIORS, Checked
-from plumb.grid import PRESETS, Grid, PlainMachine, marks_list, spans_of, touches_of
+from plumb.grid import PRESETS, Grid, PlainMachine, marks_list, program, spans_of, touches_of
 from plumb.grid.pattern import Touch
 from plumb.lab.known import refuse_absurd_known, stated
-from plumb.lab.project import Choices, Layout, Project
-from plumb.line.progress import Wait, waits_in
-from plumb.marks.form import read_form
+from plumb.lab.project import FILE, Choices, Layout, Project, read_choices
+from plumb.marks.form import Form, read_form
 from plumb.marks.read import Mark, read_marks
 from plumb.model.predict import known_effects
 from plumb.model.reach import plain_machine, refuse_way, with_soft_chains
+from plumb.plan import planned_visits
 from plumb.plan.options import MARK, READING, ROUND
 from plumb.settings.cut_with import cut_with_lines, digest_of, with_form
 from plumb.settings.machine import MachineSettings
@@ -26,7 +28,9 @@ from plumb.text.commands import quoted
 from plumb.text.errors import InputError, Source
 from plumb.text.files import is_ours, numbered
 
-FORM, PROGRAM = "marks{}.toml", "grid{}.nc"
+ENDING = ".toml"  # of a form
+CHECK = "check"  # beginning of the names of check marks, which take part only on request
+MARKS, CHECKS = ("marks", "grid"), (CHECK, CHECK)  # beginnings of the names of form and program
 
 
 def on_new_sheet(choices: Choices) -> bool:
@@ -34,6 +38,7 @@ def on_new_sheet(choices: Choices) -> bool:
     return choices.new_sheet and bool(choices.marks)
 
 
+<<<<<<< HEAD
 def round_files(
     project: Project, choices: Choices, plan: Planned, text: str, *, form: str, program: str
 ) -> dict[str, bytes]:
@@ -43,6 +48,8 @@ def round_files(
     return {form: filled.encode(), program: with_form(text, form, program).encode()}
 
 
+=======
+>>>>>>> 7195869817a47487c0328a55c22663ebf6958658
 def kept_settings(project: Project, choices: Choices) -> dict[str, bytes]:
     """Return the open settings as a file that stays, by the digest that a form names."""
     name = choices.settings
@@ -63,28 +70,28 @@ def grid_command(
     return command("grid", "--settings", choices.settings, *plan.words(), *sheet, *files, *force)
 
 
-def cut_commands(
-    project: Project, choices: Choices, plan: Planned, *, form: str, program: str
-) -> str:
-    """Return that command, and below it the command that cuts the marks."""
-    made = grid_command(project, choices, plan, form=form, program=program)
-    return f"{made}\n{command('send', program)}"
-
-
-def next_names(project: Project) -> tuple[str, str]:
+def next_names(project: Project, names: tuple[str, str] = MARKS) -> tuple[str, str]:
     """Return the names of the next round's form and program, which end in nothing, or -2, -3 ..."""
+    form, program = names
     number = next(
         each
         for each in numbered("")
-        if not has_readings(project, FORM.format(each)) and not _is_foreign(project, each)
+        if not has_readings(project, f"{form}{each}{ENDING}")
+        and not _is_foreign(project, f"{program}{each}.nc")
     )
-    return FORM.format(number), PROGRAM.format(number)
+    return f"{form}{number}{ENDING}", f"{program}{number}.nc"
 
 
-def _is_foreign(project: Project, number: str) -> bool:
-    """Return whether the program of a round would replace one that the lab did not write."""
-    name = PROGRAM.format(number)
-    return project.read(name) is not None and not is_ours(project.path(name))
+def _is_foreign(project: Project, program: str) -> bool:
+    """Return whether a program is there that the lab did not write."""
+    return project.read(program) is not None and not is_ours(project.path(program))
+
+
+def form_of(project: Project, choices: Choices, name: str) -> Form:
+    """Return a form of the folder. Raises InputError."""
+    settings = settings_of(project, choices)
+    sheet = settings.sheet if settings else (0.0, 0.0)
+    return read_form(project.path(name), sheet=sheet, known=known_effects())
 
 
 def has_readings(project: Project, name: str) -> bool:
@@ -92,9 +99,12 @@ def has_readings(project: Project, name: str) -> bool:
     if project.read(name) is None:
         return False
     try:
-        form = read_form(project.path(name), sheet=(0.0, 0.0), known=known_effects())
+        return _is_read(form_of(project, project.choices, name))
     except InputError:
         return True  # whatever it is, somebody wrote it
+
+
+def _is_read(form: Form) -> bool:
     return bool(form.measurements.measured_marks or form.measurements.distances)
 
 
@@ -156,10 +166,14 @@ def planned(settings: MachineSettings, layout: Layout, places: Sequence[Place]) 
     return Planned(layout, grid, machine, touches)
 
 
-def refuse_unreachable(plan: Planned, settings: MachineSettings) -> None:
-    """Raise GridError or InputError if the sled cannot take the way to all marks."""
+def unreachable(plan: Planned, settings: MachineSettings) -> str:
+    """Return why the sled cannot take the way to all marks; empty if it can."""
     soft = with_soft_chains(replace(settings.as_plumb_model()))[0]
-    refuse_way(plan.grid, plan.machine, soft)
+    try:
+        refuse_way(plan.grid, plan.machine, soft)
+    except (ValueError, InputError) as error:
+        return str(error)
+    return ""
 
 
 def in_turn(places: Sequence[Place]) -> list[Place]:
@@ -177,26 +191,110 @@ def in_turn(places: Sequence[Place]) -> list[Place]:
     ]
 
 
+# A round: marks that are to be cut, whoever proposed them.
+
+# Who says where they are: the owner, the verdict, or nobody: they are as far away as can be.
+Origin = Literal["chosen", "proposed", "check"]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Round:
+    """Marks of a form, and the program that cuts them."""
+
+    origin: Origin
+    form: str
+    program: str
+    text: str  # the G-code; empty where it cannot be made
+    marks: tuple[Mark, ...]  # in the order in which they are cut
+    command: str
+    trouble: str = ""  # why the sled cannot take this way; empty if it can
+    new_sheet: bool = False
+    cut_with: MachineSettings | None = None  # that the form names; None: those that are open
+    # Written before it is cut, with the digests of what they replace; empty: it is in the folder.
+    files: Mapping[str, bytes] = field(default_factory=dict)
+    read: Mapping[str, str] = field(default_factory=dict)
+
+    def is_saved(self, project: Project) -> bool:
+        """Return whether its files are in the folder as they would be written now."""
+        return all(project.read(name) == content for name, content in self.files.items())
+
+    def save(self, project: Project) -> None:
+        """Write its files. Raises ChangedError, and InputError if the sled cannot take its way."""
+        if self.trouble:
+            raise InputError(self.trouble)
+        if self.files:
+            project.save({**self.files, **kept_settings(project, project.choices)}, read=self.read)
+
+
+def chosen_round(project: Project) -> Round:
+    """Return the marks of the chosen layout, or those that somebody took from the verdict."""
+    choices, digest = read_choices(project)
+    settings = opened(project)
+    if is_taken(project, choices.proposed):
+        taken = saved_round(project, choices.proposed, "proposed")
+        try:
+            planned_visits.refuse_way(settings, taken.marks)
+        except InputError as error:
+            return replace(taken, trouble=str(error))
+        return taken
+    plan = planned(settings, choices.layout, choices.planned)
+    names, read = next_names(project), {FILE: digest}
+    return new_round(project, choices, plan, names, origin="chosen", read=read)
+
+
+def new_round(
+    project: Project,
+    choices: Choices,
+    plan: Planned,
+    names: tuple[str, str],
+    *,
+    origin: Origin,
+    read: Mapping[str, str] | None = None,
+) -> Round:
+    """Return a round of planned marks, for files of these names."""
+    form, file = names
+    settings, path = str(project.path(choices.settings)), str(project.path(form))
+    new_sheet = on_new_sheet(choices)
+    digests = {name: project.digest(name) for name in names}
+    trouble = unreachable(plan, opened(project))
+    text = "" if trouble else program(plan.grid, plan.machine)
+    filled = plan.form(path, settings=settings, new_sheet=new_sheet)
+    made = grid_command(project, choices, plan, form=form, program=file)
+    return Round(
+        origin=origin,
+        form=form,
+        program=file,
+        text=text,
+        marks=tuple(
+            Mark(touch.name, (touch.x, touch.y)) for touch in touches_of(plan.grid, plan.machine)
+        ),
+        command=f"{made}\n{command('send', file)}",
+        trouble=trouble,
+        new_sheet=new_sheet,
+        files={form: filled.encode(), file: with_form(text, form, file).encode()},
+        read={**(read or {}), **digests},
+    )
+
+
+def saved_round(project: Project, form: str, origin: Origin) -> Round:
+    """Return a round that is in the folder."""
+    measurements = form_of(project, project.choices, form).measurements
+    file = program_name(form)
+    return Round(
+        origin=origin,
+        form=form,
+        program=file,
+        text=(project.read(file) or b"").decode(errors="replace"),
+        marks=measurements.marks,
+        command=command("send", file),
+        cut_with=measurements.rounds[0].cut_with,
+    )
+
+
 # A proposal that was accepted into the folder: its form, and the program that cuts it.
 
 STEM = "more"  # as plumb next calls them
 FORM_NAME = re.compile(rf"{STEM}(-\d+)?\.toml")
-
-
-@dataclass(frozen=True)
-class Taken:
-    """Marks that are to be cut because the verdict proposed them."""
-
-    form: str
-    program: str
-    text: str  # the G-code
-    marks: tuple[Mark, ...]  # in the order in which they are cut
-    cut_with: MachineSettings | None = None  # that the form names
-
-    @property
-    def waits(self) -> tuple[Wait, ...]:
-        """The pauses of the program."""
-        return tuple(waits_in(self.text.splitlines()))
 
 
 def program_name(form: str) -> str:
@@ -211,20 +309,10 @@ def is_read_again(project: Project, form: str) -> bool:
     return bool(FORM_NAME.fullmatch(form)) and project.read(program_name(form)) is None
 
 
-def taken_marks(project: Project, choices: Choices) -> Taken | None:
-    """Return what was taken and is to be cut; None once it has readings, and where nothing
-    is cut.
-    """
-    form = choices.proposed
-    if not FORM_NAME.fullmatch(form) or project.read(form) is None or has_readings(project, form):
-        return None
-    text = project.read(program_name(form))
-    if text is None:
-        return None
-    sheet = settings_in(project.path(choices.settings)).sheet if choices.settings else (0.0, 0.0)
-    measured = read_form(project.path(form), sheet=sheet, known=known_effects()).measurements
-    cut_with = measured.rounds[0].cut_with
-    return Taken(form, program_name(form), text.decode(), measured.marks, cut_with)
+def is_taken(project: Project, form: str) -> bool:
+    """Return whether a form was accepted, is cut by a program, and has no readings yet."""
+    there = FORM_NAME.fullmatch(form) and None not in map(project.read, [form, program_name(form)])
+    return bool(there) and not has_readings(project, form)
 
 
 # The `plumb` command that does the same as a screen, with every choice that counts there.
@@ -236,16 +324,11 @@ def command(*words: str) -> str:
 
 
 def known_words(
-    choices: Choices, *, effects: Collection[str] | None = None, held: Collection[str] = ()
+    choices: Choices, *, effects: Container[str] | None = None, held: Container[str] = ()
 ) -> list[str]:
     """Return what the owner knows, as far as a fit of these effects takes it; None: any effect."""
     known = stated(choices)
-    words = []
-    for check in known.checked:
-        effect = check.name.rpartition(".")[0]
-        if (effects is None or not effect or effect in effects) and check.name not in held:
-            words += ["--checked", f"{check.name}={check.value:.12g}+-{check.sigma:.12g}"]
-    return [*prior_words(known.priors), *words]
+    return [*prior_words(known.priors), *checked_words(known.checked, effects, held)]
 
 
 def prior_words(priors: Mapping[str, float], usual: Mapping[str, float] = PRIORS) -> list[str]:
@@ -257,11 +340,14 @@ def prior_words(priors: Mapping[str, float], usual: Mapping[str, float] = PRIORS
     return words
 
 
-def usual_words(usual: Sequence[Checked], effects: Sequence[str], but: Container[str]) -> list[str]:
-    """Return what is usual of the sizes of these effects, as a command takes it."""
+def checked_words(
+    checks: Iterable[Checked], effects: Container[str] | None, but: Container[str]
+) -> list[str]:
+    """Return what is known of numbers, as far as a fit of these effects takes it; None: any."""
     words = []
-    for each in usual:
-        if each.name.rpartition(".")[0] in effects and each.name not in but:
+    for each in checks:
+        effect = each.name.rpartition(".")[0]
+        if (effects is None or not effect or effect in effects) and each.name not in but:
             words += ["--checked", f"{each.name}={each.value:.12g}+-{each.sigma:.12g}"]
     return words
 
@@ -278,9 +364,15 @@ def unit_words(choices: Choices, typed: str = "mm") -> list[str]:
 
 def opened(project: Project) -> MachineSettings:
     """Return the opened settings. Raises InputError if none are open."""
-    if not project.choices.settings:
+    settings = settings_of(project, project.choices)
+    if settings is None:
         raise InputError("no settings are open; open the settings of the machine first")
-    return settings_in(project.path(project.choices.settings))
+    return settings
+
+
+def settings_of(project: Project, choices: Choices) -> MachineSettings | None:
+    """Return the opened settings; None if none are open. Raises InputError."""
+    return settings_in(project.path(choices.settings)) if choices.settings else None
 
 
 def inputs_of(project: Project, *, among: Sequence[str] | None = None) -> api.Inputs:
@@ -322,14 +414,8 @@ def board_words(project: Project) -> list[str]:
 
 def read_names(project: Project, among: Sequence[str], choices: Choices) -> list[str]:
     """Return those of these files of marks that have readings."""
-    settings = project.path(choices.settings)
-    return [name for name in among if _has_readings(project.path(name), settings)]
-
-
-def _has_readings(path: Path, settings: Path) -> bool:
-    """Return whether any mark of a form is read; other files have nothing else."""
-    if path.suffix != ".toml":
-        return True
-    sheet = settings_in(settings).sheet
-    measurements = read_form(path, sheet=sheet, known=known_effects()).measurements
-    return bool(measurements.measured_marks or measurements.distances)
+    return [
+        name
+        for name in among
+        if not name.endswith(ENDING) or _is_read(form_of(project, choices, name))
+    ]

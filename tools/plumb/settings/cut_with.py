@@ -39,8 +39,8 @@ def with_form(program: str, form: str, path: str) -> str:
     near = _near(form, path)
     if not near.isascii() or not near.isprintable() or set(near) & set("()") or len(near) > LONGEST:
         return program
-    first, rest = program.split("\n", 1)
-    return f"{first}\n(form: {near})\n{rest}"
+    first, *rest = program.split("\n", 1)
+    return "\n".join([first, f"(form: {near})", *rest])
 
 
 def _near(path: Source, other: str) -> str:

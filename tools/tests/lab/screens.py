@@ -87,7 +87,7 @@ def fitted_machine(folder: Path) -> Path:
 def with_check_marks(lab):
     """Two check marks are cut and read, the second far off."""
     with lab.client() as client:
-        got(client.post("/api/check"))
+        got(client.post("/api/rounds/check"))
         type_in(client, "check.toml", (0.3, 0), (4.0, 0))
 
 
@@ -97,8 +97,16 @@ def with_virtual_machine(lab, far=lambda program: program["done"] > program["tot
         got(client.post("/api/machine/virtual", json={"seed": 9, "speed": 1000}))
         until(client, lambda machine: machine["phase"] == "ready")
         got(client.post("/api/machine/settings"))
+<<<<<<< HEAD
         got(client.post("/api/grid/cut"))
         until(client, lambda machine: far(machine["program"]))
+=======
+        got(client.post("/api/rounds/marks/cut"))
+        until(
+            client,
+            lambda machine: machine["program"]["done"] > machine["program"]["total"] / 2,
+        )
+>>>>>>> 7195869817a47487c0328a55c22663ebf6958658
         got(client.post("/api/machine/speed", json={"speed": 1}))
 
 

@@ -77,18 +77,18 @@ def test_a_mark_counts_as_cut_or_perhaps_cut_and_never_back(tmp_path):
 def test_check_marks_that_broke_off_are_asked_for_too(lab, page):
     fitted_machine(lab.folder)
     with lab.client() as client:
-        got(client.post("/api/check"))
+        got(client.post("/api/rounds/check"))
         # It is sent as it was made; in the folder it names its form too.
         told = (lab.folder / "check.nc").read_text().splitlines(keepends=True)
         line = Line()
         sent = "".join(line for line in told if not line.startswith("("))
         begin(Project(lab.folder), line, "check.nc", sent)
         line.sent["came"](0, 7)  # the first plunge has left
-        check = got(client.get("/api/check"))
+        check = got(client.get("/api/check"))["round"]
         assert (check["broke_off"], check["perhaps"], check["goes_on"]) == (0, 1, True)
         assert (
             "no machine is connected"
-            in got(client.post("/api/check/go-on", json={"cut": 0}), 422)["error"]
+            in got(client.post("/api/rounds/check/go-on", json={"cut": 0}), 422)["error"]
         )
     page.goto(f"{lab.url}#/check")
     said = "Cut 0 of 2 marks, then it broke off. The machine may have cut mark 1 too."
@@ -132,19 +132,19 @@ def test_no_mark_is_cut_twice_after_the_lab_died_in_a_cut(lab, page, garage):
     with lab.client() as client:
         connect(client, garage)
         got(client.post("/api/machine/settings"))
-        got(client.post("/api/grid/cut"))
+        got(client.post("/api/rounds/marks/cut"))
         until(client, lambda machine: garage.marks >= 3)
     lab.process.kill()
     lab.process.wait()
     there = garage.marks_at_rest()
     lab.process = serve(lab.folder, port=lab.port).process
     with lab.client() as client:
-        grid = got(client.get("/api/grid"))
+        grid = got(client.get("/api/rounds/marks"))
         surely, perhaps = grid["broke_off"], grid["perhaps"]
         assert surely < there <= surely + perhaps
         connect(client, garage)
         for wrong in (surely - 1, surely + perhaps + 1):
-            refused = got(client.post("/api/grid/go-on", json={"cut": wrong}), 422)
+            refused = got(client.post("/api/rounds/marks/go-on", json={"cut": wrong}), 422)
             assert "how many marks are on the sheet" in refused["error"]
         page.goto(f"{lab.url}#/cut")
         go_on_from(page, grid["marks"], there)
@@ -168,7 +168,7 @@ def test_a_cut_whose_line_was_lost_goes_on_once_the_machine_knows_its_chains(lab
     page.reload()
     with lab.client() as client:
         connect(client, garage)
-        marks = got(client.get("/api/grid"))["marks"]
+        marks = got(client.get("/api/rounds/marks"))["marks"]
     garage.run_at(SPEED)
     there, lengths = garage.marks, garage.lengths
     button = page.get_by_role("button", name="Set both lengths; nothing moves")

@@ -42,7 +42,7 @@ def where(page):
 def test_two_check_marks_hold_then_miss_and_others_are_planned(lab, page):
     fitted_machine(lab.folder)
     page.goto(f"{lab.url}#/check")
-    page.get_by_role("button", name="Write check.nc and its form").click(timeout=PATIENCE)
+    page.get_by_role("button", name="Save check.nc; nothing moves").click(timeout=PATIENCE)
     page.get_by_label("Mark 2 from the left, mm").wait_for(timeout=PATIENCE)
     first = where(page)
     assert "G1" in (lab.folder / "check.nc").read_text()
@@ -123,7 +123,7 @@ def client(tmp_path):
 
 
 def test_check_marks_take_no_part_unless_asked_for(client, tmp_path):
-    client.post("/api/check")
+    client.post("/api/rounds/check")
     type_in(client, FORM, (0.3, 0.1), (-0.2, 0.4))
     assert client.get("/api/project").json()["choices"]["marks"] == ["marks.toml"]
     names = [file["name"] for file in client.get("/api/readings").json()["files"]]
@@ -140,13 +140,13 @@ def places_in(form):
 
 
 def test_a_second_round_gets_other_places_and_keeps_the_first(client, tmp_path):
-    client.post("/api/check")
+    client.post("/api/rounds/check")
     kept = (tmp_path / "check.toml").read_bytes()
-    got(client.post("/api/check"))
+    got(client.post("/api/rounds/check"))
     assert (tmp_path / "check.toml").read_bytes() == kept
     type_in(client, FORM, (0.3, 0.1), (-0.2, 0.4))
-    got(client.post("/api/check"))
-    assert got(client.get("/api/check"))["form"] == "check-2.toml"
+    got(client.post("/api/rounds/check"))
+    assert got(client.get("/api/check"))["round"]["form"] == "check-2.toml"
     assert (tmp_path / "check.toml").read_bytes() != kept
     first, second = (places_in(tmp_path / name) for name in ("check.toml", "check-2.toml"))
     assert min(math.dist(here, there) for here in first for there in second) > 100
@@ -178,30 +178,32 @@ def another_sheet(folder, *, shift=0.0, turn=0.0):
 
 
 def test_the_form_of_a_new_sheet_says_so(client, tmp_path):
-    got(client.post("/api/grid"))
+    got(client.post("/api/rounds/marks"))
     assert "new_sheet" not in (tmp_path / "marks-2.toml").read_text()
     chosen(tmp_path, new_sheet=True)
-    assert not got(client.get("/api/grid"))["is_saved"]
-    got(client.post("/api/grid"))
+    assert not got(client.get("/api/rounds/marks"))["is_saved"]
+    got(client.post("/api/rounds/marks"))
     form = read_form(tmp_path / "marks-2.toml", sheet=(WIDTH, 1219.2), known=known_effects())
     assert form.measurements.rounds[0].new_sheet
     assert (
-        got(client.get("/api/grid"))["is_saved"]
-        and got(client.get("/api/grid"))["last_form"] == "marks.toml"
+        got(client.get("/api/rounds/marks"))["is_saved"]
+        and got(client.get("/api/rounds/marks"))["last_form"] == "marks.toml"
     )
 
 
 def test_the_next_sheet_is_turned_back_once(client, tmp_path):
-    assert got(client.get("/api/grid"))["sheet_rise"] == pytest.approx(math.tan(TURN) * WIDTH)
+    assert got(client.get("/api/rounds/marks"))["sheet_rise"] == pytest.approx(
+        math.tan(TURN) * WIDTH
+    )
     another_sheet(tmp_path)
     chosen(tmp_path, marks=["marks.toml", "marks-2.toml"])
-    assert got(client.get("/api/grid"))["sheet_rise"] == 0
+    assert got(client.get("/api/rounds/marks"))["sheet_rise"] == 0
     chosen(tmp_path, settings="groundcontrol.ini")
-    assert got(client.get("/api/grid"))["sheet_rise"] == 0
+    assert got(client.get("/api/rounds/marks"))["sheet_rise"] == 0
 
 
 def test_check_marks_go_by_the_sheet_that_they_are_on(client, tmp_path):
-    client.post("/api/check")
+    client.post("/api/rounds/check")
     type_in(client, "check.toml", (0.3, 0))
     before = client.get("/api/check").json()
     assert before["holds"]

@@ -164,7 +164,7 @@ def test_a_diary_that_is_a_link_is_neither_written_nor_read(folder, outside, is_
 
 
 LINKED = ["lab.json", "groundcontrol.ini", "marks.toml", "guide.json", "practice.json"]
-READING = ["project", "readings", "grid", "verdict", "guide", "correction"]
+READING = ["project", "readings", "rounds/marks", "verdict", "guide", "correction"]
 
 
 @ON_POSIX

@@ -48,7 +48,7 @@ def test_a_file_with_another_gap_is_refused_with_both_values(client, folder):
     (gap,) = held["numbers"]
     assert (gap["number"], gap["in_file"], gap["in_machine"]) == (2, 3008.4, 2978.4)
     assert held["file"] == file and held["is_written_here"]
-    refused = got(client.post("/api/grid/cut"), 422)["error"]
+    refused = got(client.post("/api/rounds/marks/cut"), 422)["error"]
     assert f"motor_gap ($2) is 3008.4 in {file} and 2978.4 in the machine" in refused
     assert "Which holds?" in refused
     assert not (folder / "marks.toml").exists()
@@ -59,7 +59,7 @@ def test_accepted_marks_are_cut_only_with_the_settings_of_their_form(client, fol
     other = (folder / "machine.toml").read_text().replace("2978.4", "3008.4")
     (folder / "other.toml").write_text(other)
     choose(client, layout="own", planned=[[0.0, 0.0]])
-    got(client.post("/api/grid"))
+    got(client.post("/api/rounds/marks"))
     form = (folder / "marks.toml").read_text().replace("-40.0]", "-1.0]").splitlines()
     form = [line for line in form if not line.startswith("cut_with")]
     place = form.index('frame = "sheet-top-left"') + 1
@@ -67,8 +67,8 @@ def test_accepted_marks_are_cut_only_with_the_settings_of_their_form(client, fol
     (folder / "more.toml").write_text("\n".join(form) + "\n")
     (folder / "more.nc").write_bytes((folder / "grid.nc").read_bytes())
     choose(client, proposed="more.toml")
-    assert got(client.get("/api/grid"))["is_proposed"]
-    refused = got(client.post("/api/grid/cut"), 422)["error"]
+    assert got(client.get("/api/rounds/marks"))["origin"] == "proposed"
+    refused = got(client.post("/api/rounds/marks/cut"), 422)["error"]
     assert "3008.4 in other.toml and 2978.4 in the machine" in refused
 
 

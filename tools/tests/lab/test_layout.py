@@ -190,7 +190,7 @@ def test_while_the_machine_cuts_every_screen_shows_stop(opened):
 def test_so_do_the_screens_of_a_machine_that_was_corrected(opened, lab):
     sends = "Connect the machine, then send machine.toml"
     page = opened(fitted_machine)
-    none_out_of_view(page, {"correct": sends, "check": "Write check.nc and its form"})
+    none_out_of_view(page, {"correct": sends, "check": "Save check.nc; nothing moves"})
     with_check_marks(lab)
     page.reload()
     none_out_of_view(page, {"check": "Diary →"})
@@ -212,7 +212,7 @@ def saved(folder):
     """A folder whose marks are to be cut: the program and its form are in it."""
     measured_machine(folder)
     with asked(folder) as client:
-        got(client.post("/api/grid"))
+        got(client.post("/api/rounds/marks"))
 
 
 def broken_off(folder, *, marks, begun):
@@ -224,7 +224,7 @@ def broken_off(folder, *, marks, begun):
 def note_break(folder, *, marks, begun):
     """Note how many marks are surely cut, and how many perhaps."""
     with asked(folder) as client:
-        text = got(client.get("/api/grid"))["text"]
+        text = got(client.get("/api/rounds/marks"))["text"]
     cut = BrokenCut(digest=digest_of_sent(text), marks=marks, begun=begun, is_virtual=False)
     (folder / CUT).write_bytes(NOTES.dump_json({"grid-2.nc": cut}))
 

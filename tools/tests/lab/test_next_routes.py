@@ -105,11 +105,15 @@ def test_an_accepted_proposal_is_what_the_command_writes(client, folder):
 
 
 def test_accepted_marks_are_cut_read_and_counted(client, folder):
-    before = got(client.get("/api/grid"))
-    assert (before["program"], before["is_proposed"], before["pauses"]) == ("grid-2.nc", False, [])
+    before = got(client.get("/api/rounds/marks"))
+    assert (before["program"], before["origin"], before["pauses"]) == ("grid-2.nc", "chosen", [])
     take(client, "4 marks with 5 kg more")
-    shown = got(client.get("/api/grid"))
-    assert (shown["program"], shown["form"], shown["is_proposed"]) == ("more.nc", "more.toml", True)
+    shown = got(client.get("/api/rounds/marks"))
+    assert (shown["program"], shown["form"], shown["origin"]) == (
+        "more.nc",
+        "more.toml",
+        "proposed",
+    )
     assert shown["trouble"] == "" and shown["waits"] == len(shown["marks"]) == 4
     assert [pause["do"] for pause in shown["pauses"]] == [
         "let 5.0 kg more hang on the sled, low and in the middle",
@@ -122,7 +126,7 @@ def test_accepted_marks_are_cut_read_and_counted(client, folder):
     type_in(client, "more.toml", (2.0, 0))
     assert got(client.get("/api/project"))["choices"]["marks"] == [MARKS, "more.toml"]
     assert len(got(client.get("/api/bench"))["marks"]) == 13
-    assert got(client.get("/api/grid"))["program"] == "grid-2.nc"
+    assert got(client.get("/api/rounds/marks"))["program"] == "grid-2.nc"
     assert got(client.delete("/api/next"), 422)["error"] == "more.toml has readings, so it stays"
     assert (folder / "more.toml").exists() and (folder / "more.nc").exists()
 
@@ -166,7 +170,7 @@ def test_only_a_form_of_a_proposal_can_be_removed(client, folder, name):
     (folder / "more.toml.bak").write_text("mine")
     choose(folder, proposed=name)
     assert "no proposal was taken" in got(client.delete("/api/next"), 422)["error"]
-    assert got(client.get("/api/grid"))["is_proposed"] is False
+    assert got(client.get("/api/rounds/marks"))["origin"] == "chosen"
     assert {name, "machine.nc"} <= names(folder)
 
 
@@ -201,7 +205,7 @@ def test_a_virtual_machine_bears_the_weight_from_pause_to_pause(client, folder, 
     take(client, "4 marks with 5 kg more")
     with virtual_machine(client):
         got(client.post("/api/machine/numbers", json={"file": "machine.toml"}))
-        got(client.post("/api/grid/cut"))
+        got(client.post("/api/rounds/marks/cut"))
         waiting = until(client, lambda state: state["waits_for"])
         assert waiting["waits_for"].startswith("let 5.0 kg more hang") and waiting["holds"]
         assert borne == [0.0, pytest.approx(5 * 9.81, abs=0.1)]
@@ -211,11 +215,11 @@ def test_a_virtual_machine_bears_the_weight_from_pause_to_pause(client, folder, 
         assert got(client.get("/api/machine"))["program"]["outcome"] == "running"
         got(client.post("/api/machine/go-on"))
         until(client, lambda state: state["program"]["outcome"] == "done")
-        got(client.post("/api/grid/cut"))
+        got(client.post("/api/rounds/marks/cut"))
         until(client, lambda state: state["waits_for"])
         got(client.post("/api/machine/stop"))
         until(client, lambda state: state["phase"] == "ready")
-        got(client.post("/api/grid/cut"))  # whoever gave up begins with nothing on the sled
+        got(client.post("/api/rounds/marks/cut"))  # whoever gave up begins with nothing on the sled
         assert borne[3:5] == [0.0, pytest.approx(5 * 9.81, abs=0.1)] and borne[5] == 0.0
 
 
@@ -225,19 +229,19 @@ def test_a_broken_off_proposal_goes_on_with_its_extra_weight(client, folder, mon
     taking = take(client, "4 marks with 5 kg more")
     with virtual_machine(client, speed=50):
         got(client.post("/api/machine/numbers", json={"file": "machine.toml"}))
-        got(client.post("/api/grid/cut"))
+        got(client.post("/api/rounds/marks/cut"))
         until(client, lambda state: state["waits_for"])
         got(client.post("/api/machine/go-on"))
-        lines = [mark["lines"] for mark in got(client.get("/api/grid"))["marks"]]
+        lines = [mark["lines"] for mark in got(client.get("/api/rounds/marks"))["marks"]]
         until(client, lambda state: state["program"]["done"] > lines[1])
         got(client.post("/api/machine/stop"))
         until(client, lambda state: state["phase"] == "ready")
-        shown = got(client.get("/api/grid"))
+        shown = got(client.get("/api/rounds/marks"))
         on_sheet = shown["broke_off"] + shown["perhaps"]
         assert shown["goes_on"] and 1 <= on_sheet < 4
         borne.clear()
         got(client.post("/api/machine/speed", json={"speed": 1000}))
-        got(client.post("/api/grid/go-on", json={"cut": on_sheet}))
+        got(client.post("/api/rounds/marks/go-on", json={"cut": on_sheet}))
         for asks, more in (("let 5.0 kg more hang", 5 * 9.81), ("take off", 0.0)):
             until(client, lambda state, asks=asks: state["waits_for"].startswith(asks))
             assert borne[-1] == pytest.approx(BELIEVED.sled_weight + more, abs=0.1)
@@ -264,5 +268,5 @@ def test_a_proposal_goes_on_if_all_its_pauses_come_before_its_marks(
     (folder / taking["program"]).write_text(text)
     note = {"digest": digest_of_sent(text), "marks": 1, "begun": 1, "is_virtual": False}
     (folder / CUT).write_text(json.dumps({taking["program"]: note}))
-    shown = got(client.get("/api/grid"))
+    shown = got(client.get("/api/rounds/marks"))
     assert shown["broke_off"] == 1 and shown["goes_on"] == goes_on

@@ -43,7 +43,7 @@ def test_a_sheet_to_print_has_the_marks_that_are_to_be_cut(client, tmp_path, mon
     )
     assert any("marks.toml" in line for line in drawn[1].how)
     # Marks that the verdict proposed and somebody took come before.
-    got(client.post("/api/grid"))
+    got(client.post("/api/rounds/marks"))
     for ending in ("toml", "nc"):
         written = tmp_path / ("marks.toml" if ending == "toml" else "grid.nc")
         written.rename(tmp_path / f"more.{ending}")

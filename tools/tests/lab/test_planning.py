@@ -156,7 +156,7 @@ def test_a_link_to_a_number_opens_its_field(lab, opened):
 
 def test_without_settings_a_line_says_what_is_missing(tmp_path):
     with asked(tmp_path) as client:
-        for path in ("known", "reach", "layouts", "grid"):
+        for path in ("known", "reach", "layouts", "rounds/marks"):
             assert "open the settings" in got(client.get(f"/api/{path}"), 422)["error"]
 
 
@@ -212,7 +212,7 @@ def test_the_plan_that_names_most_causes_is_recommended(client):
 
 
 def test_program_and_form_are_written_and_no_reading_is_overwritten(client, tmp_path):
-    before = got(client.get("/api/grid"))
+    before = got(client.get("/api/rounds/marks"))
     assert not before["is_saved"] and before["trouble"] == ""
     assert (before["form"], before["program"]) == ("marks.toml", "grid.nc")
     lines = list(cleaned(before["text"].splitlines()))
@@ -221,26 +221,34 @@ def test_program_and_form_are_written_and_no_reading_is_overwritten(client, tmp_
         assert lines[mark["lines"] - 3] == f"G1 X{x:g} Y{y:g} F700"
         assert lines[mark["lines"] - 2].startswith("G1 Z-0.5")
     assert [mark["name"] for mark in before["marks"]] == list("123654789")
-    got(client.post("/api/grid"))
-    after = got(client.get("/api/grid"))
+    got(client.post("/api/rounds/marks"))
+    after = got(client.get("/api/rounds/marks"))
     assert after["is_saved"] and after["waits"] == 9
     form_line = "(form: marks.toml)\n"
     assert (tmp_path / "grid.nc").read_text().replace(form_line, "") == after["text"]
     form = tomllib.loads((tmp_path / "marks.toml").read_text())
     assert form["cut_with"] == "groundcontrol.ini" and len(form["mark"]) == 9
     choose(client, layout="fifteen")
-    assert got(client.get("/api/grid"))["form"] == "marks.toml"  # nothing was read yet
+    assert got(client.get("/api/rounds/marks"))["form"] == "marks.toml"  # nothing was read yet
     text = (tmp_path / "marks.toml").read_text()
     read = text.replace("# measured = [ , ]", "measured = [101.0, 102.0]", 1)
     (tmp_path / "marks.toml").write_text(read)
-    got(client.post("/api/grid"))
+    got(client.post("/api/rounds/marks"))
     assert (tmp_path / "marks.toml").read_text() == read
     form = tomllib.loads((tmp_path / "marks-2.toml").read_text())
     assert len(form["mark"]) == 15 and (tmp_path / "grid-2.nc").exists()
 
 
+def test_marks_off_the_sheet_are_refused_in_words_and_nothing_is_written(client, tmp_path):
+    choose(client, layout="own", planned=[[0.0, 0.0], [1300.0, 600.0]])
+    shown = got(client.get("/api/rounds/marks"))
+    assert "sheet" in shown["trouble"] and not shown["is_saved"]
+    assert got(client.post("/api/rounds/marks"), 422)["error"] == shown["trouble"]
+    assert not list(tmp_path.glob("marks*"))
+
+
 def test_a_grid_is_not_cut_without_a_machine(client, tmp_path):
-    assert "connect it first" in got(client.post("/api/grid/cut"), 422)["error"]
+    assert "connect it first" in got(client.post("/api/rounds/marks/cut"), 422)["error"]
     assert (
         "of a virtual machine"
         in got(client.post("/api/machine/readings", json={"form": "marks.toml"}), 422)["error"]

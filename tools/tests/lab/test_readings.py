@@ -199,7 +199,11 @@ def test_the_page_opens_what_the_commands_open(folder, tmp_path):
             shown = got(picked.post("/api/marks", files={"file": (path.name, path.read_bytes())}))
             assert any(mark["read"] for mark in shown["marks"]) or shown["distances"]
             assert path.name in forms["choices"]["marks"]
-    got(picked.get("/api/bench") if (folder / "marks.toml").exists() else picked.get("/api/grid"))
+    got(
+        picked.get("/api/bench")
+        if (folder / "marks.toml").exists()
+        else picked.get("/api/rounds/marks")
+    )
 
 
 FORM = "marks.toml"
@@ -209,7 +213,7 @@ SIDES = [["1", "3"], ["3", "9"], ["9", "7"], ["7", "1"]]
 def chosen(client, layout):
     """The form of a layout, as the page shows it."""
     choose(client, layout=layout)
-    got(client.post("/api/grid"))
+    got(client.post("/api/rounds/marks"))
     return client.get("/api/readings").json()
 
 
@@ -313,4 +317,4 @@ def test_a_choice_during_a_save_is_kept_and_the_save_completes(
 
 
 def test_a_grid_is_refused_if_the_choices_change_meanwhile(client, meanwhile):
-    assert client.post("/api/grid").status_code == 409
+    assert client.post("/api/rounds/marks").status_code == 409

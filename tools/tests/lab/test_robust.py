@@ -201,7 +201,7 @@ def test_a_second_file_is_opened_and_the_first_again(tmp_path):
 @pytest.mark.parametrize("then", ["replaced", "taken away"])
 def test_readings_find_their_settings_though_a_program_replaced_the_file(tmp_path, then):
     client = with_settings(tmp_path)
-    got(client.post("/api/grid"))
+    got(client.post("/api/rounds/marks"))
     type_in(client, "marks.toml", (0, 0))
     first = compared(tmp_path).rms
     path = tmp_path / "groundcontrol.ini"
@@ -221,8 +221,8 @@ def test_readings_find_their_settings_though_a_program_replaced_the_file(tmp_pat
 def test_a_program_of_the_owner_is_not_replaced_by_that_of_a_grid(tmp_path):
     (tmp_path / "grid.nc").write_text("G21\nG0 X10\n")
     client = with_settings(tmp_path)
-    assert got(client.get("/api/grid"))["program"] == "grid-2.nc"
-    got(client.post("/api/grid"))
+    assert got(client.get("/api/rounds/marks"))["program"] == "grid-2.nc"
+    got(client.post("/api/rounds/marks"))
     assert (tmp_path / "grid.nc").read_text() == "G21\nG0 X10\n"
     assert (tmp_path / "marks-2.toml").exists()
 

@@ -134,7 +134,7 @@ def test_the_check(client):
     fitted = ["groundcontrol.ini", "marks.toml", "--effect", "chain_pitch", "-o", "machine.toml"]
     assert main(["add", *fitted]) == 0
     choose(client, settings="machine.toml", units="inch")
-    got(client.post("/api/check"))
+    got(client.post("/api/rounds/check"))
     type_in(client, "check.toml", (0, 4.0))
     shown = got(client.get("/api/check"))
     assert not shown["holds"]
@@ -174,12 +174,12 @@ def test_each_way_to_measure(folder, layout, number, new_sheet):
         choices["marks"] = ["marks.toml"]
     client = lab(folder, **choices)
     planned = got(client.post("/api/preview", json={"layout": layout, "places": PLACES}))
-    shown = got(client.get("/api/grid"))
+    shown = got(client.get("/api/rounds/marks"))
     names = [shown["form"], shown["program"]]
     assert names == [f"marks{number}.toml", f"grid{number}.nc"]
     made = shown["command"].splitlines()[0]
     assert made in planned["command"].splitlines()
-    got(client.post("/api/grid"))
+    got(client.post("/api/rounds/marks"))
     here = {name: (folder / name).read_text() for name in names}
     assert ("new_sheet = true" in here[names[0]]) is new_sheet
     assert ("[[distance]]" in here[names[0]]) is (layout == "distances")
@@ -191,7 +191,7 @@ def test_each_way_to_measure(folder, layout, number, new_sheet):
 
 def test_the_command_replaces_a_form_without_readings_as_the_lab_does(folder):
     client = lab(folder, layout="nine")
-    got(client.post("/api/grid"))
+    got(client.post("/api/rounds/marks"))
     client = lab(folder, layout="fifteen")
-    run(got(client.get("/api/grid"))["command"].splitlines()[0])
-    assert got(client.get("/api/grid"))["is_saved"]
+    run(got(client.get("/api/rounds/marks"))["command"].splitlines()[0])
+    assert got(client.get("/api/rounds/marks"))["is_saved"]

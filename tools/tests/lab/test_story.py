@@ -126,8 +126,8 @@ def write_and_send(visit, count):
 def check_two_marks(visit):
     """Cut, read and judged: promised and found, each mark [mm]."""
     visit.go_to("Check")
-    visit.press("Cut both marks: the sled moves")
-    visit.press("Let the tape read them")
+    visit.press("Move the sled and cut 2 marks")
+    visit.press("Let a tape read the 2 marks")
     visit.see(re.compile("The machine is as it was fitted"))
     rows = visit.page.locator("table.checked tbody tr")
     return [

@@ -1,77 +1,36 @@
 // Step 9: two marks that were not part of the fit: is the machine as accurate as its settings promise?
 
 import { useEffect } from "preact/hooks";
-import { type Project, type Schemas, send } from "../api/client";
+import { type Project, send } from "../api/client";
 import { shownLength } from "../controls/lengths";
 import { useUnits } from "../controls/units";
-import { Do } from "../shell/doing";
-import { isConnected, isReady, type Machine, useMachine } from "../shell/machine";
-import { useNewest } from "../shell/newest";
+import { Grid } from "../readings/Grid";
+import { useReadings } from "../readings/useReadings";
 import { useProject } from "../shell/project";
 import { Screen } from "../shell/Screen";
-import { CheckMap } from "./check/CheckMap";
-import { CheckReadings } from "./check/CheckReadings";
-import { OffTarget } from "./check/OffTarget";
-import { Promised } from "./check/Promised";
+import { type CheckAnswer, Judged, JudgedMap, Promised } from "./check/Judged";
 import { Refused } from "./correct/Refused";
 import { useWriting } from "./correct/useWriting";
-import { useGoOn } from "./cut/GoOn";
-
-export type CheckAnswer = Schemas["CheckAnswer"];
+import { CutMap } from "./cut/CutMap";
+import type { Round } from "./cut/round";
+import { useCutting, useRoundOf } from "./cut/useCutting";
+import "../readings/readings.css";
 
 export function Check() {
   const { project } = useProject();
-  const machine = useMachine();
-  // The check marks as they are now; asked again when a file changes.
-  const outcome = machine.program?.outcome ?? "";
-  const answer = useNewest<CheckAnswer>("check", JSON.stringify([project.files, outcome]));
+  const answer = useRoundOf<CheckAnswer>("check");
   const writing = useWriting();
   useNoted(answer);
   if (!answer && project.changed_since_fit)
     return <Refused title="Is it true?" refused="" writing={writing} />;
   if (!answer) return <Screen title="Is it true?" say="One moment …" busy />;
-  return answer.trouble ? <NoPromise /> : <OpenCheck answer={answer} />;
+  return answer.round ? <OpenCheck answer={answer} round={answer.round} /> : <NoPromise />;
 }
 
-function OpenCheck({ answer }: { answer: CheckAnswer }) {
-  const { take, reload } = useProject();
-  const machine = useMachine();
+function OpenCheck({ answer, round }: { answer: CheckAnswer; round: Round }) {
   const units = useUnits();
-  const doing = (path: string, body?: unknown) => async () => {
-    const answered = await send<Project | Schemas["MachineAnswer"]>("POST", path, body);
-    if ("choices" in answered) take(answered);
-    else await reload();
-  };
-  const ready = isReady(machine);
-  const next = nextOf(answer, machine);
-  const names = answer.meant.map((_, i) => String(i + 1));
-  const [whichIsLast, goOn] = useGoOn({
-    surely: answer.broke_off ?? 0,
-    perhaps: answer.perhaps,
-    names,
-    path: "check/go-on",
-    blocked: false,
-  });
-  const cut = (
-    <Do isNext={next === "cut"} disabled={!ready} work={doing("check/cut")}>
-      {answer.broke_off == null ? "Cut both marks" : "Cut both marks again"}: the sled moves
-    </Do>
-  );
-  const acts = {
-    read: (
-      <Do isNext disabled={!ready} work={doing("machine/readings", { form: answer.form })}>
-        Let the tape read them
-      </Do>
-    ),
-    "go on": goOn,
-    cut,
-    write: (
-      <Do isNext work={doing("check")}>
-        Write {answer.program} and its form
-      </Do>
-    ),
-    nothing: null,
-  };
+  const { act, fields, running } = useCutting(round);
+  const isJudged = answer.sentence !== "";
   const places = answer.meant.map((place) =>
     place.map((mm) => shownLength(mm, units, 0)).join(", "),
   );
@@ -79,54 +38,45 @@ function OpenCheck({ answer }: { answer: CheckAnswer }) {
     <Screen
       title="Is it true?"
       say="Cut two marks that took no part, on the same sheet, with the new settings. Then read them. They show how the machine does away from the marks of the fit."
+      {...running}
       why={<Why />}
       command={answer.command}
-      stage={<CheckMap answer={answer} />}
+      stage={
+        isJudged ? (
+          <JudgedMap {...{ answer, round }} />
+        ) : (
+          <CutMap round={round} earlier={answer.earlier} />
+        )
+      }
       fieldsFirst
-      act={acts[next]}
+      act={!isJudged && act}
     >
-      {answer.sentence && (
-        <p class={answer.holds ? "judged box edge" : "judged trouble edge"} role="status">
-          {answer.sentence}
-        </p>
+      {isJudged ? (
+        <Judged {...{ answer, round }} />
+      ) : (
+        <>
+          <p>
+            Where ({units} from your edges): {places.join(" and ")}.
+          </p>
+          {fields}
+        </>
       )}
-      {answer.sentence && <OffTarget rounds={answer.rounds} units={units} />}
-      {!answer.sentence && (
-        <p>
-          Where ({units} from your edges): {places.join(" and ")}.
-        </p>
-      )}
-      {answer.broke_off != null && <p role="status">{answer.broke_said}</p>}
-      {next === "go on" && whichIsLast}
-      <p class="row">
-        {next === "go on" && cut}
-        {answer.sentence && machine.kind === "none" && (
-          <Do work={doing("check")}>Write two other marks</Do>
-        )}
-        {answer.sentence && machine.kind !== "none" && (
-          <Do work={doing("check/cut")}>Cut two other marks: the sled moves</Do>
-        )}
-        {answer.sentence && !answer.is_used && (
-          <Do work={doing("check/use")}>Let the verdict go by these marks too</Do>
-        )}
-      </p>
-      {answer.is_saved && <CheckReadings file={answer.form} />}
-      {answer.marks.length > 0 && <Promised marks={answer.marks} units={units} />}
+      {round.is_saved && !running && <CheckReadings file={round.form} />}
+      {isJudged && <Promised {...{ answer, round }} />}
     </Screen>
   );
 }
 
-type Next = "read" | "go on" | "cut" | "write" | "nothing";
-
-/** What to do next: the screen's button does it. Fields for readings are always there. */
-function nextOf(answer: CheckAnswer, machine: Machine): Next {
-  const { sentence, is_saved, broke_off, goes_on, meant } = answer;
-  if (sentence) return "nothing";
-  if (machine.kind === "none") return is_saved ? "nothing" : "write";
-  const isCut = machine.program?.title === answer.program && machine.program.outcome === "done";
-  if (isCut) return machine.kind === "virtual" ? "read" : "nothing";
-  if (!isConnected(machine) || broke_off === meant.length) return "nothing";
-  return broke_off != null && goes_on ? "go on" : "cut";
+/** The readings of the check marks, typed as all others are. */
+function CheckReadings({ file }: { file: string }) {
+  const readings = useReadings(file);
+  if (!readings.form) return null;
+  return (
+    <section aria-label="Readings of the check marks">
+      <h2>What does the tape say?</h2>
+      <Grid form={readings.form} readings={readings} doubts={[]} />
+    </section>
+  );
 }
 
 /** Writes a result into the diary, once there is one. */

@@ -34,11 +34,11 @@ from plumb.lab.residuals import (
 )
 from plumb.lab.rounds import (
     board_words,
+    checked_words,
     command,
     inputs_of,
     known_words,
     unit_words,
-    usual_words,
 )
 from plumb.lab.routes.project import ProjectAnswer, TheProject, of_lab, show
 from plumb.model.catalogue import every_effect, parameter_words
@@ -369,7 +369,7 @@ def _command(choices: Choices, chosen: Chosen, warm: WarmBoard, *, can_be: bool)
     held = [word for item in chosen.held.items() for word in ("--hold", "{}={:.12g}".format(*item))]
     known = known_words(choices, effects=chosen.effects, held=chosen.held)
     usual = warm.live.inputs.checked[len(warm.inputs.checked) :]
-    known += usual_words(usual, chosen.effects, {*chosen.held, *choices.known})
+    known += checked_words(usual, chosen.effects, {*chosen.held, *choices.known})
     names = [slip.name for slip in warm.slips if len(slip.read) == 2]
     known += [word for name in dict.fromkeys(names) for word in ("--without", name)]
     return command(

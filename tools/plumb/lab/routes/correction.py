@@ -29,7 +29,7 @@ from plumb.lab.background import Progress, key_of
 from plumb.lab.machine_line import TheLine, refuse_unanswered
 from plumb.lab.project import FILE, Choices, Project, choices_text
 from plumb.lab.residuals import Span, State, as_set, fitted_state, spans_of
-from plumb.lab.rounds import board_words, command, inputs_of, known_words, unit_words, usual_words
+from plumb.lab.rounds import board_words, checked_words, command, inputs_of, known_words, unit_words
 from plumb.lab.routes.project import ProjectAnswer, TheProject, show
 from plumb.lab.routes.verdict import TheBackground
 from plumb.model.plain import PlainChange, plain_change
@@ -262,7 +262,7 @@ def _add_words(made: Correction, usual: Sequence[Checked], choices: Choices) -> 
         return _auto_words(choices)
     gone = {*made.held, *made.fixed}
     words = known_words(choices, effects=made.effects, held=gone)
-    words += usual_words(usual, made.effects, {*gone, *choices.known})
+    words += checked_words(usual, made.effects, {*gone, *choices.known})
     for name in made.fixed:
         words += ["--prior", f"{name}=0"]
     words += ["--effect", *(made.effects or ["none"])]

@@ -12,13 +12,12 @@ from plumb.lab.project import Project
 from plumb.lab.report import report
 from plumb.lab.rounds import (
     board_words,
+    chosen_round,
     command,
     inputs_of,
     known_words,
-    next_names,
     opened,
     planned,
-    taken_marks,
     unit_words,
 )
 from plumb.lab.routes.project import TheProject
@@ -53,13 +52,10 @@ def _report(project: Project) -> bytes:
 
 def _paper(project: Project) -> bytes:
     choices, settings = project.choices, opened(project)
-    taken = taken_marks(project, choices)
-    if taken:
-        form, plan = taken.form, planned(settings, "own", [mark.target for mark in taken.marks])
-    else:
-        form, _ = next_names(project)
-        plan = planned(settings, choices.layout, choices.planned)
-    return grid_paper(plan.grid, plan.machine, settings=choices.settings, form=form)
+    marks, plan = chosen_round(project), planned(settings, choices.layout, choices.planned)
+    if marks.origin == "proposed":
+        plan = planned(settings, "own", [mark.target for mark in marks.marks])
+    return grid_paper(plan.grid, plan.machine, settings=choices.settings, form=marks.form)
 
 
 _PAPERS: Mapping[str, tuple[str, Callable[[Project], bytes]]] = {

@@ -20,8 +20,8 @@ from plumb.lab.rounds import (
     opened,
     planned,
     prior_words,
-    refuse_unreachable,
     unit_words,
+    unreachable,
 )
 from plumb.lab.routes.project import TheProject
 from plumb.marks.model import tape_sigma
@@ -185,7 +185,7 @@ def preview_plan(request: PlanRequest, project: TheProject) -> PlanAnswer:
         preview=seen,
         causes=[_cause(outline, seen) for outline in seen.outlines],
         minutes=plan.minutes,
-        trouble=_trouble(settings, request),
+        trouble=unreachable(plan, settings),
         command=grid_command(project, possible(choices, settings), plan, form=form, program=file),
     )
 
@@ -216,6 +216,7 @@ def reach(project: TheProject) -> ReachAnswer:
     words = prior_words(expected_priors(known), expected_priors({}))
     said = command("reach", choices.settings, *words, *unit_words(choices))
     return ReachAnswer(survey=survey, expected=expected, command=said)
+<<<<<<< HEAD
 
 
 def _trouble(settings: MachineSettings, request: PlanRequest) -> str:
@@ -224,3 +225,5 @@ def _trouble(settings: MachineSettings, request: PlanRequest) -> str:
     except (ValueError, InputError) as error:
         return on_page(error)
     return ""
+=======
+>>>>>>> 7195869817a47487c0328a55c22663ebf6958658

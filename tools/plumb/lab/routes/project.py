@@ -24,10 +24,8 @@ from plumb.lab.project import (
     read_choices,
     save_choices,
 )
-from plumb.lab.rounds import changed_since_fit, opened
-from plumb.marks.form import read_form
+from plumb.lab.rounds import changed_since_fit, form_of, opened
 from plumb.marks.plausible import from_edges
-from plumb.model.predict import known_effects
 from plumb.settings.machine import MachineSettings
 from plumb.text.answers import like
 from plumb.text.errors import InputError, on_page
@@ -187,10 +185,10 @@ def show_doubts(project: TheProject, file: str) -> DoubtsAnswer:
     what is known of this machine.
     """
     choices = project.choices
-    settings = settings_in(project.path(choices.settings))
+    settings = opened(project)
     refuse_absurd_known(settings, choices)
     digest = project.digest(file)
-    form = read_form(project.path(file), sheet=settings.sheet, known=known_effects())
+    form = form_of(project, choices, file)
     in_force = form.measurements.rounds[0].cut_with
     sheet = in_force.sheet if in_force else settings.sheet
     known = stated(choices)

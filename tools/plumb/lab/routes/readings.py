@@ -6,9 +6,17 @@ from pathlib import Path
 from fastapi import APIRouter, UploadFile
 from pydantic import BaseModel
 
-from plumb.fit.inputs import settings_in
 from plumb.lab.project import Choices, Edges, Project, save_choices, with_marks
-from plumb.lab.rounds import command, is_read_again, known_words, opened, unit_words
+from plumb.lab.rounds import (
+    CHECK,
+    ENDING,
+    command,
+    form_of,
+    is_read_again,
+    known_words,
+    opened,
+    unit_words,
+)
 from plumb.lab.routes.project import TheProject, laid_down
 from plumb.marks.form import (
     Form,
@@ -26,8 +34,6 @@ from plumb.text.answers import like
 from plumb.text.errors import InputError
 
 router = APIRouter(tags=["readings"])
-ENDING = ".toml"
-CHECK = "check"  # beginning of the names of check marks, which take part only on request
 
 
 class AskedMark(BaseModel):
@@ -244,13 +250,6 @@ def _forms(project: Project, choices: Choices) -> dict[str, Form]:
             if name in choices.marks:
                 raise
     return forms
-
-
-def form_of(project: Project, choices: Choices, name: str) -> Form:
-    """Return a form of the folder. Raises InputError."""
-    machine = settings_in(project.path(choices.settings)) if choices.settings else None
-    sheet = machine.sheet if machine else (0.0, 0.0)
-    return read_form(project.path(name), sheet=sheet, known=known_effects())
 
 
 def _by_use(forms: Mapping[str, Form], choices: Choices) -> list[str]:

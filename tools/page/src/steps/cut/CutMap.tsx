@@ -9,8 +9,8 @@ import type { Pair } from "../../sheet/view";
 import { useMachine } from "../../shell/machine";
 import { useNewest } from "../../shell/newest";
 import { useProject } from "../../shell/project";
-import type { Grid } from "../Cut";
 import { Places } from "../Reach";
+import { outcomeOf, type Round } from "./round";
 import { TimeLine } from "./TimeLine";
 
 const DEEP = -0.2; // [mm] the bit is in the wood
@@ -22,26 +22,34 @@ const VIEWS = [
 ] as const;
 type View = (typeof VIEWS)[number][0];
 
-export function CutMap({ grid }: { grid: Grid }) {
-  const { program, place, knows_place, kind, unseen } = useMachine();
+interface CutMapParts {
+  round: Round;
+  /** Marks that were cut in other rounds. */
+  earlier?: readonly Pair[];
+}
+
+export function CutMap({ round, earlier = [] }: CutMapParts) {
+  const machine = useMachine();
+  const { program, place, knows_place, kind, unseen } = machine;
   const { project } = useProject();
   const [view, look] = useState<View>("plan");
-  const reach = useNewest<Schemas["ReachAnswer"]>(view === "reach" ? "reach" : "", grid.text);
-  const isThis = program?.title === grid.program;
-  const taken = isThis ? program.done : 0;
-  const isCut = (lines: number, index: number) => taken >= lines || index < (grid.broke_off ?? 0);
-  const done = grid.marks.filter((mark, index) => isCut(mark.lines, index)).length;
+  const reach = useNewest<Schemas["ReachAnswer"]>(view === "reach" ? "reach" : "", round.text);
+  const outcome = outcomeOf(round, machine);
+  const taken = (outcome && program?.done) ?? 0;
+  const isCut = (lines: number, index: number) => taken >= lines || index < (round.broke_off ?? 0);
+  const done = round.marks.filter((mark, index) => isCut(mark.lines, index)).length;
   const marks = useMemo(
     () =>
-      grid.marks.map((mark, index) => ({
+      round.marks.map((mark, index) => ({
         name: mark.name,
         target: mark.place,
         look: isCut(mark.lines, index) ? ("done" as const) : ("planned" as const),
       })),
-    [grid, done],
+    [round, done],
   );
+  const faint = earlier.map((target) => ({ name: "", target, look: "faint" as const }));
   const way = marks.map(({ target }) => target);
-  const next = isThis && program.outcome === "running" ? marks[done] : undefined;
+  const next = outcome === "running" ? marks[done] : undefined;
   const sled = place && knows_place && kind !== "none" ? place : undefined;
   return (
     <>
@@ -51,7 +59,7 @@ export function CutMap({ grid }: { grid: Grid }) {
           {view === "reach" ? reach?.conclusion : "Filled: cut. Open: to come."}
         </span>
       </div>
-      <Sheet label={`${done} of ${grid.marks.length} marks are cut`} marks={marks}>
+      <Sheet label={`${done} of ${round.marks.length} marks are cut`} marks={[...marks, ...faint]}>
         {view === "reach" && reach && project.machine && (
           <Places reach={reach} sheet={project.machine.sheet} />
         )}
@@ -59,7 +67,7 @@ export function CutMap({ grid }: { grid: Grid }) {
         {sled && next && <Way places={[[sled[0], sled[1]], next.target]} isNext />}
         {sled && <Sled place={sled} old={unseen > 0} next={next?.name} />}
       </Sheet>
-      <TimeLine grid={grid} taken={taken} />
+      <TimeLine round={round} taken={taken} />
     </>
   );
 }

@@ -6,20 +6,16 @@ import { Do } from "../../shell/doing";
 import { useChoosing } from "../../shell/kept";
 import { isReady, useMachine } from "../../shell/machine";
 import { useProject } from "../../shell/project";
-
-interface GoOnParts {
-  /** Marks that are surely cut, and how many after them perhaps. */
-  surely: number;
-  perhaps: number;
-  /** All marks, in their order. */
-  names: readonly string[];
-  path: string;
-  blocked: boolean;
-}
+import type { Round } from "./round";
 
 /** The question, and the button that continues. */
-export function useGoOn(parts: GoOnParts): [question: ComponentChild, act: ComponentChild] {
-  const { surely, perhaps, names, path, blocked } = parts;
+export function useGoOn(
+  round: Round,
+  path: string,
+): [question: ComponentChild, act: ComponentChild] {
+  const { perhaps, trouble } = round;
+  const surely = round.broke_off ?? 0;
+  const names = round.marks.map(({ name }) => name);
   const { reload } = useProject();
   const machine = useMachine();
   const [seen, setSeen] = useState<number>();
@@ -53,7 +49,7 @@ export function useGoOn(parts: GoOnParts): [question: ComponentChild, act: Compo
     cut === names.length ? (
       "Then all are cut: read them."
     ) : (
-      <Do isNext disabled={choosing || !isReady(machine) || blocked || !next} work={goOn}>
+      <Do isNext disabled={choosing || !isReady(machine) || trouble !== "" || !next} work={goOn}>
         {next
           ? `Go on: move the sled and cut from mark ${next}`
           : "Go on: say first which mark is the last"}

@@ -3,11 +3,11 @@ import { namedLength } from "../../controls/lengths";
 import { useUnits } from "../../controls/units";
 import { useMachine } from "../../shell/machine";
 import { useProject } from "../../shell/project";
-import type { Grid } from "../Cut";
+import type { Round } from "./round";
 
 const LEAST_MM = 0.5; // a smaller turn is not worth a shim
 
-export function NewSheet({ grid }: { grid: Grid }) {
+export function NewSheet({ round }: { round: Round }) {
   const { project, choose } = useProject();
   const { kind } = useMachine();
   const units = useUnits();
@@ -20,13 +20,13 @@ export function NewSheet({ grid }: { grid: Grid }) {
         onChange={(event) => void choose({ new_sheet: event.currentTarget.checked })}
       />
       <span>
-        On another sheet than {grid.last_form}
+        On another sheet than {round.last_form}
         {chosen && (
           <small>
             {kind === "virtual"
               ? "The virtual machine gets another sheet on the same stops"
               : "Lay it on the same stops"}
-            {turned(grid.sheet_rise, units)}.
+            {turned(round.sheet_rise, units)}.
           </small>
         )}
       </span>

@@ -2,30 +2,29 @@
 import { Do } from "../../shell/doing";
 import { isConnected, isReady, type Machine, useMachine } from "../../shell/machine";
 import { useTell } from "../../shell/project";
-import type { Grid } from "../Cut";
+import { isCut, outcomeOf, type Round } from "./round";
 
 interface OutcomeParts {
-  grid: Grid;
+  round: Round;
   /** Whether the button of the screen reads the marks. */
   isRead: boolean;
 }
 
-export function Outcome({ grid, isRead }: OutcomeParts) {
+export function Outcome({ round, isRead }: OutcomeParts) {
   const machine = useMachine();
-  const { program } = machine;
-  const isThis = program?.title === grid.program;
-  const outcome = isThis ? program.outcome : undefined;
+  const outcome = outcomeOf(round, machine);
   if (outcome === "running") return null;
   const ended = outcome && ENDED[outcome];
-  const broke = outcome === "done" ? "" : broken(grid, machine);
-  const isCut = outcome === "done" || grid.broke_off === grid.marks.length;
+  const broke = outcome === "done" ? "" : broken(round, machine);
   if (!ended && !broke) return null;
   return (
     <section class={`outcome box edge ${outcome ?? "lost"}`} role="status">
       <p>
         {ended} {broke}
       </p>
-      {isCut && !(isRead && !hasTape(grid, machine)) && <ToReadings waits={grid.waits} />}
+      {isCut(round, machine) && !(isRead && !hasTape(round, machine)) && (
+        <ToReadings round={round} />
+      )}
     </section>
   );
 }
@@ -38,46 +37,47 @@ const ENDED = {
 };
 
 /** How far the cut came, and what can be done. */
-function broken(grid: Grid, machine: Machine): string {
-  const { broke_off, broke_said, perhaps, goes_on, is_proposed } = grid;
+function broken(round: Round, machine: Machine): string {
+  const { broke_off, broke_said, perhaps, goes_on, origin } = round;
   if (broke_off == null) return "";
-  if (broke_off === grid.marks.length) return broke_said;
+  if (broke_off === round.marks.length) return broke_said;
   const connect = isConnected(machine) ? "" : " Connect the machine.";
-  const fresh = machine.kind === "virtual" || is_proposed ? "" : " on a fresh sheet";
-  const next = perhaps > 0 ? ", or go on" : `, or go on from mark ${grid.marks[broke_off]?.name}`;
+  const fresh = machine.kind === "virtual" || origin !== "chosen" ? "" : " on a fresh sheet";
+  const next = perhaps > 0 ? ", or go on" : `, or go on from mark ${round.marks[broke_off]?.name}`;
   return `${broke_said}${connect} Begin again${fresh}${goes_on ? next : ""}.`;
 }
 
 /** Reads the marks that are cut: a virtual machine has its tape. */
-export function Read({ grid }: { grid: Grid }) {
+export function Read({ round }: { round: Round }) {
   const tell = useTell();
   const machine = useMachine();
-  if (!hasTape(grid, machine)) return <ToReadings waits={grid.waits} isNext />;
+  if (!hasTape(round, machine)) return <ToReadings round={round} isNext />;
   const read = async () => {
-    await tell("machine/readings", { form: grid.form });
-    location.hash = "#/readings";
+    await tell("machine/readings", { form: round.form });
+    if (round.origin !== "check") location.hash = "#/readings";
   };
   return (
     <Do isNext disabled={!isReady(machine)} work={read}>
-      Let a tape read the {grid.waits} marks
+      Let a tape read the {round.waits} marks
     </Do>
   );
 }
 
-function hasTape(grid: Grid, { kind }: Machine): boolean {
-  return kind === "virtual" && grid.waits > 0;
+function hasTape(round: Round, { kind }: Machine): boolean {
+  return kind === "virtual" && round.waits > 0;
 }
 
 interface ToReadingsParts {
-  /** Marks that are cut and not read. */
-  waits: number;
+  round: Round;
   isNext?: boolean;
 }
 
-export function ToReadings({ waits, isNext }: ToReadingsParts) {
+/** To where they are typed; check marks are read on their own screen. */
+export function ToReadings({ round, isNext }: ToReadingsParts) {
+  if (round.origin === "check") return null;
   return (
     <a class={isNext ? "button primary" : "button"} href="#/readings">
-      {waits === 0 ? "Look at the readings" : "Type what your tape says"}
+      {round.waits === 0 ? "Look at the readings" : "Type what your tape says"}
     </a>
   );
 }

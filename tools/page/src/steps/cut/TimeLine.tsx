@@ -1,16 +1,15 @@
 // When each mark and each pause of a cut comes, and how far it is.
-import type { Grid } from "../Cut";
-import { marksBefore, minutesAt } from "./times";
+import { marksBefore, minutesAt, type Round } from "./round";
 
 const NAMED = 5; // every so many marks
 const [FIRST, LAST] = [6, 92]; // [%] of the width, from the start to the end
 
-export function TimeLine({ grid, taken }: { grid: Grid; taken: number }) {
-  const whole = minutesAt(grid, Number.POSITIVE_INFINITY);
+export function TimeLine({ round, taken }: { round: Round; taken: number }) {
+  const whole = minutesAt(round, Number.POSITIVE_INFINITY);
   if (!whole) return null;
   const at = (lines: number) =>
-    `${(FIRST + ((LAST - FIRST) * minutesAt(grid, lines)) / whole).toFixed(2)}%`;
-  const minutes = (lines: number) => `${Math.round(minutesAt(grid, lines))} min`;
+    `${(FIRST + ((LAST - FIRST) * minutesAt(round, lines)) / whole).toFixed(2)}%`;
+  const minutes = (lines: number) => `${Math.round(minutesAt(round, lines))} min`;
   const [end, now] = [`${LAST}%`, at(taken)];
   return (
     <svg
@@ -23,7 +22,7 @@ export function TimeLine({ grid, taken }: { grid: Grid; taken: number }) {
         {taken > 0 && <line x1={at(0)} x2={now} y1={26} y2={26} stroke="var(--act)" />}
       </g>
       <g text-anchor="middle">
-        {grid.marks.map(({ name, lines }, i) => {
+        {round.marks.map(({ name, lines }, i) => {
           const isCut = lines <= taken;
           return (
             <g key={name}>
@@ -42,11 +41,11 @@ export function TimeLine({ grid, taken }: { grid: Grid; taken: number }) {
             </g>
           );
         })}
-        {grid.pauses.map(({ lines }) => (
+        {round.pauses.map(({ lines }) => (
           <g key={lines}>
             <circle cx={at(lines)} cy={26} r={7} fill="var(--warn)" />
             <text x={at(lines)} y={13}>
-              pause after mark {marksBefore(grid, lines)}, {minutes(lines)}
+              pause after mark {marksBefore(round, lines)}, {minutes(lines)}
             </text>
           </g>
         ))}
