@@ -201,7 +201,7 @@ def refuse_absurd(checks: Sequence[Checked], settings: MachineSettings) -> None:
     """Raise InputError for a number that cannot have been measured on such a machine."""
     for check in checks:
         if is_absurd(check, settings):
-            raise InputError(f"{_said(check)}: {_why(check, settings)}")
+            raise InputError(_said(check) + f": {_why(check, settings)}")
 
 
 def is_absurd(check: Checked, settings: MachineSettings) -> bool:
