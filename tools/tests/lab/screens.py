@@ -97,16 +97,8 @@ def with_virtual_machine(lab, far=lambda program: program["done"] > program["tot
         got(client.post("/api/machine/virtual", json={"seed": 9, "speed": 1000}))
         until(client, lambda machine: machine["phase"] == "ready")
         got(client.post("/api/machine/settings"))
-<<<<<<< HEAD
-        got(client.post("/api/grid/cut"))
-        until(client, lambda machine: far(machine["program"]))
-=======
         got(client.post("/api/rounds/marks/cut"))
-        until(
-            client,
-            lambda machine: machine["program"]["done"] > machine["program"]["total"] / 2,
-        )
->>>>>>> 7195869817a47487c0328a55c22663ebf6958658
+        until(client, lambda machine: far(machine["program"]))
         got(client.post("/api/machine/speed", json={"speed": 1}))
 
 
