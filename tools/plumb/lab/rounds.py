@@ -25,7 +25,7 @@ from plumb.plan.options import MARK, READING, ROUND
 from plumb.settings.cut_with import cut_with_lines, digest_of, with_form
 from plumb.settings.machine import MachineSettings
 from plumb.text.commands import quoted
-from plumb.text.errors import InputError, Source
+from plumb.text.errors import InputError, Source, on_page
 from plumb.text.files import is_ours, numbered
 
 ENDING = ".toml"  # of a form
@@ -38,18 +38,6 @@ def on_new_sheet(choices: Choices) -> bool:
     return choices.new_sheet and bool(choices.marks)
 
 
-<<<<<<< HEAD
-def round_files(
-    project: Project, choices: Choices, plan: Planned, text: str, *, form: str, program: str
-) -> dict[str, bytes]:
-    """Return the form of a round and its program, by their names."""
-    settings, path = project.path(choices.settings), str(project.path(form))
-    filled = plan.form(path, settings=settings, new_sheet=on_new_sheet(choices))
-    return {form: filled.encode(), program: with_form(text, form, program).encode()}
-
-
-=======
->>>>>>> 7195869817a47487c0328a55c22663ebf6958658
 def kept_settings(project: Project, choices: Choices) -> dict[str, bytes]:
     """Return the open settings as a file that stays, by the digest that a form names."""
     name = choices.settings
@@ -172,7 +160,7 @@ def unreachable(plan: Planned, settings: MachineSettings) -> str:
     try:
         refuse_way(plan.grid, plan.machine, soft)
     except (ValueError, InputError) as error:
-        return str(error)
+        return on_page(error)
     return ""
 
 
@@ -235,7 +223,7 @@ def chosen_round(project: Project) -> Round:
         try:
             planned_visits.refuse_way(settings, taken.marks)
         except InputError as error:
-            return replace(taken, trouble=str(error))
+            return replace(taken, trouble=on_page(error))
         return taken
     plan = planned(settings, choices.layout, choices.planned)
     names, read = next_names(project), {FILE: digest}
@@ -253,7 +241,7 @@ def new_round(
 ) -> Round:
     """Return a round of planned marks, for files of these names."""
     form, file = names
-    settings, path = str(project.path(choices.settings)), str(project.path(form))
+    settings, path = project.path(choices.settings), str(project.path(form))
     new_sheet = on_new_sheet(choices)
     digests = {name: project.digest(name) for name in names}
     trouble = unreachable(plan, opened(project))

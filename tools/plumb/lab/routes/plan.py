@@ -28,7 +28,7 @@ from plumb.marks.model import tape_sigma
 from plumb.plan.preview import Outline, Preview, as_read, preview
 from plumb.plan.sheet_reach import SheetReach, reach_of
 from plumb.settings.machine import MachineSettings
-from plumb.text.errors import InputError, on_page
+from plumb.text.errors import InputError
 from plumb.text.values import worded
 
 router = APIRouter(tags=["plan"])
@@ -216,14 +216,3 @@ def reach(project: TheProject) -> ReachAnswer:
     words = prior_words(expected_priors(known), expected_priors({}))
     said = command("reach", choices.settings, *words, *unit_words(choices))
     return ReachAnswer(survey=survey, expected=expected, command=said)
-<<<<<<< HEAD
-
-
-def _trouble(settings: MachineSettings, request: PlanRequest) -> str:
-    try:
-        refuse_unreachable(planned(settings, request.layout, request.places), settings)
-    except (ValueError, InputError) as error:
-        return on_page(error)
-    return ""
-=======
->>>>>>> 7195869817a47487c0328a55c22663ebf6958658
