@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 from plumb.settings.machine import CONTROLLERS
-from plumb.text.files import read_bytes
+from plumb.text.files import ReadOnce, read_bytes
 from plumb.text.values import typed_length
 
 # The values of arguments: each is read from what was typed, or refused.
@@ -62,8 +62,8 @@ number = kind(_numbered, "N=VALUE, like 15=800", lambda pair: 0 <= pair[0] <= 25
 def file(path: str) -> str:
     """Return the name of a file that exists; another is refused before the model is loaded."""
     if not Path(path).exists() or Path(path).is_dir():
-        read_bytes(path)  # refuses it; what comes through a pipe is read only once, and later
-    return path
+        read_bytes(path)  # refuses it; a pipe is read later
+    return ReadOnce(path)
 
 
 # The arguments. {} stands for what a command says of it.

@@ -19,7 +19,7 @@ from plumb.cli.screen import (
     table,
 )
 from plumb.diagnosis import Diagnosis, diagnose
-from plumb.diagnosis.answer import SHOWN, Together, odds_words
+from plumb.diagnosis.answer import ADD, SHOWN, STEPS, Together, odds_words
 from plumb.diagnosis.unseen import unseen_by
 from plumb.model.catalogue import every_effect
 from plumb.model.plain import noun_of, ranked
@@ -30,7 +30,11 @@ COLUMNS = (
     "Odds: that this is right, against all else. Leaves: the RMS error once it is added. Noise: "
     "what reading errors alone would leave."
 )
-KINDS = {"one_suspect": GOOD, "nothing_provable": GOOD, "cannot_tell": OPEN}  # of verdicts
+# Of states; else it is bad news.
+KINDS = {
+    **dict.fromkeys(("good", "frame_only", "one_cause"), GOOD),
+    **dict.fromkeys(("measure_first", "several_causes", "impossible", "cannot_tell"), OPEN),
+}
 MOST_REASONS = 3
 BAD_NEWS = ("slip", "not_in_library")
 UNKNOWN_ADVICE = (
@@ -56,29 +60,19 @@ def run(arguments: argparse.Namespace) -> int:
         print_json(DiagnosisAnswer(**vars(diagnosis), next=proposals))
     else:
         facts = details(diagnosis) if arguments.details else likeliest(diagnosis)
-        kind = OPEN if diagnosis.left_open.is_too_much else KINDS.get(diagnosis.verdict, BAD)
-        verdict = headline(diagnosis.sentence, kind)
+        verdict = headline(diagnosis.sentence, KINDS.get(diagnosis.state, BAD))
         print("\n\n".join([*facts, verdict, _next(diagnosis, arguments)]))
     return int(diagnosis.verdict in BAD_NEWS)
 
 
 def _next(diagnosis: Diagnosis, arguments: argparse.Namespace) -> str:
-    """Return the command that follows from the verdict."""
-    if diagnosis.verdict == "slip":
-        corrected = ["diagnose", *same_inputs(arguments)]
-        return next_step("When the file is corrected:", corrected)
-    if diagnosis.left_open.is_too_much:
-        return next_step("What to measure next:", ["next", *same_inputs(arguments)])
-    if diagnosis.is_good:
-        return sentences(["Nothing to change: cut your jobs."], mark="")
-    if diagnosis.verdict == "nothing_provable":
-        return next_step("Fit the frame:", auto_words(arguments))
-    if diagnosis.is_finding:
-        return next_step("Add what is known:", auto_words(arguments))
-    first = diagnosis.explanations[0] if diagnosis.explanations else None
-    if diagnosis.verdict == "one_suspect" and first and first.possible:
-        return next_step("Add it:", auto_words(arguments))
-    return next_step("What to measure next:", ["next", *same_inputs(arguments)])
+    """Return what follows, with its command."""
+    said, command = STEPS[diagnosis.state]
+    if diagnosis.state == "good":
+        return sentences([said], mark="")
+    if command == ADD:
+        return next_step(said, auto_words(arguments))
+    return next_step(said, [*(command or ["diagnose"]), *same_inputs(arguments)])
 
 
 FEW, SIZES, NOTES = 3, 4, 2  # accounts, sizes and sentences of a short answer

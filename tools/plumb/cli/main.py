@@ -65,6 +65,7 @@ COMMANDS: Mapping[str, str] = {
 }
 # Commands that are gone, and what to use instead.
 GONE: Mapping[str, str] = {
+    "demo": "plumb practice start FOLDER hides an effect in a virtual machine for you to find",
     "diary": "plumb lab shows the diary, and diary.jsonl is plain text",
     "gap": "measure the motor gap with a tape, and give it by --checked motor_gap=VALUE+-1mm",
     "guide": "plumb lab has it",

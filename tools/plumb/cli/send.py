@@ -30,7 +30,7 @@ from plumb.settings.files import read_settings
 from plumb.settings.machine import MachineSettings
 from plumb.text.answers import meant
 from plumb.text.errors import InputError
-from plumb.text.files import read_text
+from plumb.text.files import ReadOnce, read_text
 
 SETTINGS = (
     "machine.toml",
@@ -79,8 +79,7 @@ def run(arguments: argparse.Namespace) -> int:
 
 def _send(arguments: argparse.Namespace, answer: SendAnswer) -> bool:
     """Send it and note what comes of it; whether all was done."""
-    what = arguments.what
-
+    what = ReadOnce(arguments.what)
     numbers = _numbers(what, back=arguments.undo) if not arguments.more else None
     text = _program(what, arguments.more) if numbers is None else []
     marks_of = None if arguments.force else _cut_with(what, text)
@@ -109,7 +108,7 @@ def _send(arguments: argparse.Namespace, answer: SendAnswer) -> bool:
 def _numbers(what: str, *, back: bool) -> list[str] | None:
     """Return the numbers of a machine.toml, or those before it was sent; None for a program."""
     if back:
-        return kept_before(what)
+        return kept_before(Path(what))
     if not what.endswith(".toml"):
         return None
     refuse_other_files(what, read_text(what))
@@ -153,9 +152,9 @@ def _write(
     sender: Sender, path: str, lines: list[str], *, back: bool
 ) -> tuple[WrittenNumbers, str]:
     """Write numbers; the file that keeps the numbers before."""
-    written, kept, failure = write_and_keep(sender, path, lines, back=back)
+    written, kept, failure = write_and_keep(sender, Path(path), lines, back=back)
     say_failure(failure)
-    return written, kept
+    return written, str(kept)
 
 
 def _print_written(arguments: argparse.Namespace, done: tuple[WrittenNumbers, str]) -> None:

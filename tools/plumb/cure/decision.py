@@ -21,7 +21,7 @@ from plumb.fit.inputs import Inputs
 from plumb.model.catalogue import every_effect
 from plumb.model.plain import noun_of, plainly, ranked
 from plumb.text.answers import Internal, among, in_json, key, part
-from plumb.text.errors import to_do
+from plumb.text.errors import in_both, said_by, to_do
 from plumb.text.values import bare, worded
 
 AS_GOOD = 0.95  # of an error at marks left out, below which another is clearly less
@@ -64,10 +64,9 @@ class Decision:
     @in_json
     def state(self) -> Annotated[str, among(STATES)]:
         """Result for the machine."""
-        if self.diagnosis.outliers:
-            return "read_again"
         if self.addition is None:
-            return "good" if self.diagnosis.is_good else "measure_first"
+            state = self.diagnosis.state
+            return state if state in ("read_again", "good") else "measure_first"
         if self.addition.stops:
             return "impossible"
         if not self.is_explained:
@@ -99,7 +98,7 @@ class Decision:
     @property
     def said(self) -> tuple[str, ...]:
         """Why it was added, and whether the choice matters, in sentences."""
-        why = f"{self.reason[0].upper()}{self.reason[1:]}."
+        why = in_both(self.reason, lambda reason: f"{reason[0].upper()}{reason[1:]}.")
         if self.apart:
             return why, self.apart.sentence
         if self.rivals and self.addition:
@@ -156,18 +155,19 @@ def decide(inputs: Inputs, *, patch: bool = False, diagnosis: Diagnosis | None =
     """
     diagnosis = diagnosis or diagnose(inputs)
     inputs = replace(inputs, checked=(*inputs.checked, *diagnosis.usual))
-    if diagnosis.verdict == "slip":
-        return Decision(diagnosis, inputs, _slip_reason(diagnosis))
-    if diagnosis.left_open.is_too_much:
-        return Decision(diagnosis, inputs, f"nothing was added. {diagnosis.left_open.sentence}")
-    if diagnosis.is_good:
-        return Decision(diagnosis, inputs, GOOD)
+    nothing = {
+        "read_again": _slip_reason(diagnosis),
+        "measure_first": f"nothing was added. {diagnosis.left_open.sentence}",
+        "good": GOOD,
+    }
+    if diagnosis.state in nothing:
+        return Decision(diagnosis, inputs, nothing[diagnosis.state])
     is_known = diagnosis.verdict != "not_in_library"
     try:
         # The noise is that of the diagnosis: what is usual would count twice in another posterior.
         addition = add(inputs, effects=diagnosis.to_add, noise=diagnosis.noise)
     except TooFewError as error:
-        return Decision(diagnosis, inputs, f"nothing was added: {error}")
+        return Decision(diagnosis, inputs, "nothing was added: " + said_by(error))
     chosen, offer = diagnosis.to_add, None
     if not is_known:
         bare_addition = add(inputs, effects=diagnosis.likely, noise=diagnosis.noise)
@@ -263,6 +263,7 @@ def _reason(
 ) -> str:
     named = diagnosis.likely
     usual = _usual_sentence([name for name in chosen if name not in named])
+    asked = to_do("plumb next", page="Verdict") + " for what to measure"
     if diagnosis.verdict == "nothing_provable" and named:
         said = f"no cause is certain, but it is more likely than not {plainly(named)}"
         return f"{said}: so that was added{usual}"
@@ -280,13 +281,12 @@ def _reason(
         part = f"only {plainly(added)} was added, as far as it goes" if added else "none was added"
         return (
             f"no effects of the library explain all that the marks show, so {part}; read the worst "
-            f"marks again, and see {to_do('plumb next', page='Verdict')} for what to measure{usual}"
+            "marks again, and see " + asked + usual
         )
     if rivals:
-        asked = to_do("plumb next", page="Verdict")
         return (
             f"a choice: the likeliest is {plainly(named)}, but it may also be {_listed(rivals)}. "
-            f"See {asked} for what to measure to tell them apart{usual}"
+            "See " + asked + " to tell them apart" + usual
         )
     return f"the marks ask for {plainly(named)}{usual}"
 

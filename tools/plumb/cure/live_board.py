@@ -94,7 +94,7 @@ class LiveBoard:
             refuse_unknown(chosen.held, chosen.parameters)
         except ValueError as error:
             held = to_do("--hold", page="a held size:")
-            raise InputError(f"{held} {error}") from None
+            raise InputError(held + f" {error}") from None
         self._refuse_too_few(chosen)
         self._refuse_unfelt(chosen.effects)
 
@@ -182,7 +182,7 @@ def refuse_unknown_effects(names: Sequence[str]) -> None:
         if name not in known:
             option = to_do("--effect ", page="")
             raise InputError(
-                f"{option}{name}: there is no effect of that name; known are {', '.join(known)}"
+                option + f"{name}: there is no effect of that name; known are {', '.join(known)}"
             )
 
 

@@ -27,6 +27,21 @@ from plumb.text.values import bare, worded
 VERDICTS = ("nothing_provable", "one_suspect", "cannot_tell", "not_in_library", "slip")
 Verdict = Annotated[str, among(VERDICTS)]
 
+# What follows from each state of a diagnosis: a sentence, and the command with the same board; none
+# where the question is asked again, or where there is none left.
+ADD, NEXT = ("add", "--effect", "auto"), ("next",)
+STEPS: Mapping[str, tuple[str, tuple[str, ...]]] = {
+    "read_again": ("When the file is corrected:", ()),
+    "measure_first": ("What to measure next:", NEXT),
+    "good": ("Nothing to change: cut your jobs.", ()),
+    "frame_only": ("Fit the frame:", ADD),
+    "several_causes": ("Add what is known:", ADD),
+    "one_cause": ("Add it:", ADD),
+    "impossible": ("What to measure next:", NEXT),
+    "cannot_tell": ("What to measure next:", NEXT),
+    "unknown_cause": ("What to measure next:", NEXT),
+}
+
 
 @dataclass(frozen=True)
 class RankedEffect:
@@ -126,6 +141,16 @@ class Diagnosis:
     sigma_degrees = part("noise.degrees", float | None, "Of freedom; null: it was not estimated.")
 
     @in_json
+    def state(self) -> Annotated[str, among(list(STEPS))]:
+        """What the marks come to, and what follows."""
+        return _state(self)
+
+    @in_json
+    def title(self) -> str:
+        """What the marks come to, in a few words."""
+        return _title(self)
+
+    @in_json
     def sentence(self) -> str:
         """The verdict for people."""
         return verdict_sentence(self)
@@ -193,6 +218,43 @@ def _takes_most(explained: Explanation, frame: Explanation) -> bool:
 def verdict_sentence(diagnosis: Diagnosis) -> str:
     """Return the verdict in a sentence or two."""
     return _SENTENCES[diagnosis.verdict](diagnosis)
+
+
+def _state(diagnosis: Diagnosis) -> str:
+    if diagnosis.outliers:
+        return "read_again"
+    if diagnosis.left_open.is_too_much:
+        return "measure_first"
+    if diagnosis.is_good:
+        return "good"
+    if diagnosis.verdict == "nothing_provable":
+        return "frame_only"
+    if diagnosis.verdict == "not_in_library":
+        return "several_causes" if diagnosis.is_finding else "unknown_cause"
+    if diagnosis.verdict == "cannot_tell":
+        return "cannot_tell"
+    return "one_cause" if diagnosis.explanations[0].possible else "impossible"
+
+
+def _title(diagnosis: Diagnosis) -> str:
+    if diagnosis.outliers:
+        return "A reading disagrees: look at it first"
+    if diagnosis.disagreements:
+        return "The rounds do not go together"
+    if diagnosis.is_good:
+        return "Cured" if diagnosis.is_cured else "As good as these marks can show"
+    if diagnosis.verdict == "nothing_provable":
+        may_act = diagnosis.nothing_chance <= LIKELIER
+        return "Something may act" if may_act else "The frame may be all of it"
+    if diagnosis.is_finding:
+        return diagnosis.sentence.partition(".")[0]
+    if diagnosis.verdict == "not_in_library":
+        known = diagnosis.field_chance <= LIKELIER
+        odds = odds_words(diagnosis.field_chance)
+        return "Something is left over" if known else f"Something unknown acts, odds {odds}"
+    if diagnosis.verdict == "one_suspect":
+        return f"It is most likely {diagnosis.called(diagnosis.explanations[0])}"
+    return "Several things could be it"
 
 
 def _outlier(diagnosis: Diagnosis) -> str:

@@ -19,7 +19,7 @@ from plumb.line.memory import WrittenNumbers, as_lines, version_of, write_number
 from plumb.line.sender import Sender
 from plumb.text.answers import Internal, Moment, plain
 from plumb.text.errors import InputError, Source
-from plumb.text.files import opened, write_whole
+from plumb.text.files import Unlinked, opened, write_whole
 from plumb.text.locks import hold, reaches_disk
 from plumb.text.version import version
 
@@ -54,7 +54,7 @@ class Diary:
 
 def diary_path(folder: Folder) -> Path:
     """Return where the diary of a folder is, or would be."""
-    return Path(folder) / NAME
+    return Unlinked(folder) / NAME
 
 
 def has_diary(folder: Folder) -> bool:
@@ -85,7 +85,7 @@ def read_diary(folder: Folder) -> Diary:
     """Return the diary of a folder; empty if there is none. Raises InputError."""
     path = diary_path(folder)
     try:
-        with os.fdopen(opened(path, os.O_RDONLY, follows=False), "rb") as file:
+        with os.fdopen(opened(path, os.O_RDONLY), "rb") as file:
             content = file.read()
     except FileNotFoundError:
         return Diary(path, ())
@@ -131,7 +131,7 @@ def _entry(line: bytes) -> Entry | None:
 def _add_line(path: Path, line: bytes) -> None:
     """Put a line at the end, behind a cut line if there is such; all of it reaches the disk."""
     is_new = not path.exists()
-    handle = opened(path, os.O_RDWR | os.O_CREAT | os.O_APPEND, follows=False)
+    handle = opened(path, os.O_RDWR | os.O_CREAT | os.O_APPEND)
     try:
         hold(handle)
         length = os.lseek(handle, 0, os.SEEK_END)
@@ -286,8 +286,8 @@ def keep(path: str, kind: str, content: Mapping[str, Any], *, begin: bool = True
 
 
 def write_and_keep(
-    sender: Sender, path: str, lines: list[str], *, back: bool = False
-) -> tuple[WrittenNumbers, str, str]:
+    sender: Sender, path: Path, lines: list[str], *, back: bool = False
+) -> tuple[WrittenNumbers, Path, str]:
     """Write numbers and read them back; `back`: they are those from before `path` was sent.
 
     Comes with the file of the numbers that were replaced, named after `path`, and a sentence if
@@ -296,22 +296,22 @@ def write_and_keep(
     """
     # What is taken back is not what was before it was sent: it keeps another name.
     when = "undone" if back else "before"
-    kept = f"{Path(path).with_suffix('')}-{when}-{datetime.now():%Y-%m-%d-%H%M%S}.nc"
+    kept = path.with_name(f"{path.stem}-{when}-{datetime.now():%Y-%m-%d-%H%M%S}.nc")
     try:
         written = write_numbers(
             sender, lines, keep=lambda before: write_whole(kept, as_lines(before).encode())
         )
     except InputError as error:
-        if not Path(kept).exists():
+        if not kept.exists():
             raise
         raise InputError(f"{error}. The old numbers are in {kept}") from None
     entry = {
         "plumb": version(),
-        "machine": Path(path).name,
+        "machine": path.name,
         "lines": lines,
         "changed": {f"${number}": list(both) for number, both in written.changed.items()},
         "firmware": version_of(sender),
-        "kept": Path(kept).name,
+        "kept": kept.name,
         "back": back,
     }
-    return written, kept, keep(path, NUMBERS, entry)
+    return written, kept, keep(str(path), NUMBERS, entry)

@@ -22,7 +22,7 @@ from plumb.firmware.settings import (
 from plumb.settings.files import changed_client_file, parse_client_file
 from plumb.settings.ini import SOURCES, Key, groundcontrol_changes, number_for_firmware
 from plumb.settings.machine import MachineSettings
-from plumb.text.errors import InputError, to_do
+from plumb.text.errors import InputError, Source, to_do
 from plumb.text.ini import IniText
 
 # What clients work out before they send it.
@@ -44,7 +44,7 @@ class ClientFiles:
 
 
 def client_files(
-    settings: MachineSettings, *, client: str, firmware: str, original: str | None, lines: str
+    settings: MachineSettings, *, client: str, firmware: str, original: Source | None, lines: str
 ) -> ClientFiles:
     """Return the files that make this machine out of the owner's: its lines, and the client's next
     to it.
@@ -146,7 +146,7 @@ def _kept_by_client(settings: MachineSettings) -> dict[Key, float]:
 
 
 def _client_file(
-    client: str, values: Mapping[Key, float], original: str | None, lines: str
+    client: str, values: Mapping[Key, float], original: Source | None, lines: str
 ) -> tuple[str, bytes]:
     """Name and content of the client's new file."""
     file = CLIENT_FILES[client]

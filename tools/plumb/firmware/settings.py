@@ -270,7 +270,7 @@ def refuse_other_numbers(
     """InputError with both values if a machine does not hold the numbers of a file."""
     others = differences(settings, held)
     if others:
-        raise InputError(f"{both_values(others, file, MACHINE)}. Which holds? {_answers(file)}")
+        raise InputError(f"{both_values(others, file, MACHINE)}. Which holds? " + _answers(file))
 
 
 def refuse_other_origin(settings: MachineSettings, held: Mapping[int, float], *, file: str) -> None:
@@ -283,7 +283,7 @@ def refuse_other_origin(settings: MachineSettings, held: Mapping[int, float], *,
     if all(each):
         name = known[1].file.name if known[1].file else "the settings of its marks"
         both = both_values(each[1], name, MACHINE)
-        raise InputError(f"{file} was fitted to marks of another machine: {both}. {_over()}")
+        raise InputError(f"{file} was fitted to marks of another machine: {both}. " + _over())
 
 
 def both_values(others: tuple[Difference, ...], file: str, machine: str) -> str:

@@ -201,7 +201,7 @@ def refuse_absurd(checks: Sequence[Checked], settings: MachineSettings) -> None:
     """Raise InputError for a number that cannot have been measured on such a machine."""
     for check in checks:
         if is_absurd(check, settings):
-            raise InputError(f"{_said(check)}: {_why(check, settings)}")
+            raise InputError(_said(check) + f": {_why(check, settings)}")
 
 
 def is_absurd(check: Checked, settings: MachineSettings) -> bool:
@@ -238,4 +238,4 @@ def _why(check: Checked, settings: MachineSettings) -> str:
 
 
 def _said(check: Checked) -> str:
-    return f"{to_do('--checked', page='known')} {check.name}={check.value:g}"
+    return to_do("--checked", page="known") + f" {check.name}={check.value:g}"

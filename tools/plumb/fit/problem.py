@@ -268,6 +268,7 @@ def priors_with(changes: Iterable[tuple[str, float]]) -> dict[str, float]:
         try:
             refuse_unknown([name], (*FRAME_FIELDS, SHEET_ROTATION))
         except ValueError as error:
-            raise InputError(f"{to_do('--prior', page='how far off is')} {name}: {error}") from None
+            prior = to_do("--prior", page="how far off is")
+            raise InputError(prior + f" {name}: {error}") from None
         priors[name] = sigma
     return priors

@@ -129,4 +129,4 @@ def check_numbers(grid: Grid, machine: PlainMachine) -> None:
 
 
 def _demand_within(what: str, value: float, low: float, high: float) -> None:
-    demand(low <= value <= high, f"{what} is {value:g}: give a number from {low:g} to {high:g}")
+    demand(low <= value <= high, what + f" is {value:g}: give a number from {low:g} to {high:g}")

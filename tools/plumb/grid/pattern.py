@@ -159,17 +159,17 @@ def _check_place(grid: Grid, machine: PlainMachine, what: str, x: float, y: floa
     half_width, half_height = machine.sheet_width / 2, machine.sheet_height / 2
     inside = max(abs(x) - half_width, abs(y) - half_height) < 1e-6  # room for rounding
     move = inwards(grid)
-    demand(inside, f"{what} is outside the sheet: {move}")
+    demand(inside, f"{what} is outside the sheet: " + move)
     sprocket = (machine.motor_spacing / 2, half_height + machine.motor_offset)
     free = math.dist(sprocket, (abs(x), y)) - machine.rotation_radius
-    close = f"{what} brings ring and sprocket within {free:.0f} mm of each other: {move}"
+    close = f"{what} brings ring and sprocket within {free:.0f} mm of each other: " + move
     demand(free >= MIN_FREE_CHAIN, close)
     pulls = tensions(machine, x, y)
     tight = f"{what} puts {max(pulls):.0f} N on a chain, more than {MAX_TENSION:g}"
-    demand(max(pulls) <= MAX_TENSION, f"{tight}: {move}, or lighten the sled")
+    demand(max(pulls) <= MAX_TENSION, f"{tight}: " + move + ", or lighten the sled")
     side = "left" if pulls[0] < pulls[1] else "right"
     slack = f"{what} leaves {min(pulls):.1f} N on the {side} chain, less than {MIN_TENSION:g}"
-    demand(min(pulls) >= MIN_TENSION, f"{slack}: {move}, or move the motors apart")
+    demand(min(pulls) >= MIN_TENSION, f"{slack}: " + move + ", or move the motors apart")
 
 
 def inwards(grid: Grid, margin: float | None = None) -> str:

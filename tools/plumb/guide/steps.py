@@ -159,7 +159,7 @@ def tell_numbers(visit: GuideVisit) -> bool:
     visit.progress.sigmas["sled_weight"] = GRAVITY * WEIGHT_SIGMA
     changed = replace(settings, **frame_of(frame))
     lines = gcode(firmware_numbers(changed)).decode().splitlines()
-    written, _, failure = write_and_keep(visit.sender, str(visit.path), lines)
+    written, _, failure = write_and_keep(visit.sender, visit.path, lines)
     visit.write(machine_toml(changed))
     rows = [f"  ${number}: {old:g} -> {new:g}" for number, (old, new) in written.changed.items()]
     talk.say("\n".join(["The machine holds these numbers; each was read back.", *rows]))

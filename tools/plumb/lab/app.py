@@ -14,7 +14,7 @@ from fastapi.responses import JSONResponse
 from fastapi.staticfiles import StaticFiles
 from starlette.exceptions import HTTPException
 from starlette.middleware.gzip import GZipMiddleware
-from starlette.types import ASGIApp, Receive, Scope, Send
+from starlette.types import ASGIApp
 
 from plumb.lab import routes
 from plumb.lab.background import Background, LiveBoards
@@ -23,8 +23,7 @@ from plumb.lab.guide_desk import GuideDesk
 from plumb.lab.machine_line import MachineLine
 from plumb.lab.phones import Phones
 from plumb.lab.project import ChangedError, Project
-from plumb.text.errors import InputError, read_on_page
-from plumb.text.files import links_refused
+from plumb.text.errors import InputError, on_page
 
 PAGE = Path(__file__).parent / "page"
 
@@ -60,26 +59,14 @@ def lab_app(folder: Path, *, address: Address, token: str, paired: Phones | None
     app.add_exception_handler(OSError, _unable)
     app.add_exception_handler(HTTPException, _unknown)
     app.add_exception_handler(Exception, _failed)
-    app.add_middleware(_ForPage)
     app.add_middleware(GZipMiddleware)
     app.mount("/", StaticFiles(directory=PAGE, html=True))
     return Guard(app, address=address, token=token, phones=paired)
 
 
-class _ForPage:
-    """Messages are read on the page, and no link is followed: a folder may come from elsewhere."""
-
-    def __init__(self, app: ASGIApp) -> None:
-        self._app = app
-
-    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
-        with read_on_page(), links_refused():
-            await self._app(scope, receive, send)
-
-
 async def _refusal(request: Request, error: Exception) -> JSONResponse:
     """Return what cannot be used, in a line."""
-    return JSONResponse({"error": str(error)}, 422)
+    return JSONResponse({"error": on_page(error)}, 422)
 
 
 async def _changed(request: Request, error: Exception) -> JSONResponse:

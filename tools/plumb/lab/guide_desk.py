@@ -15,7 +15,7 @@ from plumb.guide.steps import GuideVisit, Step, take
 from plumb.guide.talk import NO, YES, LeftError, Question, Talk, progress_in
 from plumb.lab.machine_line import MachineLine
 from plumb.line.sender import Sender, StoppedError
-from plumb.text.errors import InputError
+from plumb.text.errors import InputError, on_page
 from plumb.text.values import shown_in
 
 MOMENT = 0.05  # [s] between two looks for an answer
@@ -129,7 +129,7 @@ def _why(error: BaseException) -> str:
         return "You left this step. Begin it again when you like."
     if isinstance(error, StoppedError):
         return "Stop was pressed: the machine has stopped, and this step is open."
-    return str(error)
+    return on_page(error)
 
 
 def _fits(question: Question, reply: str) -> bool:

@@ -17,7 +17,7 @@ from typing import Annotated, Literal
 from pydantic import BaseModel, ConfigDict, Field
 
 from plumb.text.errors import InputError
-from plumb.text.files import links_refused, numbered, opened, parsed, write_all
+from plumb.text.files import Unlinked, numbered, opened, parsed, write_all
 from plumb.text.locks import alone
 from plumb.text.tables import read_table
 
@@ -39,10 +39,10 @@ class ChangedError(Exception):
 
 
 class Project:
-    """The files of a folder."""
+    """The files of a folder, which may come from elsewhere: no link in it is followed."""
 
     def __init__(self, folder: Path) -> None:
-        self.folder = folder
+        self.folder = Unlinked(folder)
 
     @property
     def choices(self) -> Choices:
@@ -73,7 +73,7 @@ class Project:
         path = self.path(name)
         if not path.is_file():
             return None
-        with os.fdopen(opened(path, os.O_RDONLY, follows=False), "rb") as file:
+        with os.fdopen(opened(path, os.O_RDONLY), "rb") as file:
             return file.read()
 
     def digest(self, name: str) -> str:
@@ -108,8 +108,7 @@ class Project:
             self._refuse_changed(read)
             staged = {str(self.path(name)): content for name, content in files.items()}
             try:
-                with links_refused():
-                    write_all(staged)
+                write_all(staged, follows=False)
             except InputError as error:  # the disk's fault, so it may go later
                 raise OSError(str(error).removeprefix(f"{self.folder}/")) from None
 

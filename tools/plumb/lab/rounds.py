@@ -25,7 +25,7 @@ from plumb.plan.options import MARK, READING, ROUND
 from plumb.settings.cut_with import cut_with_lines, digest_of, with_form
 from plumb.settings.machine import MachineSettings
 from plumb.text.commands import quoted
-from plumb.text.errors import InputError
+from plumb.text.errors import InputError, Source, on_page
 from plumb.text.files import is_ours, numbered
 
 ENDING = ".toml"  # of a form
@@ -134,7 +134,7 @@ class Planned:
         read = READING * len(self.spans)
         return ROUND + MARK * len(self.touches) + read
 
-    def form(self, path: str, *, settings: str, new_sheet: bool = False) -> str:
+    def form(self, path: str, *, settings: Source, new_sheet: bool = False) -> str:
         """Return the form at that path that waits for readings of marks cut with these settings."""
         named = cut_with_lines(settings, path)
         return marks_list(self.grid, self.machine, named, new_sheet=new_sheet)
@@ -164,7 +164,7 @@ def unreachable(plan: Planned, settings: MachineSettings) -> str:
     try:
         refuse_way(plan.grid, plan.machine, soft)
     except (ValueError, InputError) as error:
-        return str(error)
+        return on_page(error)
     return ""
 
 
@@ -227,7 +227,7 @@ def chosen_round(project: Project) -> Round:
         try:
             planned_visits.refuse_way(settings, taken.marks)
         except InputError as error:
-            return replace(taken, trouble=str(error))
+            return replace(taken, trouble=on_page(error))
         return taken
     plan = planned(settings, choices.layout, choices.planned)
     names, read = next_names(project), {FILE: digest}
@@ -245,7 +245,7 @@ def new_round(
 ) -> Round:
     """Return a round of planned marks, for files of these names."""
     form, file = names
-    settings, path = str(project.path(choices.settings)), str(project.path(form))
+    settings, path = project.path(choices.settings), str(project.path(form))
     new_sheet = on_new_sheet(choices)
     digests = {name: project.digest(name) for name in names}
     trouble = unreachable(plan, opened(project))

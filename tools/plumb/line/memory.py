@@ -9,7 +9,7 @@ from plumb.firmware.client_files import gcode
 from plumb.firmware.settings import every_setting, firmware_numbers
 from plumb.line.sender import REPORTS, STANDS, Sender, Watch
 from plumb.settings.machine import MachineSettings
-from plumb.text.errors import InputError, Source, to_do
+from plumb.text.errors import InputError, to_do
 from plumb.text.files import read_text
 
 ROW = re.compile(r"\$(\d+)=([-+\d.eE]+)")
@@ -133,12 +133,11 @@ def lines_for(settings: MachineSettings, source: str) -> list[str]:
     return gcode(firmware_numbers(settings)).decode().splitlines()
 
 
-def kept_before(path: Source) -> list[str]:
+def kept_before(path: Path) -> list[str]:
     """Return the lines of the newest file that kept the machine's numbers before `path` was
     sent.
     """
-    stem = Path(path).with_suffix("")
-    kept = sorted(stem.parent.glob(f"{stem.name}-before-*.nc"))
+    kept = sorted(path.parent.glob(f"{path.stem}-before-*.nc"))
     if not kept:
         raise InputError(path, "nothing was kept when it was sent", remedy="send it first")
     return read_text(kept[-1]).splitlines()

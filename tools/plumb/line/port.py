@@ -107,10 +107,10 @@ def port_for(path: str | None) -> str:
         return str(boards[0].device)
     if not boards:
         name = to_do("name its line with --port", page="type its port")
-        raise InputError(f"no board on USB: connect the Mega, or {name}")
+        raise InputError("no board on USB: connect the Mega, or " + name)
     names = ", ".join(str(port.device) for port in boards)
     choose = to_do("name one with --port", page="choose its port")
-    raise InputError(f"several boards on USB ({names}): {choose}")
+    raise InputError(f"several boards on USB ({names}): " + choose)
 
 
 # A serial line that a single program has: others are refused before they touch it.

@@ -20,7 +20,7 @@ from plumb.line.progress import SAID_PAUSED, Progress, waits_in
 from plumb.line.reached import Came, LineCourse
 from plumb.line.sender import HALTED, REPORTS, STANDS, Sender, Status, StoppedError, Watch, cleaned
 from plumb.text.answers import Internal, in_json
-from plumb.text.errors import InputError
+from plumb.text.errors import InputError, on_page
 
 Result = TypeVar("Result")
 Phase = Literal["none", "connecting", "ready", "busy", "stopping", "lost"]
@@ -165,7 +165,7 @@ class LineWorker:
             except LostError:
                 raise
             except (InputError, ValueError) as error:
-                return self._finished("refused", str(error))
+                return self._finished("refused", on_page(error))
             return self._finished("done", "")
 
         self._begin(_Task(sending), program=progress)

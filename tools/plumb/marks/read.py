@@ -267,7 +267,7 @@ def without_marks(measurements: Measurements, names: Iterable[str]) -> Measureme
     try:
         refuse_unknown(gone, known)
     except ValueError as error:
-        raise InputError(f"{to_do('--without', page='left out:')} {error}") from None
+        raise InputError(to_do("--without", page="left out:") + f" {error}") from None
     return replace(
         measurements,
         marks=tuple(mark for mark in measurements.marks if mark.name not in gone),

@@ -5,7 +5,6 @@ from __future__ import annotations
 import tomllib
 from collections.abc import Sequence
 from functools import partial
-from pathlib import Path
 from typing import Annotated, Any, Literal
 
 from pydantic import AfterValidator, BeforeValidator, StrictBool, ValidationInfo, model_validator
@@ -18,7 +17,7 @@ from plumb.settings.machine import Controller
 from plumb.settings.toml import Known
 from plumb.text.answers import meant
 from plumb.text.errors import Source, naming
-from plumb.text.files import parsed, read_text
+from plumb.text.files import as_path, parsed, read_text
 from plumb.text.tables import Number, Table, read_table
 from plumb.text.values import UNITS, length, pair, point, with_quoted_fractions, within
 
@@ -160,7 +159,7 @@ def _round(path: Source, file: MarksFile, known: Known) -> Round:
     cut_with, changed = None, ""
     if file.cut_with is not None:
         with naming(path, "cut_with"):
-            kept = settings_as_they_were(Path(path).parent / file.cut_with, file.cut_with_digest)
+            kept = settings_as_they_were(as_path(path).parent / file.cut_with, file.cut_with_digest)
             if kept is None:
                 changed = file.cut_with
             else:

@@ -166,7 +166,7 @@ def refuse_way(
         where, also = refused
         move = marks_grid.inwards(grid, _wide_enough(grid, machine, settings))
         map_of_it = to_do("see plumb reach", page="Reach shows where that is")
-        raise InputError(f"{where}: {move}{also}; {map_of_it}")
+        raise InputError(f"{where}: " + move + f"{also}; " + map_of_it)
 
 
 def _refused(

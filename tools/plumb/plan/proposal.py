@@ -31,6 +31,7 @@ from plumb.plan.planned_visits import (
 from plumb.plan.separation import ENOUGH, apart, drawn_by
 from plumb.settings.cut_with import cut_with_lines, with_form
 from plumb.text.answers import Internal, among, in_json, key, meant, part
+from plumb.text.errors import Source
 from plumb.text.values import bare, in_inches, worded
 
 Array = np.ndarray
@@ -225,7 +226,7 @@ def _smallest(slopes: Array, columns: Array, frame: Array) -> float:
 
 
 def form_of(
-    advice: Next, place: int, path: str, *, settings: str | None, sheet: tuple[float, float]
+    advice: Next, place: int, path: str, *, settings: Source | None, sheet: tuple[float, float]
 ) -> bytes:
     """Return the form at that path for the proposal with this number, from 1.
 

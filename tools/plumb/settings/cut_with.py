@@ -9,10 +9,13 @@ import hashlib
 import json
 import os
 import re
+from contextlib import suppress
+from pathlib import Path
 
 from plumb.settings.files import parse_client_file
 from plumb.settings.ini import SOURCES
-from plumb.text.errors import InputError
+from plumb.text.errors import InputError, Source
+from plumb.text.files import read_bytes
 
 # Keys of a client's file that say how long the chains are for a place; one bounds a search alone.
 KEYS = {key.lower() for name, (_, key) in SOURCES.items() if name != "chain_length"}
@@ -21,7 +24,7 @@ LONGEST = 60  # characters of a form's name in a comment
 FORM = re.compile(r"^\(form: (.+)\)$", re.MULTILINE)
 
 
-def cut_with_lines(settings: str | None, form: str) -> str:
+def cut_with_lines(settings: Source | None, form: str) -> str:
     """Return the lines of a form at that path that name the settings' file and keep its digest."""
     if settings is None:
         return ""
@@ -40,7 +43,7 @@ def with_form(program: str, form: str, path: str) -> str:
     return "\n".join([first, f"(form: {near})", *rest])
 
 
-def _near(path: str, other: str) -> str:
+def _near(path: Source, other: str) -> str:
     """Return how a file beside the other would name a path: whole if it is on another drive."""
     try:
         near = os.path.relpath(path, os.path.dirname(os.path.abspath(other)))
@@ -55,10 +58,9 @@ def form_of(program: str, path: str) -> str | None:
     return os.path.join(os.path.dirname(path), named[1]) if named else None
 
 
-def digest_of(settings: str | os.PathLike[str]) -> str:
+def digest_of(settings: Source) -> str:
     """Return the SHA-256 of what a client's file says of the chains, or of a whole machine.toml."""
-    with open(settings, "rb") as file:
-        content = file.read()
+    content = read_bytes(settings)
     try:
         entries = parse_client_file(content, source=os.fspath(settings)).entries
     except InputError:
@@ -70,20 +72,22 @@ def digest_of(settings: str | os.PathLike[str]) -> str:
     return hashlib.sha256(text).hexdigest()
 
 
-def settings_as_they_were(named: str | os.PathLike[str], digest: str) -> str | None:
+def settings_as_they_were(named: Path, digest: str) -> Path | None:
     """Return the file with the settings that a form names: the named, or if that says something
     else by now, a file next to it that says what it said. None if nobody kept them.
     """
-    path = os.fspath(named)
-    if not digest or (os.path.isfile(path) and digest_of(path) == digest):
-        return path
-    folder = os.path.dirname(path) or "."
-    for name in sorted(os.listdir(folder)) if os.path.isdir(folder) else ():
-        other = os.path.join(folder, name)
-        is_file = os.path.isfile(other) and not os.path.islink(other)
-        if name.endswith(ENDINGS) and is_file and digest_of(other) == digest:
+    if not digest or _says(named, digest):
+        return named
+    for other in sorted(named.parent.iterdir()) if named.parent.is_dir() else ():
+        if other.suffix in ENDINGS and not other.is_symlink() and _says(other, digest):
             return other
-    return None if os.path.exists(path) else path
+    return None if named.exists() else named
+
+
+def _says(path: Path, digest: str) -> bool:
+    with suppress(InputError):
+        return path.is_file() and digest_of(path) == digest
+    return False
 
 
 def _plain(value: str) -> str:

@@ -56,9 +56,9 @@ def _read(path: Source, known: Known) -> MachineSettings:
     )
 
 
-def changed_client_file(original_path: str, changes: Mapping[Key, float | str]) -> bytes:
+def changed_client_file(original_path: Source, changes: Mapping[Key, float | str]) -> bytes:
     """Return the bytes of a client's file with some values replaced and all else as it was."""
-    if original_path.lower().endswith(WEBCONTROL_ENDING):
+    if Path(original_path).suffix.lower() == WEBCONTROL_ENDING:
         return changed_webcontrol(original_path, changes)
     return changed_ini(original_path, changes)
 

@@ -1,8 +1,7 @@
 """The error that is the fault of a file and not of the program."""
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from contextvars import ContextVar
 from os import PathLike
 
 Source = str | PathLike[str]  # a path, or what stands for a file in a message
@@ -22,12 +21,16 @@ class InputError(Exception):
         place: str = "",
         remedy: str = "",
     ) -> None:
-        where = f"{source}, {place}" if place else f"{source}"
-        text = f"{where}: {problem}" if problem else where
-        text = f"{text}; {remedy}" if remedy else text
-        # File names and old ini files may hold bytes that cannot be printed as they are.
-        printable = text.encode("utf-8", "backslashreplace").decode("utf-8")
-        super().__init__(" ".join(printable.splitlines()))
+        where = source if isinstance(source, str) else str(source)
+        where = f"{where}, {place}" if place else where
+        text = where + ": " + problem if problem else where
+        text = text + "; " + remedy if remedy else text
+        super().__init__(in_both(text, _printable))
+
+
+def _printable(text: str) -> str:
+    """Return a text as a line; file names and old ini files may hold bytes that are no text."""
+    return " ".join(text.encode("utf-8", "backslashreplace").decode("utf-8").splitlines())
 
 
 @contextmanager
@@ -36,28 +39,48 @@ def naming(source: Source, place: str) -> Iterator[None]:
     try:
         yield
     except ValueError as error:
-        raise InputError(source, str(error), place=place) from None
+        raise InputError(source, said_by(error), place=place) from None
 
 
 # The reader of a message: at a command line, or at the lab's page.
 #
 # An option of the command line means nothing on the page. So what to do about a fault is written
-# for both, and each reader gets what he can do. A test holds every message of the lab's rooms to
-# it.
-
-_on_page: ContextVar[bool] = ContextVar("on_page", default=False)
+# for both, and whoever shows it takes what his reader can do. A test holds every message of the
+# lab's rooms to it.
 
 
-@contextmanager
-def read_on_page() -> Iterator[None]:
-    """Until the end, messages are read on the lab's page."""
-    token = _on_page.set(True)
-    try:
-        yield
-    finally:
-        _on_page.reset(token)
+class _Said(str):
+    """Words for a command line that know those for the page; with + they stay both, and in an
+    f-string they would lose the page's.
+    """
+
+    page: str
+
+    def __add__(self, after: str) -> str:
+        return to_do(f"{self}{after}", page=self.page + on_page(after))
+
+    def __radd__(self, before: str) -> str:
+        return to_do(f"{before}{self}", page=before + self.page)
 
 
 def to_do(line: str, *, page: str) -> str:
     """Return what its reader can do: with options on a command line, or on the page."""
-    return page if _on_page.get() else line
+    said = _Said(line)
+    said.page = page
+    return said
+
+
+def in_both(words: str, change: Callable[[str], str]) -> str:
+    """Return words that are changed alike for both readers."""
+    return to_do(change(words), page=change(on_page(words)))
+
+
+def on_page(said: str | BaseException) -> str:
+    """Return words, or those of an error, as the lab's page shows them."""
+    words = said_by(said) if isinstance(said, BaseException) else said
+    return words.page if isinstance(words, _Said) else words
+
+
+def said_by(error: BaseException) -> str:
+    """Return the words of an error for both readers."""
+    return error.args[0] if error.args and isinstance(error.args[0], _Said) else str(error)

@@ -1,7 +1,7 @@
 """Whole text files in and out: read with a clear refusal, written completely or not at all.
 
 A link that somebody names at a command line is followed. In a folder that may come from elsewhere
-none is: `links_refused` says so for all that is opened here, and `opened` is the door.
+none is: its path is `Unlinked`, and so is each that is made of it.
 """
 
 import codecs
@@ -9,12 +9,12 @@ import errno
 import os
 import re
 import stat
+import sys
 import tempfile
 from collections.abc import Callable, Iterator, Mapping
-from contextlib import contextmanager, suppress
-from contextvars import ContextVar
+from contextlib import suppress
 from itertools import count
-from pathlib import Path
+from pathlib import Path, PosixPath, WindowsPath
 from typing import Any
 
 from plumb.text.errors import InputError, Source
@@ -23,30 +23,36 @@ from plumb.text.locks import AS_IT_IS, NO_LINKS, replaced
 MB = 1_000_000
 # A file of marks or settings has a few kilobytes; more is some other file picked by mistake.
 LARGEST_FILE = 5 * MB
-_follows: ContextVar[bool] = ContextVar("follows", default=True)
-_PIPED: dict[str, bytes] = {}  # what came through pipes, which can be read only once
-
-
 CODE = re.compile(r"(?mi)^\s*(?:n\d+\s*)?[gm]\d{1,3}(?![\w=:])")  # a line of G-code
 
 
-@contextmanager
-def links_refused() -> Iterator[None]:
-    """Until the end, no link is followed, in reading and in writing."""
-    token = _follows.set(False)
-    try:
-        yield
-    finally:
-        _follows.reset(token)
+class ReadOnce(str):
+    """The name of a file, with what was in it when it was read: a pipe can be read only once."""
+
+    content = b""
 
 
-def opened(path: Source, flags: int, *, follows: bool | None = None) -> int:
+if sys.platform == "win32":
+    _SystemPath = WindowsPath
+else:
+    _SystemPath = PosixPath
+
+
+class Unlinked(_SystemPath):
+    """A path at which no link is followed, in reading and in writing."""
+
+
+def as_path(path: Source) -> Path:
+    """Return the path of a file; Path() would follow links again."""
+    return path if isinstance(path, Path) else Path(path)
+
+
+def opened(path: Source, flags: int) -> int:
     """Return a handle of a file. Raises InputError for a link where none is followed, and
     OSError.
     """
-    is_followed = _follows.get() if follows is None else follows
     try:
-        return os.open(path, flags | AS_IT_IS | (0 if is_followed else NO_LINKS), 0o644)
+        return os.open(path, flags | AS_IT_IS | (NO_LINKS * isinstance(path, Unlinked)), 0o644)
     except OSError as error:
         if error.errno == errno.ELOOP:
             remedy = "put the file itself into the folder"
@@ -61,15 +67,15 @@ def read_bytes(path: Source, *, most: int = LARGEST_FILE) -> bytes:
         if place.is_dir():
             raise InputError(path, "is a folder", remedy="name the file inside it")
         # A device says no size, so one byte more than allowed is asked for.
-        content = _PIPED.get(str(path))
+        content = path.content if isinstance(path, ReadOnce) else b""
         if not content:
             with os.fdopen(opened(path, os.O_RDONLY), "rb") as file:
                 content = file.read(most + 1)
         if len(content) > most:
             why = f"is larger than {most // MB} MB"
             raise InputError(path, why, remedy="check that it is the right file")
-        if not place.is_file():
-            _PIPED[str(path)] = content
+        if isinstance(path, ReadOnce):
+            path.content = content
     except FileNotFoundError:
         raise InputError(path, "there is no such file", remedy="check the name") from None
     except (OSError, ValueError) as error:
@@ -154,21 +160,22 @@ def numbered(stem: str) -> Iterator[str]:
 
 def write_whole(path: Source, content: bytes) -> None:
     """Replace a file in one step: a crash leaves the old or the new file, never half."""
-    write_all({os.fspath(path): content})
+    write_all({os.fspath(path): content}, follows=not isinstance(path, Unlinked))
 
 
-def write_all(files: Mapping[str, bytes]) -> None:
-    """Replace several files: if any of them cannot be written, none is.
+def write_all(files: Mapping[str, bytes], *, follows: bool = True) -> None:
+    """Replace several files: if any of them cannot be written, none is. A link is followed, or
+    replaced.
 
     Devices and pipes stay what they are: they get the bytes, just before the files are replaced.
     """
     staged: dict[str, tuple[int | None, str, Path]] = {}
     path = ""
     try:
-        poured = [path for path in files if _is_poured_into(path)]
+        poured = [path for path in files if _is_poured_into(path, follows)]
         for path in files:
             if path not in poured:
-                target = Path(os.path.realpath(path) if _follows.get() else path)
+                target = Path(os.path.realpath(path) if follows else path)
                 staged[path] = (*_staged(target, files[path]), target)
         for path in poured:
             with open(path, "wb") as stream:
@@ -188,12 +195,12 @@ def write_all(files: Mapping[str, bytes]) -> None:
             Path(name).unlink(missing_ok=True)
 
 
-def _is_poured_into(path: Source) -> bool:
+def _is_poured_into(path: Source, follows: bool) -> bool:
     """Return whether it is a device or a pipe, which takes bytes and cannot be replaced; InputError
     for what takes no result at all.
     """
     try:
-        mode = os.stat(path, follow_symlinks=_follows.get()).st_mode
+        mode = os.stat(path, follow_symlinks=follows).st_mode
     except FileNotFoundError:
         return False
     except (OSError, ValueError) as error:

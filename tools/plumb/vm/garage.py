@@ -130,7 +130,7 @@ def hide(names: Sequence[str], *, millimetres: float, seed: int) -> Hidden:
     try:
         refuse_unknown([name for name in names if name != RANDOM], known)
     except ValueError as error:
-        raise InputError(f"{to_do('--hide', page='hidden:')} {error}") from None
+        raise InputError(to_do("--hide", page="hidden:") + f" {error}") from None
     source = np.random.default_rng([seed, 11])
     causes = [_drawn(source) if name == RANDOM else _one_of(name, source) for name in names]
     return Hidden(tuple((cause, size_for(cause, BOARD, millimetres)) for cause in causes))

@@ -88,12 +88,6 @@ def test_an_account_is_as_likely_before_the_marks_as_its_effects():
         assert part.log_prior[a] == pytest.approx(np.log(odds))
 
 
-# Readings that are off: an added column for each.
-
-
-# Noises worth a look.
-
-
 def test_a_noise_that_is_final_is_one_point():
     board = made_up()
     noises = noises_of(board, accounts_of(board), Stated(0.7, is_final=True))

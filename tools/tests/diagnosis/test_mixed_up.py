@@ -6,10 +6,8 @@ import numpy as np
 import pytest
 from plumb.diagnosis import diagnose
 from plumb.fit.inputs import Inputs
-from plumb.marks.form import marks_toml
-from plumb.marks.read import Measurements, read_marks
-from plumb.text.errors import InputError
-from synthetic import BELIEVED, SHEET, distances_between, grid, marks_on
+from plumb.marks.read import Measurements
+from synthetic import BELIEVED, distances_between, grid, marks_on
 
 PITCH = replace(BELIEVED, effects={"chain_pitch": {"left": 0.002, "right": 0.0005}})
 # Repeats 20 mm inwards of two corners, as `plumb grid` makes them: near enough to be mixed up.
@@ -93,20 +91,3 @@ def test_y_errors_with_the_wrong_sign_are_noticed():
     ]
     said = diagnose(Inputs(BELIEVED, board(marks), sigma=0.3)).warnings
     assert any("with all y errors the other way round" in sentence for sentence in said)
-
-
-@pytest.mark.parametrize(
-    ("change", "hint"),
-    [
-        (lambda target, measured: (measured[1], measured[0]), "x and y may be exchanged"),
-        (lambda target, measured: np.divide(measured, 25.4), "looks like inches"),
-        (lambda target, measured: (measured[0], -measured[1]), "y runs the other way"),
-    ],
-)
-def test_a_whole_file_mixed_up_is_refused_with_the_likely_reason(file, change, hint):
-    marks = [
-        replace(mark, measured=tuple(map(float, change(mark.target, mark.measured))))
-        for mark in marks_on(PITCH, BELIEVED, grid(5, 3))
-    ]
-    with pytest.raises(InputError, match=hint):
-        read_marks(file("m.toml", marks_toml(board(marks))), sheet=SHEET)

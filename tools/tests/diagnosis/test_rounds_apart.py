@@ -2,10 +2,10 @@
 
 from dataclasses import replace
 
-import numpy as np
 import pytest
 from plumb.diagnosis import diagnose
 from plumb.fit.inputs import Inputs
+from plumb.marks.form import marks_toml
 from plumb.marks.read import Measurements, Round, join_measurements
 from plumb.settings.toml import machine_toml
 from synthetic import BELIEVED, grid, marks_on
@@ -27,13 +27,13 @@ def rounds(second, seed=1, **how):
     return join_measurements(parts)
 
 
-@pytest.mark.parametrize(
+CHANGED = pytest.mark.parametrize(
     ("second", "flag"),
-    [
-        (SKIPPED, "chains_rezeroed"),
-        (replace(PITCH, motor_center_x=4.0), "new_sheet"),
-    ],
+    [(SKIPPED, "chains_rezeroed"), (replace(PITCH, motor_center_x=4.0), "new_sheet")],
 )
+
+
+@CHANGED
 def test_rounds_that_do_not_go_together_are_named_with_the_way_out(second, flag):
     diagnosis = diagnose(Inputs(BELIEVED, rounds(second), sigma=0.5))
     assert diagnosis.verdict == "not_in_library"
@@ -43,13 +43,7 @@ def test_rounds_that_do_not_go_together_are_named_with_the_way_out(second, flag)
     assert f"{flag} = true in b" in diagnosis.disagreements[0]
 
 
-@pytest.mark.parametrize(
-    ("second", "flag"),
-    [
-        (SKIPPED, "chains_rezeroed"),
-        (replace(PITCH, motor_center_x=4.0), "new_sheet"),
-    ],
-)
+@CHANGED
 def test_a_round_that_says_what_changed_goes_with_the_others(second, flag):
     diagnosis = diagnose(Inputs(BELIEVED, rounds(second, **{flag: True}), sigma=0.5))
     assert diagnosis.disagreements == ()
@@ -67,15 +61,9 @@ def test_alike_rounds_raise_no_doubt():
 
 
 def test_the_doubt_about_a_round_is_printed(run, file):
-    lines = ['frame = "machine"', "tape_sigma_mm = 0.5"]
     paths = [file("machine.toml", machine_toml(BELIEVED))]
     for i, machine in enumerate((PITCH, SKIPPED)):
         marks = marks_on(machine, BELIEVED, grid(3, 3), noise=0.5, seed=i)
-        text = [f"[[mark]]\nname = '{m.name}'\ntarget = {list(m.target)}" for m in marks]
-        text = [
-            f"{lines}\nmeasured = {np.round(mark.measured, 2).tolist()}"
-            for lines, mark in zip(text, marks, strict=True)
-        ]
-        paths.append(file(f"{'ab'[i]}.toml", "\n".join([*lines, *text])))
+        paths.append(file(f"{'ab'[i]}.toml", marks_toml(Measurements(marks, tape_sigma=0.5))))
     code, said, _ = run("diagnose", *paths)
     assert code == 1 and "b does not go with the other rounds" in said

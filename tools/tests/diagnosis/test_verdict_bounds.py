@@ -4,15 +4,10 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from hidden_boards import board, size_for
-from plumb.bench.boards import plan
-from plumb.bench.causes import MAKER
-from plumb.diagnosis import diagnose
-from plumb.diagnosis.answer import MISFIT, NOTHING, UNKNOWN, VERDICTS, is_silent, judge
+from plumb.diagnosis.answer import MISFIT, NOTHING, UNKNOWN, is_silent, judge
 from plumb.diagnosis.linear import MovedRound
 from plumb.diagnosis.posterior import LISTED, Account, Posterior
 from plumb.diagnosis.priors import LIKELIER
-from plumb.fit.inputs import Inputs
 
 TINY = 1e-12
 
@@ -97,28 +92,3 @@ def test_one_account_stands_alone_once_it_holds_nearly_all(share, is_beyond, mon
     said = judged({("a",): share, ("b",): 1 - share}, monkeypatch)
     assert said.verdict == ("one_suspect" if is_beyond else "cannot_tell")
     assert len(said.listed) == (1 if is_beyond else 2) and said.best.effects == ("a",)
-
-
-# The same on boards.
-
-WIDE = plan(5, 5)
-
-
-@pytest.mark.parametrize(
-    ("hidden", "millimetres", "bump", "expected"),
-    [
-        ("chain_plane", 0.1, 0.0, {"nothing_provable"}),
-        ("chain_plane", 3.0, 0.0, {"one_suspect"}),
-        ("chain_pitch", 1.5, 0.0, {"cannot_tell", "one_suspect"}),
-        ("chain_plane", 6.0, 2.0, {"not_in_library"}),
-        ("chain_plane", 0.1, 0.2, {"nothing_provable"}),
-    ],
-)
-def test_each_verdict_has_its_board(hidden, millimetres, bump, expected):
-    size = size_for(hidden, WIDE, millimetres)
-    diagnosis = diagnose(Inputs(MAKER, board({hidden: size}, WIDE, seed=4, bump=bump)))
-    assert diagnosis.verdict in expected and diagnosis.verdict in VERDICTS
-    if diagnosis.verdict == "nothing_provable":
-        assert diagnosis.to_add == () and diagnosis.explanations == ()
-    else:
-        assert hidden in diagnosis.to_add  # also where something else is unknown

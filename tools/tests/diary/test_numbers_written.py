@@ -9,7 +9,7 @@ from plumb.text.errors import InputError
 
 
 def written(tmp_path, machine, *lines, back=False):
-    path = str(tmp_path / "machine.toml")
+    path = tmp_path / "machine.toml"
     return write_and_keep(Sender(machine), path, list(lines), back=back)
 
 

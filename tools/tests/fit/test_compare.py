@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from plumb.fit.compare import best_pose, compare
 from plumb.fit.inputs import Inputs
-from plumb.marks.read import Mark, Measurements, read_marks
+from plumb.marks.read import Mark, Measurements, Round, read_marks
 from plumb.settings.files import read_settings
 from plumb.settings.ini import changed_ini, groundcontrol_changes
 from plumb.text.errors import InputError
@@ -87,6 +87,9 @@ def test_our_settings_with_marks_of_another_controller_are_warned_of():
     assert "--cut-with" in compare(Inputs(BELIEVED, stock)).warnings[0]
     assert compare(Inputs(BELIEVED, stock, cut_with=STOCK)).warnings == ()
     assert compare(Inputs(STOCK, stock)).warnings == ()
+    assert compare(Inputs(BELIEVED, stock, controller="plumb")).warnings == ()
+    named = replace(stock, rounds=(Round(cut_with=BELIEVED),))
+    assert compare(Inputs(BELIEVED, named)).warnings == ()
 
 
 def test_chains_that_lead_nowhere_are_refused_with_the_mark():

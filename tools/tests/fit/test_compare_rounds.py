@@ -3,7 +3,7 @@
 import pytest
 from plumb.fit.compare import compare
 from plumb.fit.inputs import Inputs
-from plumb.marks.read import Mark, Measurements, Round, join_measurements
+from plumb.marks.read import Measurements, Round, join_measurements
 from synthetic import BELIEVED, TRUE, distances_between, grid, marks_on
 
 TARGETS = grid(3, 2)
@@ -39,13 +39,3 @@ def test_each_file_has_the_errors_of_its_readings_alone():
         assert said.distance_rms == pytest.approx(alone.distance_rms)
         assert said.rms == (pytest.approx(alone.rms) if alone.marks else None)
     assert rounds[0].distance_rms is None and rounds[2].rms is None
-
-
-def test_a_file_that_names_its_settings_warns_of_nothing():
-    marks = (Mark("1", (0.0, 0.0), (1.0, 0.0)), Mark("2", (500.0, 0.0), (501.0, 0.0)))
-    named = Measurements(marks, controller="stock", rounds=(Round(cut_with=BELIEVED),))
-    unnamed = Measurements(marks, controller="stock")
-    assert compare(Inputs(BELIEVED, named)).warnings == ()
-    assert "stock" in compare(Inputs(BELIEVED, unnamed)).warnings[0]
-    assert compare(Inputs(BELIEVED, unnamed, controller="plumb")).warnings == ()
-    assert compare(Inputs(BELIEVED, Measurements(marks))).warnings == ()

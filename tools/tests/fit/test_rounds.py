@@ -9,6 +9,7 @@ from plumb.fit.fit import fit
 from plumb.fit.inputs import Inputs
 from plumb.fit.observations import model_and_observations, observe
 from plumb.fit.rounds import round_priors
+from plumb.marks.form import marks_toml
 from plumb.marks.read import Mark, Measurements, Round, join_measurements, read_marks
 from plumb.model.predict import lengths
 from plumb.settings.toml import machine_toml
@@ -156,11 +157,8 @@ def test_add_explains_the_numbers_of_a_round(run, file):
         ("may", TRUE, ""),
         ("june", zeroed(TRUE, 6.0, -3.0), "chains_rezeroed = true\nnew_sheet = true"),
     ):
-        lines = ['frame = "machine"', line]
-        for mark in marks_on(machine, BELIEVED, grid(3, 3), noise=0.1, seed=len(paths)):
-            place = np.round(mark.measured, 2).tolist()
-            lines += ["[[mark]]", f"target = {list(mark.target)}", f"measured = {place}"]
-        paths.append(file(f"{name}.toml", "\n".join(lines)))
+        marks = marks_on(machine, BELIEVED, grid(3, 3), noise=0.1, seed=len(paths))
+        paths.append(file(f"{name}.toml", f"{line}\n{marks_toml(Measurements(marks))}"))
     _, said, _ = run("add", *paths, "--effect", "chain_pitch", "--details")
     assert "zero2.left" in said and "sheet2.rotation" in said
     assert "- zero2: how much more chain is out" in said and "- sheet2: how the new" in said

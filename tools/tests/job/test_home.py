@@ -1,7 +1,5 @@
 """Home marks: kept, read again, and a position that was lost is back with the bit in the hole."""
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 from plumb.bench.causes import MAKER, Hidden, causes_of
@@ -9,13 +7,10 @@ from plumb.job.home import (
     hole_program,
     home_fit,
     new_home_mark,
-    place_of,
     read_home_marks,
-    write_home_marks,
 )
-from plumb.job.slip import chains_line, repair_program
+from plumb.job.slip import repair_program
 from plumb.model.predict import lengths
-from plumb.settings.machine import SettingsFile
 from plumb.text.errors import InputError
 from plumb.vm.garage import random_garage
 from plumb.vm.tape import marks_on
@@ -26,17 +21,6 @@ EVENING = 6000  # [ms] at rest, after which the position is in the memory
 HAND = 0.3  # [mm] of a coordinate: how well a bit sits in its hole
 
 
-def test_a_mark_comes_back_from_its_file_bit_for_bit(tmp_path):
-    settings = replace(MAKER, file=SettingsFile("machine.toml", ""))
-    marks = {
-        "left": new_home_mark(settings, "left", LEFT, date="2026-05-01"),
-        "far-right_2": new_home_mark(settings, "far-right_2", (900.1, -250 / 3)),
-    }
-    write_home_marks(tmp_path / "home.toml", marks)
-    assert read_home_marks(tmp_path / "home.toml") == marks
-    assert marks["left"].settings == "machine.toml"
-
-
 @pytest.mark.parametrize(
     "text",
     ["[mark.left]\nplace = [1, 2]\n", "[mark.left]\nplace = [1]\nchains = [1, 2]\n", "mark = 5\n"],
@@ -45,27 +29,6 @@ def test_a_spoilt_file_is_refused(text, tmp_path):
     (tmp_path / "home.toml").write_text(text)
     with pytest.raises(InputError, match=r"home\.toml, (\[mark\.left\]|mark)"):
         read_home_marks(tmp_path / "home.toml")
-
-
-def test_the_chains_are_those_that_the_machine_pays_out_there():
-    mark = new_home_mark(MAKER, "left", LEFT)
-    assert mark.chains == pytest.approx(lengths(MAKER, np.array([LEFT]))[0][0])
-    assert place_of(MAKER, mark) == pytest.approx(LEFT)
-    assert chains_line(np.array(mark.chains)) == f"B06 L{mark.chains[0]:.3f} R{mark.chains[1]:.3f}"
-    with pytest.raises(InputError, match="home mark up"):
-        new_home_mark(MAKER, "up", (0.0, 5000.0))
-
-
-def test_a_second_mark_says_how_well_it_fits():
-    mark = new_home_mark(MAKER, "right", RIGHT)
-    good = home_fit(MAKER, mark, (RIGHT[0] + 0.5, RIGHT[1] - 0.5))
-    assert good.fits and good.error == pytest.approx((-0.5, 0.5))
-    shown = (RIGHT[0] + 3.0, RIGHT[1])
-    bad = home_fit(MAKER, mark, shown)
-    more = lengths(MAKER, np.array([RIGHT]))[0][0] - lengths(MAKER, np.array([shown]))[0][0]
-    assert not bad.fits and bad.chains == pytest.approx(more)
-    # A bit to the right needs more of the left chain and less of the right.
-    assert bad.chains[0] < 0 < bad.chains[1]
 
 
 class Workshop:

@@ -92,17 +92,14 @@ def with_proof_marks(lab):
         assert "read mark 2 again" in got(client.get("/api/proof"))["sentence"]
 
 
-def with_virtual_machine(lab):
-    """A slow virtual machine that cuts, half way through the marks of a lab with a machine."""
+def with_virtual_machine(lab, far=lambda program: program["done"] > program["total"] / 2):
+    """A virtual machine that cut the marks so far, and goes on slowly."""
     with lab.client() as client:
         got(client.post("/api/machine/virtual", json={"seed": 9, "speed": 1000}))
         until(client, lambda machine: machine["phase"] == "ready")
         got(client.post("/api/machine/settings"))
         got(client.post("/api/rounds/marks/cut"))
-        until(
-            client,
-            lambda machine: machine["program"]["done"] > machine["program"]["total"] / 2,
-        )
+        until(client, lambda machine: far(machine["program"]))
         got(client.post("/api/machine/speed", json={"speed": 1}))
 
 

@@ -11,6 +11,7 @@ import httpx2
 import hurried_plumb
 from folder import PATIENCE, got
 from plumb.lab.server import TOKEN_FILE
+from websockets.sync.client import connect
 
 
 @dataclass
@@ -38,6 +39,12 @@ class ServedLab:
         """A client that asks it as its page does."""
         headers = {"X-Plumb-Token": self.token}
         return httpx2.Client(base_url=self.site, headers=headers, timeout=PATIENCE)
+
+    def live(self, *, path="api/live", protocols=..., **more):
+        """The page's live line to the machine, or one that is opened in some other way."""
+        own = ["plumb", self.token] if protocols is ... else protocols
+        address = self.site.replace("http", "ws") + path
+        return connect(address, subprotocols=own, open_timeout=PATIENCE, **more)
 
     def end(self):
         self.process.terminate()

@@ -1,16 +1,19 @@
 """The bench for effects in a real browser, also of distances; how soon it is answered."""
 
 import json
+import math
 import re
 import socket
 import time
 import tomllib
+from dataclasses import replace
 
 import plumb.lab.rounds
 import pytest
 from folder import EXAMPLE, got, with_marks
 from playwright.sync_api import expect
-from plumb.marks.read import read_marks
+from plumb.marks.form import marks_toml
+from plumb.marks.read import Distance, Measurements, read_marks
 from screens import at_rest, measured_machine
 
 STAIRS = ".stairs tbody td:nth-of-type(2)"
@@ -111,23 +114,16 @@ SMALL = (0.9, -0.7, 0.3, -1.4, 0.1, 0.8, -0.2, 1.1, -0.6, 0.5, -0.9, 0.4)  # [mm
 
 def taped(folder, *, slip=0.0, marks=False):
     """A folder whose form has twelve distances, the third read off by a slip [mm]."""
-    folder.mkdir(exist_ok=True)
-    (folder / "groundcontrol.ini").write_bytes((EXAMPLE / "groundcontrol.ini").read_bytes())
+    measured_machine(folder)
     read = read_marks(EXAMPLE / "marks.toml", sheet=(2440.0, 1220.0)).measured_marks[:9]
-    places = {mark.name: mark for mark in read}
-    names = [*places]
-    spans = [(names[i], names[(i + step) % 9]) for step in (1, 4) for i in range(9)][:12]
-    lines = ['frame = "machine"', "tape_sigma_mm = 0.5", ""]
-    for name, mark in places.items():
-        lines += ["[[mark]]", f'name = "{name}"', f"target = {[*mark.target]}"]
-        lines += [f"measured = {[*mark.measured]}"] * marks + [""]
-    for i, (first, second) in enumerate(spans):
-        (x, y), (u, v) = places[first].measured, places[second].measured
-        length = ((x - u) ** 2 + (y - v) ** 2) ** 0.5 + SMALL[i] + slip * (i == 2)
-        lines += ["[[distance]]", f'between = ["{first}", "{second}"]', f"mm = {length:.1f}"]
-    (folder / "marks.toml").write_text("\n".join([*lines, ""]))
-    choices = {"settings": "groundcontrol.ini", "marks": ["marks.toml"]}
-    (folder / "lab.json").write_text(json.dumps(choices))
+    spans = []
+    for i, (first, second) in enumerate([(i, i + step) for step in (1, 4) for i in range(9)][:12]):
+        ends = read[first], read[second % 9]
+        length = math.dist(*(end.measured for end in ends)) + SMALL[i] + slip * (i == 2)
+        spans.append(Distance(tuple(end.name for end in ends), round(length, 1)))
+    taped = read if marks else [replace(mark, measured=None) for mark in read]
+    measurements = Measurements(tuple(taped), tuple(spans), tape_sigma=0.5)
+    (folder / "marks.toml").write_text(marks_toml(measurements))
 
 
 def test_each_distance_is_a_line_by_its_error(lab, page):

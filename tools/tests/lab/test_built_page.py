@@ -112,6 +112,8 @@ def shown(tree):
     """Each string that the page may show: no docstring, and nothing for a terminal."""
     left_out = set()
     for node in ast.walk(tree):
+        # There the words for a terminal would be all that is left.
+        assert not (isinstance(node, ast.JoinedStr) and "id='to_do'" in ast.dump(node))
         if isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant):
             left_out.add(node.value)
         if isinstance(node, ast.Call) and getattr(node.func, "id", "") == "to_do":

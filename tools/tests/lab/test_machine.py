@@ -6,23 +6,22 @@ import time
 import tomllib
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import ExitStack
+from functools import partial
 from threading import Event
 from types import SimpleNamespace
 
 import folder
 import pytest
 from attacks import Try, answered, status
-from folder import asked, got
-from line.line_board import SlowBoard
+from folder import PATIENCE, asked, got
+from line.line_board import SlowBoard, until
 from plumb.lab import machine_line
 from plumb.lab.machine_line import MachineLine
 from plumb.line import worker
 from plumb.line.sender import STOP
 from plumb.line.worker import LineWorker
+from plumb.text.errors import InputError
 from systems import ON_POSIX
-from websockets.sync.client import connect
-
-PATIENCE = 120  # [s] of a busy computer
 
 
 @pytest.fixture
@@ -33,30 +32,8 @@ def ask(lab):
         def asking(method, path, status=200, **body):
             return got(client.request(method, f"/api/{path}", json=body or None), status)
 
-        asking("POST", "machine/disconnect")
+        asking.until = partial(folder.until, client)
         yield asking
-
-
-def until(ask, true):
-    """Wait for a state of the machine."""
-    end = time.monotonic() + PATIENCE
-    while not true(state := ask("GET", "machine")):
-        assert time.monotonic() < end, state
-        time.sleep(0.05)
-    return state
-
-
-def wait_for(line, phase):
-    """Wait for a state of a line that is here."""
-    end = time.monotonic() + PATIENCE
-    while line.state.phase != phase:
-        assert line.state.phase != "lost" and time.monotonic() < end, line.state
-        time.sleep(0.002)
-
-
-def live(lab, token=None, **more):
-    address = lab.site.replace("http", "ws") + "api/live"
-    return connect(address, subprotocols=["plumb", token or lab.token], **more)
 
 
 def test_without_a_machine_there_is_a_clear_line(ask):
@@ -78,14 +55,14 @@ def test_a_link_leads_to_its_port_and_to_nothing_else(ask, cable, tmp_path):
     link.symlink_to(port)
     other.symlink_to("/etc/passwd")
     ask("POST", "machine/board", port=str(link))
-    state = until(ask, lambda state: state["phase"] == "ready")
+    state = ask.until(lambda state: state["phase"] == "ready")
     assert state["name"] == str(link)
     assert "is not a serial port" in ask("POST", "machine/board", 422, port=str(other))["error"]
 
 
 def test_a_virtual_machines_settings_are_read_replaced_and_restored(lab, ask):
     ask("POST", "machine/virtual", seed=4)
-    until(ask, lambda state: state["phase"] == "ready")
+    ask.until(lambda state: state["phase"] == "ready")
     project = ask("POST", "machine/settings")
     assert project["machine"]["file"] == "machine.toml"
     assert project["machine"]["frame"]["motor_gap"] == 2978.4
@@ -114,14 +91,14 @@ def test_a_virtual_machines_settings_are_read_replaced_and_restored(lab, ask):
 
 def test_a_line_is_answered_and_a_bad_path_refused(ask):
     ask("POST", "machine/virtual", hides="nothing")
-    until(ask, lambda state: state["phase"] == "ready")
+    ask.until(lambda state: state["phase"] == "ready")
     assert any("1651" in line for line in ask("POST", "machine/line", text="B06 L1651 R1651"))
     refused = ask("POST", "machine/numbers", 422, file="../machine.toml")["error"]
     assert "not a plain file name" in refused
 
 
 def test_the_live_line_says_that_the_sled_moves_holds_and_stops(lab, ask):
-    with live(lab) as line:
+    with lab.live() as line:
         seen = []
 
         def next_state(true):
@@ -158,14 +135,20 @@ def test_after_a_line_lost_in_mid_cut_the_place_is_unknown(monkeypatch, port):
     monkeypatch.setattr(machine_line, "SerialPort", board)
     line = machine_line.MachineLine()
     line.connect_board("/dev/ttyACM0")
-    wait_for(line, "ready")
+    until(lambda state: state.phase == "ready", line)
     line.worker.send("job.nc", ["G1 X1"] * 100)
-    wait_for(line, "lost")
+    until(lambda state: state.phase == "lost", line)
+    assert line.state.program.outcome == "lost"
+    assert (
+        "the line was lost" in line.state.trouble and "of 100 lines of job.nc" in line.state.trouble
+    )
+    with pytest.raises(InputError, match="connect it again"):
+        line.worker.do(lambda sender: sender.ask("B15"))
     line.connect_board(port)
-    wait_for(line, "ready")
+    until(lambda state: state.phase == "ready", line)
     assert not line.state.knows_place
     line.connect_board("/dev/ttyACM7")
-    wait_for(line, "ready")
+    until(lambda state: state.phase == "ready", line)
     assert line.state.knows_place
     line.disconnect()
     assert line.state.phase == "none"
@@ -195,14 +178,14 @@ def test_a_port_is_opened_again_when_the_machine_that_moved_has_stopped(monkeypa
     monkeypatch.setattr(worker, "LEAVES", 0.01)
     line = machine_line.MachineLine()
     line.connect_board("/dev/ttyACM0")
-    wait_for(line, "ready")
+    until(lambda state: state.phase == "ready", line)
     line.worker.send("job.nc", ["G1 X1"] * 100)
     assert moves.wait(PATIENCE)
     line.disconnect()
     line.connect_board("/dev/ttyACM0")
     assert line.state.phase == "connecting"
     stands.set()
-    wait_for(line, "ready")
+    until(lambda state: state.phase == "ready", line)
     line.disconnect()
 
 
@@ -235,42 +218,18 @@ def test_another_firmware_is_named_and_ours_is_written_over_it(client, monkeypat
     got(client.post("/api/machine/disconnect"))
 
 
-@ON_POSIX
-def test_a_cable_pulled_in_mid_cut_is_reported(ask, cable):
-    ask("POST", "machine/board", port=cable.path)
-    until(ask, lambda state: state["phase"] == "ready")
-    lines = "".join(f"G1 X{x} F700\n" for x in range(5, 900, 5))
-    ask("POST", "machine/program", title="job.nc", text=lines)
-    until(ask, lambda state: state["program"]["done"] > 20)
-    cable.pull_out()
-    state = until(ask, lambda state: state["phase"] == "lost")
-    assert state["program"]["outcome"] == "lost" and not state["knows_place"]
-    assert "the line was lost" in state["trouble"] and "of 179 lines of job.nc" in state["trouble"]
-    assert "connect it again" in ask("POST", "machine/line", 422, text="B15")["error"]
-
-
-BUSY_S = 120  # of a busy computer
-
-
-def once(true):
-    end = time.monotonic() + BUSY_S
-    while not true():
-        assert time.monotonic() < end
-        time.sleep(0.002)
-
-
 def test_the_age_of_a_silent_boards_report_grows(monkeypatch):
     board, ahead = SlowBoard(), SimpleNamespace(seconds=0.0)
     line = LineWorker(lambda: board)
-    once(lambda: line.state.phase == "ready")
+    until(lambda state: state.phase == "ready", line)
     clock, board.seconds = board.seconds, lambda: 0.0
     monkeypatch.setattr(worker, "monotonic", lambda: time.monotonic() + ahead.seconds)
-    once(lambda: line.silence < 1.0)
+    until(lambda state: line.silence < 1.0, line)
     board.is_silent, ahead.seconds = True, 4.0
-    assert 4.0 <= line.silence < BUSY_S
+    assert 4.0 <= line.silence < PATIENCE
     board.is_silent, board.seconds = False, clock
     line.close()  # once the machine has kept its place
-    once(lambda: line.silence == 0.0)  # no report is due
+    until(lambda state: line.silence == 0.0, line)  # no report is due
 
 
 PRESSES = ("hold", "stop")
@@ -289,7 +248,7 @@ def test_connections_without_a_token_do_not_keep_stop_out(lab, target):
     ask = Try("GET", target, (("X-Plumb-Token", None),), b"").bytes(lab)
     with ExitStack() as lines:
         for _ in range(150):
-            line = lines.enter_context(socket.create_connection(("127.0.0.1", lab.port), BUSY_S))
+            line = lines.enter_context(socket.create_connection(("127.0.0.1", lab.port), PATIENCE))
             line.sendall(ask)
             if target == "/":
                 assert line.recv(65_536).startswith(b"HTTP/1.1 200")
@@ -301,11 +260,11 @@ def test_connections_without_a_token_do_not_keep_stop_out(lab, target):
 def test_stop_works_while_all_threads_of_the_server_are_busy(tmp_path, monkeypatch, way):
     released, pressed = Event(), Event()
     monkeypatch.setattr(MachineLine, "worker", SimpleNamespace(**{way: pressed.set}))
-    monkeypatch.setattr(MachineLine, "disconnect", lambda line: released.wait(BUSY_S))
+    monkeypatch.setattr(MachineLine, "disconnect", lambda line: released.wait(PATIENCE))
     with asked(tmp_path) as client, ThreadPoolExecutor(THREADS + 1) as others:
         busy = [others.submit(client.post, "/api/machine/disconnect") for _ in range(THREADS)]
         try:
-            answer = others.submit(client.post, f"/api/machine/{way}").result(BUSY_S)
+            answer = others.submit(client.post, f"/api/machine/{way}").result(PATIENCE)
             assert answer.status_code == 200 and pressed.is_set()
             assert not any(each.done() for each in busy)
         finally:
@@ -314,20 +273,18 @@ def test_stop_works_while_all_threads_of_the_server_are_busy(tmp_path, monkeypat
 
 @pytest.mark.parametrize("way", PRESSES)
 def test_the_live_line_takes_presses_and_answers_each(lab, way):
-    address = f"ws://127.0.0.1:{lab.port}/api/live"
-    with connect(address, subprotocols=["plumb", lab.token]) as line:
+    with lab.live() as line:
         line.send("x" * 50_000)
         line.send(f"start 6 {way} 6")
         line.send(f"{way} 7")
         said = {}
         while "press" not in said:
-            said = json.loads(line.recv(timeout=BUSY_S))
+            said = json.loads(line.recv(timeout=PATIENCE))
         assert said["press"] == 7 and "connect it first" in said["error"]
 
 
 def test_the_live_line_speaks_though_nothing_changes(lab):
-    address = f"ws://127.0.0.1:{lab.port}/api/live"
-    with connect(address, subprotocols=["plumb", lab.token]) as line:
-        said = [json.loads(line.recv(timeout=BUSY_S)) for _ in range(4)]
+    with lab.live() as line:
+        said = [json.loads(line.recv(timeout=PATIENCE)) for _ in range(4)]
         states = [each for each in said if "kind" in each]
         assert len(states) >= 3 and states[0] == states[1] == states[2]

@@ -9,7 +9,6 @@ import pytest
 from attacks import Try, answered, status
 from served_lab import serve
 from websockets.exceptions import ConnectionClosed, InvalidStatus
-from websockets.sync.client import connect
 
 # The same server with deadlines that a test can wait for.
 HASTE = """
@@ -123,18 +122,8 @@ def test_the_page_and_a_silent_connection_do_not_disturb_each_other(lab):
         assert early.recv(65_536).startswith(b"HTTP/1.1 200")
 
 
-def live(lab, **options):
-    """The page's live line to the machine."""
-    return connect(
-        f"ws://127.0.0.1:{lab.port}/api/live",
-        origin=lab.site.rstrip("/"),
-        subprotocols=["plumb", lab.token],
-        **options,
-    )
-
-
 def test_a_live_line_is_opened_by_the_page_and_closed_at_an_oversized_message(lab):
-    with live(lab) as line:
+    with lab.live(origin=lab.site.rstrip("/")) as line:
         assert line.recv(timeout=BUSY_S)
         line.send("x" * 60_000)  # taken, and ignored
         line.send("x" * 70_000)
@@ -150,10 +139,10 @@ def test_a_hundred_live_lines_do_not_keep_the_owner_out(lab):
     with ExitStack() as lines:
         for _ in range(100):
             try:
-                lines.enter_context(live(lab, open_timeout=BUSY_S))
+                lines.enter_context(lab.live())
             except InvalidStatus:
                 refused += 1
         assert refused > 80
         assert status(answered(lab, ASKING.bytes(lab))) == 200
-    with live(lab) as line:
+    with lab.live() as line:
         assert line.recv(timeout=BUSY_S)

@@ -3,10 +3,9 @@
 import re
 
 import pytest
-from folder import got, until
 from lab_machine import PATIENCE, bar, start_virtual, with_machine
 from playwright.sync_api import expect
-from screens import at_rest, await_question, measured_machine
+from screens import at_rest, await_question, measured_machine, with_virtual_machine
 
 SPOKEN = """() => {
   window.spoken = [];
@@ -48,13 +47,7 @@ def test_a_screen_reader_is_told_states_and_no_places_or_counts(lab, page):
 
 
 def test_the_drawing_of_the_machine_has_the_sled_where_the_bar_says(lab, page):
-    measured_machine(lab.folder)
-    with lab.client() as client:
-        got(client.post("/api/machine/virtual", json={"seed": 9, "speed": 1000}))
-        until(client, lambda machine: machine["phase"] == "ready")
-        got(client.post("/api/machine/settings"))
-        got(client.post("/api/rounds/marks/cut"))
-        until(client, lambda machine: machine["program"]["outcome"] == "done")
+    with_virtual_machine(lab, lambda program: program["outcome"] == "done")
     for screen in ("known", "open"):
         page.goto(f"{lab.url}#/{screen}")
         at_rest(page)
@@ -85,12 +78,6 @@ def test_the_page_is_at_rest_once_everything_is_answered_saved_and_drawn(lab, pa
         page.unroute(f"**/api/{path}")
         at_rest(page)
     assert page.locator(".sheet circle.place").count() == 23
-
-
-def reveal(client, status=200):
-    answer = client.post("/api/practice/reveal")
-    assert answer.status_code == status, answer.text
-    return answer.json()
 
 
 def test_the_page_reveals_what_its_virtual_machine_hides(lab, page):

@@ -2,7 +2,6 @@
 
 from pathlib import Path
 
-import numpy as np
 import plumb
 import pytest
 from plumb.marks.read import read_marks
@@ -18,10 +17,6 @@ def test_the_example_is_read_into_the_machine_frame():
     # Mark 0: 69.2 - 1219.2 and 609.6 - 59.6; measured 67 - 1219.2 and 609.6 - 52.
     assert measurements.targets[0] == pytest.approx([-1150.0, 550.0])
     assert measurements.measured[0] == pytest.approx([-1152.2, 557.6])
-    errors = np.hypot(*(measurements.measured - measurements.targets).T)
-    # Published summary of this set: 7.29 mm RMS, worst 14.9 mm.
-    assert np.sqrt(np.mean(errors**2)) == pytest.approx(7.29, abs=0.005)
-    assert errors.max() == pytest.approx(14.95, abs=0.02)
     assert measurements.controller is None
     assert measurements.source == str(EXAMPLE)
 

@@ -64,12 +64,6 @@ def test_distances_alone_are_measurements_too():
     measurements = read_marks(path, sheet=(2438.4, 1219.2))
     assert measurements.measured.shape == (0, 2)
     assert len(measurements.distances) == 16
-    ends = measurements.distance_targets
-    meant = ((ends[:, 0] - ends[:, 1]) ** 2).sum(axis=1) ** 0.5
-    # Published summary of this set: 2.82 mm RMS, worst 6.6 mm.
-    wrong = measurements.distance_lengths - meant
-    assert (wrong**2).mean() ** 0.5 == pytest.approx(2.82, abs=0.005)
-    assert abs(wrong).max() == pytest.approx(6.6, abs=0.001)
 
 
 @pytest.mark.parametrize(

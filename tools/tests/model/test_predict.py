@@ -7,48 +7,19 @@ import pytest
 from plumb.fit.observations import chains_to, loaded, observe, visited
 from plumb.marks.read import Measurements
 from plumb.model.predict import (
-    FOUND,
     NAMES,
     believed_lengths,
-    frame_words,
     known_effects,
     lengths,
-    library,
-    places_with_slopes,
     values_of,
 )
 from plumb.settings.machine import PublishedSettings
 from synthetic import BELIEVED, TRUE, grid, marks_on
 
-CHAINS = lengths(TRUE, grid(5, 3))[0]
-SIZES = {number["name"]: abs(number["usual"]) or 10.0 for number in frame_words()}
-SIZES |= {f"{e['name']}.{p['name']}": abs(p["typical"]) for e in library() for p in e["parameters"]}
-
 
 def test_every_parameter_of_the_library_has_its_place_among_the_values():
     names = {f"{effect}.{name}" for effect, several in known_effects().items() for name in several}
     assert names == {name for name in NAMES if "." in name}
-
-
-@pytest.mark.parametrize("feed", ["top", "bottom"])
-@pytest.mark.parametrize("name", NAMES)
-def test_the_slope_of_places_is_that_of_finite_differences(name, feed):
-    values, over_top = values_of(TRUE), feed == "top"
-    chains = lengths(replace(TRUE, feed=feed), grid(5, 3))[0]
-    column = NAMES.index(name)
-    _, slopes, outcome = places_with_slopes(values, over_top=over_top, chains=chains)
-    assert (outcome == FOUND).all()
-    # Places come back within 1e-5 mm or so; a longer step hides that, a shorter step bends less.
-    step = (1e-2 if "." in name else 1e-3) * SIZES[name]
-    ends = []
-    for sign in (1, -1):
-        moved = values.copy()
-        moved[column] += sign * step
-        ends.append(places_with_slopes(moved, over_top=over_top, chains=chains)[0])
-    difference = (ends[0] - ends[1]) / (2 * step)
-    size = np.abs(difference).max()
-    # A number that no present effect uses (the chain's weight, by itself) has no slope.
-    assert slopes[:, :, column] == pytest.approx(difference, abs=1e-3 * size + 1e-9)
 
 
 def test_the_stock_controller_believes_its_own_formula_and_plumb_ours():

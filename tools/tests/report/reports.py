@@ -8,6 +8,8 @@ from contextlib import redirect_stderr, redirect_stdout
 from pathlib import Path
 
 from plumb.cli.main import main
+from plumb.marks.form import marks_toml
+from plumb.marks.read import Measurements
 from plumb.settings.toml import write_machine_toml
 from synthetic import BELIEVED, TRUE, distances_between, grid, marks_on
 
@@ -30,25 +32,11 @@ def reported(*words, folder: Path) -> tuple[dict, Path]:
     return answer, path
 
 
-def board(folder: Path, marks, *, name="marks.toml", settings=BELIEVED, **head) -> tuple[Path, ...]:
+def board(folder: Path, marks, distances=(), *, name="marks.toml", settings=BELIEVED):
     """Settings and marks as files."""
-    machine = folder / "machine.toml"
+    machine, path = folder / "machine.toml", folder / name
     write_machine_toml(machine, settings)
-    lines = ['frame = "machine"', *(f"{key} = {value}" for key, value in head.items())]
-    for mark in marks:
-        lines += [
-            "\n[[mark]]",
-            f"name = {json.dumps(mark.name)}",
-            f"target = {list(map(float, mark.target))}",
-        ]
-        if mark.measured is not None:
-            lines.append(f"measured = {[round(float(x), 3) for x in mark.measured]}")
-        if mark.sled_weight:
-            lines.append(f"sled_weight_n = {mark.sled_weight}")
-        if mark.approach:
-            lines.append(f"approach = {list(mark.approach)}")
-    path = folder / name
-    path.write_text("\n".join(lines) + "\n")
+    path.write_text(marks_toml(Measurements(tuple(marks), tuple(distances))))
     return machine, path
 
 
@@ -59,18 +47,5 @@ def nine(**how):
 
 def spans(folder: Path) -> tuple[Path, Path]:
     """A board of distances alone."""
-    machine = folder / "machine.toml"
-    write_machine_toml(machine, BELIEVED)
-    marks = marks_on(TRUE, BELIEVED, grid(4, 3), noise=0.3)
-    lines = ['frame = "machine"']
-    for mark in marks:
-        lines += ["[[mark]]", f'name = "{mark.name}"', f"target = {list(map(float, mark.target))}"]
-    for each in distances_between(marks).distances:
-        lines += [
-            "[[distance]]",
-            f"between = {json.dumps(each.between)}",
-            f"mm = {each.length:.2f}",
-        ]
-    path = folder / "spans.toml"
-    path.write_text("\n".join(lines) + "\n")
-    return machine, path
+    measured = distances_between(marks_on(TRUE, BELIEVED, grid(4, 3), noise=0.3))
+    return board(folder, measured.marks, measured.distances, name="spans.toml")

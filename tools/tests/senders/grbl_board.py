@@ -16,7 +16,7 @@ from plumb.vm.served_port import Pace
 from usual_machine import declaration, switched_on, usual_machine
 
 SPEED = 2  # times real time
-PATIENCE = 300.0  # [s] of this computer
+PATIENCE = 900.0  # [s] of this computer, which may have a tenth of its time for the machine
 AT_ONCE = re.compile(rb"[?!~\x18\x80-\xff]")  # characters that are no part of a line
 KEPT = 10_000  # [ms] after which the place is in the memory
 STANDS = 0.05  # [mm] in a second of a machine that does not move

@@ -96,7 +96,7 @@ def test_a_program_to_its_end(connected, board):
     assert sum(len(line) + 1 for line in lines) >= LEAST_AHEAD
     start = MIDDLE[0] + RADIUS, MIDDLE[1]
     connected.run(lines)
-    until(lambda: math.dist(board.sled, start) < 1, "the start of the circle")
+    until(lambda: abs(math.dist(board.sled, MIDDLE) - RADIUS) < 1, "the sled on the circle")
     board.wait(1)
     began, way = board.seconds, TURNS * 2 * math.pi * RADIUS
     until(connected.ended, f"{connected.name} takes the program for done")

@@ -10,7 +10,6 @@ from plumb.settings.ini import changed_ini, groundcontrol_changes, number_for_fi
 from plumb.text.errors import InputError
 
 EXAMPLE = Path(plumb.__file__).parent / "examples" / "mibproj" / "groundcontrol.ini"
-MASLOW, ADVANCED = "Maslow Settings", "Advanced Settings"
 
 
 def test_unchanged_settings_change_no_byte(tmp_path):
@@ -89,7 +88,7 @@ def test_numbers_that_the_file_cannot_hold_are_listed():
 @pytest.mark.parametrize("value", [float("nan"), float("inf"), "3000\nbedwidth = 1"])
 def test_unusable_values_are_refused(value):
     with pytest.raises(InputError, match="motorSpacingX"):
-        changed_ini(EXAMPLE, {(MASLOW, "motorSpacingX"): value})
+        changed_ini(EXAMPLE, {("Maslow Settings", "motorSpacingX"): value})
 
 
 @pytest.mark.parametrize(

@@ -1,5 +1,6 @@
 """Reading groundcontrol.ini."""
 
+from itertools import product
 from pathlib import Path
 
 import plumb
@@ -57,24 +58,20 @@ def test_a_sled_weight_of_zero_is_a_switch(tmp_path):
     assert (settings.sled_weight, settings.published.holey_sled_weight) == (97.9, 0.0)
 
 
+NEEDED = [
+    *product(["Maslow"], ["motorspacingx", "bedwidth", "bedheight", "motoroffsety"]),
+    *product(["Advanced"], ["gearteeth", "chainpitch", "rotationradius", "chainsagcorrection"]),
+    *product(["Advanced"], ["chainoversprocket", "kinematicstype"]),
+]
+
+
 @pytest.mark.parametrize(
     ("old", "new", "hint"),
     [
-        (f"{key} = ", f"{key[:3]} = ", f"(?i){key} is missing in .{section} Settings.")
-        for section, key in (
-            ("Maslow", "motorspacingx"),
-            ("Maslow", "bedwidth"),
-            ("Maslow", "bedheight"),
-            ("Maslow", "motoroffsety"),
-            ("Advanced", "gearteeth"),
-            ("Advanced", "chainpitch"),
-            ("Advanced", "rotationradius"),
-            ("Advanced", "chainsagcorrection"),
-            ("Advanced", "chainoversprocket"),
-            ("Advanced", "kinematicstype"),
-        )
-    ]
-    + [
+        *(
+            (f"{key} = ", f"{key[:3]} = ", f"(?i){key} is missing in .{part}")
+            for part, key in NEEDED
+        ),
         ("motorspacingx = 2978.4", "motorspacingx = 117.26", "motorspacingx: 117.26 .*inches"),
         ("motorspacingx = 2978.4", "motorspacingx = 2978,4", "motorspacingx: .*decimal comma"),
         ("motorspacingx = 2978.4", "motorspacingx = ", "motorspacingx: a number is missing"),

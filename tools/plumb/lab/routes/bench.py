@@ -45,7 +45,7 @@ from plumb.model.catalogue import every_effect, parameter_words
 from plumb.model.plain import noun_of, plain_size, plainly
 from plumb.model.predict import Array
 from plumb.text.answers import like
-from plumb.text.errors import InputError
+from plumb.text.errors import InputError, on_page
 
 router = APIRouter(tags=["bench"])
 NEW_MACHINE = "new.toml"
@@ -256,7 +256,7 @@ def climb(choice: BenchChoice, project: TheProject, warm: Warm) -> BenchStairs:
     ]
     return BenchStairs(
         stairs=[first, *stairs],
-        warnings=[*(slip.sentence for slip in warm.slips), *result.warnings],
+        warnings=[*(slip.sentence for slip in warm.slips), *map(on_page, result.warnings)],
     )
 
 

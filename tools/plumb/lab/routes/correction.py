@@ -33,7 +33,7 @@ from plumb.lab.rounds import board_words, checked_words, command, inputs_of, kno
 from plumb.lab.routes.project import ProjectAnswer, TheProject, show
 from plumb.lab.routes.verdict import TheBackground
 from plumb.model.plain import PlainChange, plain_change
-from plumb.text.errors import InputError
+from plumb.text.errors import InputError, on_page
 
 router = APIRouter(tags=["correction"])
 CLIENT_OF = {Path(file).suffix: client for client, file in CLIENT_FILES.items()}
@@ -148,7 +148,7 @@ def correction_of(inputs: Inputs, decision: Decision, choices: Choices) -> Corre
     if decision.addition is None and not (decision.state == "good" and is_written):
         return CorrectionParts(
             said=decision.headline,
-            reasons=list(decision.said),
+            reasons=list(map(on_page, decision.said)),
             nothing=_NOTHING[decision.state],
             instead=decision.step,
             add=_auto_words(choices),
@@ -235,12 +235,12 @@ def _parts(
     notes = (some or whole).notes
     return CorrectionParts(
         said=decision.headline,
-        reasons=list(decision.said),
+        reasons=list(map(on_page, decision.said)),
         numbers=numbers,
         asked=[each for each in asked if each.before != each.after or each.is_accepted],
-        stops=[note.text for note in notes if note.weight == "stop"],
+        stops=[on_page(note.text) for note in notes if note.weight == "stop"],
         cures=list(whole.by_hand),
-        warnings=[note.text for note in notes if note.weight in ("doubt", "hint")],
+        warnings=[on_page(note.text) for note in notes if note.weight in ("doubt", "hint")],
         intervals=(some or whole).intervals_said,
         settings=choices.settings,
         is_written=is_written,
@@ -295,7 +295,7 @@ def _client_files(project: Project, choices: Choices, made: Addition, name: str)
         made.settings,
         client=CLIENT_OF[Path(original).suffix] if original else NO_CLIENT,
         firmware="plumb",
-        original=str(project.path(original)) if original else None,
+        original=project.path(original) if original else None,
         lines=str(project.path(f"{Path(name).stem}.nc")),
     )
 

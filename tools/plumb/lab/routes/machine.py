@@ -34,7 +34,7 @@ from plumb.line.sender import Sender
 from plumb.line.worker import LineState
 from plumb.settings.files import read_settings
 from plumb.settings.toml import machine_toml
-from plumb.text.errors import InputError
+from plumb.text.errors import InputError, on_page
 from plumb.vm.garage import RANDOM
 from plumb.vm.owner import VirtualOwner
 from plumb.vm.practice import SECRET, Secret
@@ -243,9 +243,9 @@ def undo(request: NumbersRequest, project: TheProject, line: TheLine) -> Numbers
 def _written(
     line: MachineLine, project: Project, file: str, lines: list[str], *, back: bool = False
 ) -> NumbersAnswer:
-    path = str(project.path(file))
+    path = project.path(file)
 
-    def write(sender: Sender) -> tuple[WrittenNumbers, str, str]:
+    def write(sender: Sender) -> tuple[WrittenNumbers, Path, str]:
         # With other numbers the reported place is another, which looks like a move.
         sender.await_rest()
         try:
@@ -327,5 +327,5 @@ def _press(line: MachineLine, what: str) -> str:
     try:
         line.worker.stop() if what == "stop" else line.worker.hold()
     except InputError as error:
-        return str(error)
+        return on_page(error)
     return ""

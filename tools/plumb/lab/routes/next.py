@@ -176,7 +176,7 @@ def _written(project: Project, advice: Next, place: int) -> _Written | None:
     option = advice.proposals[place - 1].option
     if not len(option.visits):
         return None
-    settings = str(project.path(project.choices.settings))
+    settings = project.path(project.choices.settings)
     form = form_of(
         advice,
         place,

@@ -28,7 +28,7 @@ from plumb.lab.rounds import changed_since_fit, form_of, opened
 from plumb.marks.plausible import from_edges
 from plumb.settings.machine import MachineSettings
 from plumb.text.answers import like
-from plumb.text.errors import InputError
+from plumb.text.errors import InputError, on_page
 from plumb.text.values import show_in
 from plumb.vm.practice import Score, score, secret_in
 
@@ -103,7 +103,7 @@ def show(project: TheProject) -> ProjectAnswer:
             machine = machine_of(settings, choices.settings)
             changed = changed_since_fit(project, choices, settings)
         except Exception as error:
-            trouble = str(error)
+            trouble = on_page(error)
     return ProjectAnswer(
         folder=project.folder.resolve().name,
         key=digest_of(bytes(project.folder.resolve()))[:16],
@@ -154,9 +154,9 @@ def laid_down(project: Project, file: UploadFile, ending: str) -> Iterator[Path]
     try:
         with os.fdopen(handle, "wb") as copy:  # shut at once: Windows reads no open one
             copy.write(file.file.read())
-        yield Path(name)
+        yield project.folder / Path(name).name
     except InputError as error:
-        said = str(error).replace(name, file.filename or f"the file{ending}")
+        said = on_page(error).replace(name, file.filename or f"the file{ending}")
         raise InputError(said.replace(f"{project.folder}{os.sep}", "")) from None
     finally:
         Path(name).unlink()

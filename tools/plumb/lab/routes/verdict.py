@@ -12,7 +12,6 @@ from plumb.diagnosis.answer import SHOWN, Diagnosis, Together, odds_words
 from plumb.diagnosis.diagnosis import diagnose
 from plumb.diagnosis.noise import ORIGINS
 from plumb.diagnosis.outliers import Doubts
-from plumb.diagnosis.priors import LIKELIER
 from plumb.diagnosis.sizes import Size
 from plumb.diagnosis.unseen import Unseen, share_words, unseen_by
 from plumb.fit.compare import ComparedMark, Comparison
@@ -24,6 +23,7 @@ from plumb.lab.routes.project import TheProject, of_lab
 from plumb.model.catalogue import every_effect
 from plumb.model.plain import noun_of, plainly, ranked
 from plumb.text.answers import like
+from plumb.text.errors import on_page
 from plumb.text.values import worded
 
 router = APIRouter(tags=["verdict"])
@@ -132,7 +132,7 @@ def verdict_of(inputs: api.Inputs, diagnosis: Diagnosis, decision: Decision) -> 
     shown = list(diagnosis.explanations)[:MOST_CARDS]
     doubts = Doubts.of(diagnosis.outliers, raw)
     return Verdict(
-        title=_title(decision),
+        title=diagnosis.title,
         sentence=diagnosis.sentence,
         reach=diagnosis.left_open.sentence,
         marks=raw.marks,
@@ -149,7 +149,7 @@ def verdict_of(inputs: api.Inputs, diagnosis: Diagnosis, decision: Decision) -> 
         sureness=_sureness(decision),
         unseen=unseen_by(diagnosis, SHOWN),
         slips=[slip.sentence for slip in diagnosis.outliers],
-        notes=[*diagnosis.disagreements, *diagnosis.warnings],
+        notes=[*diagnosis.disagreements, *map(on_page, diagnosis.warnings)],
         step=decision.step,
     )
 
@@ -187,29 +187,6 @@ def _sureness(decision: Decision) -> list[tuple[str, str]]:
         (f"Noise of a reading ({ORIGINS[noise.source]})", worded(noise.sigma)),
         ("The same, as these marks show it", worded(fitted.corrected_rms / 2**0.5)),
     ]
-
-
-def _title(decision: Decision) -> str:
-    """Return what the answer comes to, in a few words."""
-    diagnosis = decision.diagnosis
-    if diagnosis.outliers:
-        return "A reading disagrees: look at it first"
-    if diagnosis.disagreements:
-        return "The rounds do not go together"
-    if diagnosis.is_good:
-        return "Cured" if diagnosis.is_cured else "As good as these marks can show"
-    if diagnosis.verdict == "nothing_provable":
-        may_act = diagnosis.nothing_chance <= LIKELIER
-        return "Something may act" if may_act else "The frame may be all of it"
-    if diagnosis.is_finding:
-        return diagnosis.sentence.partition(".")[0]
-    if diagnosis.verdict == "not_in_library":
-        known = diagnosis.field_chance <= LIKELIER
-        odds = odds_words(diagnosis.field_chance)
-        return "Something is left over" if known else f"Something unknown acts, odds {odds}"
-    if diagnosis.verdict == "one_suspect":
-        return f"It is most likely {diagnosis.called(diagnosis.explanations[0])}"
-    return "Several things could be it"
 
 
 def _states(raw: Comparison, decision: Decision, doubts: Doubts) -> list[State]:
