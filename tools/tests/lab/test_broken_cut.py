@@ -74,7 +74,7 @@ def test_a_mark_counts_as_cut_or_perhaps_cut_and_never_back(tmp_path):
     assert (far(), far("proof.nc")) == ((1, 0), (2, 0))  # all are cut
 
 
-def test_check_marks_that_broke_off_are_asked_for_too(lab, page):
+def test_proof_marks_that_broke_off_are_asked_for_too(lab, page):
     fitted_machine(lab.folder)
     with lab.client() as client:
         got(client.post("/api/rounds/proof"))

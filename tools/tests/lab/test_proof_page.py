@@ -39,7 +39,7 @@ def where(page):
     return re.findall(r"\d+", page.get_by_text("from your edges").inner_text())
 
 
-def test_two_check_marks_hold_then_miss_and_others_are_planned(lab, page):
+def test_two_proof_marks_hold_then_miss_and_others_are_planned(lab, page):
     fitted_machine(lab.folder)
     page.goto(f"{lab.url}#/prove")
     page.get_by_role("button", name="Save proof.nc; nothing moves").click(timeout=PATIENCE)
@@ -122,7 +122,7 @@ def client(tmp_path):
     return fitted_machine(tmp_path)
 
 
-def test_check_marks_take_no_part_unless_asked_for(client, tmp_path):
+def test_proof_marks_take_no_part_unless_asked_for(client, tmp_path):
     client.post("/api/rounds/proof")
     type_in(client, FORM, (0.3, 0.1), (-0.2, 0.4))
     assert client.get("/api/project").json()["choices"]["marks"] == ["marks.toml"]
@@ -216,7 +216,7 @@ def test_the_next_sheet_is_turned_back_once(client, tmp_path):
     assert got(client.get("/api/rounds/marks"))["sheet_rise"] == 0
 
 
-def test_check_marks_go_by_the_sheet_that_they_are_on(client, tmp_path):
+def test_proof_marks_go_by_the_sheet_that_they_are_on(client, tmp_path):
     client.post("/api/rounds/proof")
     type_in(client, "proof.toml", (0.3, 0))
     before = client.get("/api/proof").json()
