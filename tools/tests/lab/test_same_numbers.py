@@ -11,6 +11,7 @@ from folder import EXAMPLE, asked, choose, finished
 from plumb.cli.main import main
 from plumb.model.plain import noun_of, plain_size
 from plumb.settings.toml import write_machine_toml
+from plumb.text.values import MM
 from synthetic import BELIEVED, TRUE, distances_between, grid, marks_on
 
 LENGTH = r"([\d.]+) mm"
@@ -190,7 +191,7 @@ def test_sizes_and_their_noise_are_those_of_the_fit(said):
     assert_same(match_in(LENGTH, noise), said.added["sigma_mm"])
     numbers = {each["name"]: each for each in said.correction["numbers"]}
     for each in said.added["parameters"]:
-        size = plain_size(each["name"], each["value"], each["low"], each["high"])
+        size = plain_size(each["name"], each["value"], each["low"], each["high"], unit=MM)
         # In the terminal's table a long line goes on below.
         assert all(number in said.add for number in re.findall(r"[\d.]+\d", size))
         if each["name"] in numbers:
@@ -200,7 +201,7 @@ def test_sizes_and_their_noise_are_those_of_the_fit(said):
 def test_sizes_on_the_bench_are_those_of_the_effects_that_are_named(said):
     for each in said.added["parameters"]:
         if each["name"] in said.bench["sizes"]:
-            size = plain_size(each["name"], each["value"], each["low"], each["high"])
+            size = plain_size(each["name"], each["value"], each["low"], each["high"], unit=MM)
             assert said.bench["sizes"][each["name"]]["said"] == size
 
 

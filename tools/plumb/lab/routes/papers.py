@@ -59,7 +59,7 @@ def _paper(project: Project) -> bytes:
     else:
         form, _ = next_names(project)
         plan = planned(settings, choices.layout, choices.planned)
-    return grid_paper(plan.grid, plan.machine, settings=choices.settings, form=form)
+    return grid_paper(plan.grid, plan.machine, choices.unit, settings=choices.settings, form=form)
 
 
 _PAPERS: Mapping[str, tuple[str, Callable[[Project], bytes]]] = {
