@@ -36,7 +36,6 @@ from plumb.fit.inputs import Inputs
 from plumb.model.plain import plainly
 from plumb.plan import Next, Proposal, propose
 from plumb.text.answers import Internal, in_json, part
-from plumb.text.values import in_inches
 
 
 @dataclass(frozen=True)
@@ -228,9 +227,7 @@ def _ending(
     if best is None:
         return [verdict]
     if not arguments.details:
-        steps = to_read(
-            best, [in_inches(each, inputs.unit) for each in best.option.do], inputs.settings
-        )
+        steps = to_read(best, list(map(best.unit.reading, best.option.do)), inputs.settings)
         return [f"{verdict}\n{steps}\n{after(best, arguments, inputs.settings)}"]
     parts = [verdict, *first_proposal(best, arguments, inputs.settings)]
     if decision.chosen:

@@ -11,7 +11,7 @@ from plumb.model.effect_words import RuleReading
 from plumb.model.lab_effects import LAB_EFFECTS
 from plumb.model.predict import library
 from plumb.settings.machine import GRAVITY, MachineSettings
-from plumb.text.values import INCH, INCHES, Unit, in_inches, length_in, number_in
+from plumb.text.values import INCH, INCHES, Unit, length_in, number_in
 
 WEIGHT = "sled_weight"
 WEIGHED = 0.2  # [kg] to which a sled is weighed
@@ -65,8 +65,8 @@ def what_to_type(names: Iterable[str], settings: MachineSettings, unit: Unit) ->
     if not read:
         return ""
     shown = "inches" if read[0].unit == "mm" and unit == INCHES else read[0].unit
-    titles = "; then ".join(reading.title for reading in read)
-    return in_inches(f"{VALUE}: {titles}, in {shown}.", unit)
+    titles = "; then ".join(unit.reading(reading.title) for reading in read)
+    return f"{VALUE}: {titles}, in {shown}."
 
 
 def number_read(

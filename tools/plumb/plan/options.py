@@ -11,7 +11,7 @@ from plumb.plan.case import Case, PlannedCheck
 from plumb.plan.planned_visits import Visits, grid, joined, new_places, nowhere, sent, usable
 from plumb.plan.separation import FRAME_CHECKS, Chooser, NumberCheck, effect_checks
 from plumb.settings.machine import GRAVITY
-from plumb.text.values import Unit
+from plumb.text.values import Unit, in_both_units
 
 Array = np.ndarray
 EXTRA_KILOGRAMS = (2.5, 5.0, 10.0)  # what a maker finds to hang on a sled
@@ -190,9 +190,10 @@ class _Shop:
         chosen = Chooser(self.case, pool).best(range(len(pool)), FEW // 2)
         both = {twin for i in chosen for twin in (i, (i // count ^ 1) * count + i % count)}
         visits = pool.taken(sorted(both, key=lambda i: (i % count, i)))
+        way = self.unit.reading(in_both_units("the last {100 mm|3.9 inch} straight"))
         do = (
-            "Touch two marks next to each other from opposite sides, the last 100 mm straight "
-            f"towards the mark, at {spots(visits, self.unit)}; write down the approach."
+            f"Touch two marks next to each other from opposite sides, {way} towards the mark, at "
+            f"{spots(visits, self.unit)}; write down the approach."
         )
         return [_marks("approach", "marks from opposite sides", do, visits)]
 

@@ -32,7 +32,7 @@ from plumb.plan.separation import ENOUGH, apart, drawn_by
 from plumb.settings.cut_with import cut_with_lines, with_form
 from plumb.text.answers import Internal, among, in_json, key, meant, part
 from plumb.text.errors import Source
-from plumb.text.values import Unit, in_inches
+from plumb.text.values import Unit
 
 Array = np.ndarray
 # A question: what the chance is the chance of.
@@ -82,7 +82,7 @@ class Proposal:
     @in_json
     def steps(self) -> list[str]:
         """What to do, and what it tells, in sentences."""
-        return [*(in_inches(each, self.unit) for each in self.option.do), *_shown_by(self.parts)]
+        return [*map(self.unit.reading, self.option.do), *_shown_by(self.parts)]
 
     @in_json
     def promise(self) -> str:

@@ -120,6 +120,10 @@ class Unit:
         """Return a chosen length [mm], with the unit and no more decimals than it needs."""
         return f"{round(self.of(length), 2):g} {self.name}"
 
+    def reading(self, words: str) -> str:
+        """Return words that hold their lengths in both units, in this one."""
+        return words.inches if self.finer and isinstance(words, _InBoth) else words
+
 
 MM, INCHES = Unit("mm", 1.0), Unit("inch", INCH, finer=1)
 
@@ -129,31 +133,22 @@ def unit_called(name: str) -> Unit:
     return INCHES if name == INCHES.name else MM
 
 
-# Sentences with lengths in mm and metres, for a reader with an inch tape.
+# Words with chosen lengths, each in both units: `read to {0.2 mm|0.0079 inch}`.
 
-_BOTH = re.compile(r"[\d.]+ mm \(([\d.]+ inch(?:es)?)\)")  # says both already
-_PER_METRE = re.compile(r"([\d.]+) mm per metre")
-_MILLIMETRES = re.compile(r"([\d.]+) mm\b")
-_METRES = re.compile(r"\b(?:(\d+) m|a metre)\b")
+_LENGTH = re.compile(r"\{(.*?)\|(.*?)\}")
 
 
-def in_inches(sentence: str, unit: Unit) -> str:
-    """Return a sentence with its lengths in inches, where lengths are shown so."""
-    if unit != INCHES:
-        return sentence
-    said = _BOTH.sub(r"\1", sentence)
-    said = _PER_METRE.sub(lambda length: f"{float(length[1]) * 0.012:.1g} inch per foot", said)
-    said = _MILLIMETRES.sub(lambda length: f"{float(length[1]) / INCH:.2g} inch", said)
-    return _METRES.sub(lambda length: _eighths(1000 * float(length[1] or 1)), said)
+class _InBoth(str):
+    """Words with lengths in mm, which know those in inches; in an f-string they lose these."""
+
+    inches: str
 
 
-def _eighths(length: float) -> str:
-    """Return a length [mm] in inches and eighths."""
-    whole, part = divmod(round(8 * length / INCH), 8)
-    if not part:
-        return f"{whole} inches"
-    top, below = {2: (1, 4), 4: (1, 2), 6: (3, 4)}.get(part, (part, 8))
-    return f"{whole} {top}/{below} inches"
+def in_both_units(words: str) -> str:
+    """Return words as they read in mm; Unit.reading() has them in inches."""
+    said = _InBoth(_LENGTH.sub(r"\1", words))
+    said.inches = _LENGTH.sub(r"\2", words)
+    return said
 
 
 # Lengths as people type them: millimetres or inches, decimals or fractions like 47 7/8.
