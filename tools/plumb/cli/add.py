@@ -213,7 +213,7 @@ def _print_written(
     if arguments.output == STDOUT:
         return
     if client and arguments.output:
-        print(f"\n{second_round(arguments, [arguments.output, *client.files])}")
+        print(f"\n{second_round(arguments, [arguments.output, *client.files], result.unit)}")
     elif arguments.output:
         print(f"\n{_for_the_machine(arguments)}")
     else:

@@ -10,7 +10,7 @@ from plumb.cure.machine_file import PATCH_WARNING
 from plumb.diagnosis.answer import MOST_NAMED
 from plumb.fit.covariates import PATCH
 from plumb.model.plain import noun_of, plain_before, plain_size
-from plumb.text.values import bare, unit, worded
+from plumb.text.values import Unit
 
 KINDS = {"good": GOOD, "better": GOOD, "measure_first": OPEN}  # of decisions; else it is bad news
 NUMBERS = 7  # rows of a short answer
@@ -75,7 +75,11 @@ def details_text(decision: Decision, *, is_taken: bool) -> list[str]:
         said.append("To be sure which it is:\n" + sentences(decision.settled_by))
     if decision.offer:
         added = addition is not None and PATCH in addition.effects_added
-        said.append(sentences([_offer_sentence(*decision.offer, added=added)], mark=""))
+        said.append(
+            sentences(
+                [_offer_sentence(*decision.offer, decision.inputs.unit, added=added)], mark=""
+            )
+        )
     if addition and is_taken:
         said += addition_text(addition, decision.notes)
     elif diagnosis.explanations:
@@ -83,11 +87,11 @@ def details_text(decision: Decision, *, is_taken: bool) -> list[str]:
     return said
 
 
-def _offer_sentence(without: float, with_patch: float, *, added: bool) -> str:
+def _offer_sentence(without: float, with_patch: float, unit: Unit, *, added: bool) -> str:
     """Return what a residual patch would buy, or has bought."""
     if with_patch >= without:
-        return f"A residual patch would buy nothing ({worded(without)} on marks not used)."
-    bought = f"{bare(without)} to {worded(with_patch)} on marks not used"
+        return f"A residual patch would buy nothing ({unit.worded(without)} on marks not used)."
+    bought = f"{unit.bare(without)} to {unit.worded(with_patch)} on marks not used"
     if added:
         return f"The residual patch bought {bought}."
     return f"A residual patch (--patch) would buy {bought}. {PATCH_WARNING}"
@@ -115,15 +119,15 @@ def addition_text(
 
 
 def quality_table(result: Addition) -> str:
-    raw = result.raw
+    raw, unit = result.raw, result.unit
     start = (raw.rms, None, None, raw.worst, raw.shape_rms)
-    rows = [["raw: the settings as they are", *map(bare, start)]]
+    rows = [["raw: the settings as they are", *map(unit.bare, start)]]
     named = [("fitted: the frame", result.before)]
     named += [(f"fitted: + {noun_of(step.effect)}", step) for step in result.by_effect]
     for name, q in named:
         errors = (q.fit_rms, q.noise_rms, q.left_out_rms, q.worst, q.shape_rms)
-        rows.append([name, *map(bare, errors)])
-    return table([f"error in {unit()}", "RMS", "noise", "checked", "worst", "shape"], rows)
+        rows.append([name, *map(unit.bare, errors)])
+    return table([f"error in {unit.name}", "RMS", "noise", "checked", "worst", "shape"], rows)
 
 
 def parameter_table(result: Addition, *, most: int | None = None) -> str:
@@ -131,8 +135,8 @@ def parameter_table(result: Addition, *, most: int | None = None) -> str:
     shown = [each for each in result.parameters if not each.of_patch]
     rows = [
         [
-            plain_size(each.name, each.value, each.low, each.high),
-            plain_before(each.name, each.before, each.low, each.high),
+            plain_size(each.name, each.value, each.low, each.high, unit=result.unit),
+            plain_before(each.name, each.before, each.low, each.high, unit=result.unit),
             "" if each.possible else "impossible",
         ]
         for each in shown[:most]

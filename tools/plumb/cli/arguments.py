@@ -9,7 +9,7 @@ from typing import Any, TypeVar
 
 from plumb.settings.machine import CONTROLLERS
 from plumb.text.files import ReadOnce, read_bytes
-from plumb.text.values import typed_length
+from plumb.text.values import MM, Unit, typed_length, unit_called
 
 # The values of arguments: each is read from what was typed, or refused.
 
@@ -64,6 +64,13 @@ def file(path: str) -> str:
     if not Path(path).exists() or Path(path).is_dir():
         read_bytes(path)  # refuses it; a pipe is read later
     return ReadOnce(path)
+
+
+def unit_of(arguments: argparse.Namespace, typed: str = MM.name) -> Unit:
+    """Return the unit of lengths on the screen: as it was named, else as places were typed. JSON is
+    in mm.
+    """
+    return MM if arguments.json else unit_called(arguments.units or typed)
 
 
 # The arguments. {} stands for what a command says of it.

@@ -11,7 +11,6 @@ from plumb.diary.recheck import Recheck, fit_of, recheck
 from plumb.fit.inputs import Inputs
 from plumb.job.home import HomeTouch, are_apart
 from plumb.text.answers import json_of
-from plumb.text.values import bare, signed, unit
 
 SHOWN = 4  # changes
 
@@ -38,7 +37,8 @@ def checked_by_fit(inputs: Inputs, path: str) -> Recheck | None:
     fit = fit_of(read_diary(folder), settings)
     if fit is None or not are_apart(touches):
         return None
-    return recheck(fit, settings, touches, sigma=inputs.sigma or measured.tape_sigma)
+    sigma = inputs.sigma or measured.tape_sigma
+    return recheck(fit, settings, touches, sigma=sigma, unit=inputs.unit)
 
 
 def is_all(checked: Recheck) -> bool:
@@ -54,20 +54,22 @@ def report(arguments: argparse.Namespace, checked: Recheck) -> int:
 
 
 def _text(checked: Recheck) -> str:
+    unit = checked.unit
     rows = [
         [
             mark.name,
-            f"{bare(mark.hole[0], 1)}, {bare(mark.hole[1], 1)}",
-            ", ".join(map(signed, mark.error)),
-            bare(mark.expected_mm),
+            f"{unit.bare(mark.hole[0], 1)}, {unit.bare(mark.hole[1], 1)}",
+            ", ".join(map(unit.signed, mark.error)),
+            unit.bare(mark.expected_mm),
         ]
         for mark in checked.marks
     ]
-    marks = table(["mark", f"at [{unit()}]", "error", "expected up to"], rows)
+    marks = table(["mark", f"at [{unit.name}]", "error", "expected up to"], rows)
     if checked.holds:
         return f"{headline(f'{checked.sentence} Nothing was written.', GOOD)}\n\n{marks}"
     changes = [
-        [change.words, "yes" if change.explains else "no"] for change in checked.changes[:SHOWN]
+        [change.words(unit), "yes" if change.explains else "no"]
+        for change in checked.changes[:SHOWN]
     ]
     single = table(["a single change", "explains the marks"], changes)
     return "\n\n".join([headline(checked.sentence, BAD), marks, single])

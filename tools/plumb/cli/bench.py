@@ -9,7 +9,7 @@ from plumb.cli.arguments import add_shared, count, positive
 from plumb.cli.output import INTERRUPTED
 from plumb.cli.screen import Bar, print_json, sentences, table
 from plumb.text.errors import InputError
-from plumb.text.values import worded
+from plumb.text.values import MM
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -99,7 +99,7 @@ def as_text(report: Report) -> str:
 
 
 def _noise_words(report: Report) -> str:
-    said = f", noise {worded(report.noise)}" if report.noise else ""
+    said = f", noise {MM.worded(report.noise)}" if report.noise else ""
     return said if report.is_stated else f"{said}, not stated"
 
 
@@ -109,8 +109,8 @@ def _promises_sentence(report: Report) -> str:
         return ""
     return sentences(
         [
-            f"Promised over the sheet: {worded(said.promised)}, the mean of {said.boards} boards; "
-            f"{worded(said.came_true)} came true."
+            f"Promised over the sheet: {MM.worded(said.promised)}, the mean of {said.boards} "
+            f"boards; {MM.worded(said.came_true)} came true."
         ],
         mark="",
     )

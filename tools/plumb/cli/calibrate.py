@@ -36,7 +36,6 @@ from plumb.fit.inputs import Inputs
 from plumb.model.plain import plainly
 from plumb.plan import Next, Proposal, propose
 from plumb.text.answers import Internal, in_json, part
-from plumb.text.values import in_inches, worded
 
 
 @dataclass(frozen=True)
@@ -179,23 +178,23 @@ def size_now(this: CalibrationRound) -> list[str]:
     best = diagnosis.explanations[0] if diagnosis.explanations else None
     left, effects = (best.rms_after, best.effects) if best else (diagnosis.rms_before, ())
     cause = plainly(effects) if len(effects) <= MOST_NAMED else f"{len(effects)} causes at once"
+    unit = decision.inputs.unit
+    as_set = f"The error is {unit.worded(this.comparison.rms)} RMS as set"
     said = (
-        f"The error is {worded(this.comparison.rms)} RMS as set; {cause} would explain all but "
-        f"{worded(left)}."
+        f"{as_set}; {cause} would explain all but {unit.worded(left)}."
         if effects
-        else f"The error is {worded(this.comparison.rms)} RMS as set, {worded(left)} with the "
-        "frame fitted."
+        else f"{as_set}, {unit.worded(left)} with the frame fitted."
     )
-    outside = outside_sentence(this.comparison.promised) if this.comparison.promised else ""
+    outside = outside_sentence(this.comparison.promised, unit) if this.comparison.promised else ""
     return [sentences([f"{said} {outside}".strip()], mark="")]
 
 
 def details(this: CalibrationRound, inputs: Inputs) -> list[str]:
     """Return all that is known after this round."""
-    sheet_width, typed = inputs.settings.sheet_width, inputs.measurements.typed
-    moved = pose_sentence(this.comparison, sheet_width, typed)
-    parts = [sentences([conclusion(this.comparison)] + ([moved] if moved else []), mark="")]
-    outside = outside_sentence(this.comparison.promised) if this.comparison.promised else ""
+    comparison, unit = this.comparison, inputs.unit
+    moved = pose_sentence(comparison, inputs)
+    parts = [sentences([conclusion(comparison, unit)] + ([moved] if moved else []), mark="")]
+    outside = outside_sentence(comparison.promised, unit) if comparison.promised else ""
     if outside:
         parts.append(sentences([f"{outside} The diagnosis asks for that again."], mark=""))
     return [*parts, *details_text(this.decision, is_taken=this.done)]
@@ -220,7 +219,7 @@ def _ending(
             now = [f"{now[0]}\n{client_text(client)}"] if client else now
             if client is None and arguments.firmware == "plumb":
                 now.append(into_machine(files[0]))
-            return [verdict, *now, second_round(arguments, files)]
+            return [verdict, *now, second_round(arguments, files, inputs.unit)]
         case "read_again":
             return [verdict, _read_again(this, arguments)]
         case "impossible":
@@ -228,7 +227,7 @@ def _ending(
     if best is None:
         return [verdict]
     if not arguments.details:
-        steps = to_read(best, list(map(in_inches, best.option.do)), inputs.settings)
+        steps = to_read(best, list(map(best.unit.reading, best.option.do)), inputs.settings)
         return [f"{verdict}\n{steps}\n{after(best, arguments, inputs.settings)}"]
     parts = [verdict, *first_proposal(best, arguments, inputs.settings)]
     if decision.chosen:

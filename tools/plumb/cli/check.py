@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from plumb.cli.arguments import PROGRAM, add_shared, file, length
+from plumb.cli.arguments import PROGRAM, add_shared, file, length, unit_of
 from plumb.cli.inputs import inputs_of, picture_form
 from plumb.cli.output import refuse_twins, say_failure, write_outputs
 from plumb.cli.screen import (
@@ -22,7 +22,7 @@ from plumb.cli.screen import (
     table,
 )
 from plumb.cure.live_board import refuse_other_origin
-from plumb.fit.inputs import settings_in
+from plumb.fit.inputs import Inputs, settings_in
 from plumb.job.bits import INCH, Tools
 from plumb.job.check import CheckedJob, Error, Part, check_job
 from plumb.job.dry_run import comment_of, outline_of, program_in
@@ -36,7 +36,7 @@ from plumb.pictures.drawing import GOOD as CUT
 from plumb.pictures.drawing import NOWHERE, QUIET, Corners, Dot, Panel, Ways, draw, shades_of
 from plumb.settings.machine import GRAVITY, MachineSettings
 from plumb.text.answers import Internal, in_json, part
-from plumb.text.values import bare, brief, signed, time_text, unit, worded
+from plumb.text.values import MM, Unit, time_text
 
 NAMED = 30  # parts that get their number in the picture
 
@@ -77,7 +77,11 @@ def run(arguments: argparse.Namespace) -> int:
     settings = settings_in(arguments.settings)
     arguments.controller = None
     lines = program_in(arguments.job, say=say_failure)
-    checked = _checked(arguments, settings, lines)
+    inputs = inputs_of(arguments) if arguments.marks else None
+    if inputs:
+        refuse_other_origin(inputs)
+    unit = inputs.unit if inputs else unit_of(arguments)
+    checked = _checked(arguments, settings, lines, inputs)
     files, changes = {}, tuple[FixedLine, ...]()
     if arguments.fix:
         machine = JobMachine(settings, (*arguments.start, 0.0), dict(arguments.set))
@@ -86,9 +90,9 @@ def run(arguments: argparse.Namespace) -> int:
         # In front of the first line, so that each line keeps its number.
         title = f"(plumb: {comment_of(Path(arguments.job).name)} as this machine runs it) "
         files[arguments.fix] = (title + "\n".join([*mended.lines, ""])).encode()
-        checked = _checked(arguments, settings, mended.lines) if changes else checked
+        checked = _checked(arguments, settings, mended.lines, inputs) if changes else checked
     if arguments.picture:
-        files[arguments.picture] = _picture(checked, settings, arguments.job, form=form)
+        files[arguments.picture] = _picture(checked, settings, arguments.job, unit, form=form)
     if arguments.outline:
         outline = outline_of(checked.over_sheet, checked.samples, name=Path(arguments.job).name)
         files[arguments.outline] = outline.encode()
@@ -98,16 +102,16 @@ def run(arguments: argparse.Namespace) -> int:
     else:
         if arguments.fix:
             print(f"{_changed(changes, arguments)}\n")
-        print(as_text(checked, arguments))
+        print(as_text(checked, arguments, unit))
     return 0 if checked.is_good else 1
 
 
 def _checked(
-    arguments: argparse.Namespace, settings: MachineSettings, lines: Sequence[str]
+    arguments: argparse.Namespace,
+    settings: MachineSettings,
+    lines: Sequence[str],
+    inputs: Inputs | None,
 ) -> CheckedJob:
-    inputs = inputs_of(arguments) if arguments.marks else None
-    if inputs:
-        refuse_other_origin(inputs)
     return check_job(
         settings,
         lines,
@@ -124,12 +128,14 @@ def _checked(
     )
 
 
-def _picture(checked: CheckedJob, settings: MachineSettings, name: str, *, form: str) -> bytes:
+def _picture(
+    checked: CheckedJob, settings: MachineSettings, name: str, unit: Unit, *, form: str
+) -> bytes:
     """Return the whole sheet with the job on it, and below it the job from near."""
     sheet = sheet_of(checked, settings, name)
     meaning = "Blue: the bit in the wood; grey: above the sheet; orange: wrong, or not usable"
     piece = checked.piece
-    depth = f"; brown: the wood, cut up to {worded(piece.deepest)} deep." if piece else "."
+    depth = f"; brown: the wood, cut up to {unit.worded(piece.deepest)} deep." if piece else "."
     near = replace(sheet, title="From near", view=near_view(checked))
     panels = [replace(sheet, dots=()), near]
     words = [f"{meaning}{depth}"]
@@ -240,17 +246,17 @@ SHOWN = 12  # lines with the same fault
 PARTS = 12  # parts in the table
 
 
-def as_text(checked: CheckedJob, arguments: argparse.Namespace) -> str:
+def as_text(checked: CheckedJob, arguments: argparse.Namespace, unit: Unit) -> str:
     """Return the check for people: what is wrong, the job, its parts, what to do next."""
     name = Path(arguments.fix or arguments.job).name
     paragraphs = [headline(_verdict(checked, name), GOOD if checked.is_good else BAD)]
     wrong = _wrong(checked)
     if wrong:
         paragraphs.append(sentences(wrong))
-    paragraphs.append(_job(checked))
+    paragraphs.append(_job(checked, unit))
     if checked.parts:
-        paragraphs.append(_parts(checked))
-    notes = _notes(checked)
+        paragraphs.append(_parts(checked, unit))
+    notes = _notes(checked, unit)
     if notes:
         paragraphs.append(sentences(notes))
     if has_habit(checked.findings):
@@ -315,7 +321,7 @@ def _where(finding: Finding) -> str:
     return f"{finding.count} lines from line {finding.line} on"
 
 
-def _job(checked: CheckedJob) -> str:
+def _job(checked: CheckedJob, unit: Unit) -> str:
     times = checked.times
     rows = [
         ["time", time_text(times.whole), "without the operator's pauses"],
@@ -323,13 +329,13 @@ def _job(checked: CheckedJob) -> str:
     ]
     piece, hanging = checked.piece, checked.hanging
     if piece is not None:
-        rows.append(["deepest", worded(piece.deepest), f"at line {piece.line}"])
-        rows.append(["removed", _volume(piece.removed), f"with {_bits(piece)}"])
+        rows.append(["deepest", unit.worded(piece.deepest), f"at line {piece.line}"])
+        rows.append(["removed", _volume(piece.removed, unit), f"with {_bits(piece, unit)}"])
     if hanging is not None:
         slack, tight = hanging.tension
         push = f"by a push of 1 kg on the bit, most at line {hanging.give_line}"
         rows.append(["chains", f"{slack:.0f} to {tight:.0f} N", "slackest and tightest"])
-        rows.append(["give", worded(GRAVITY * hanging.give), push])
+        rows.append(["give", unit.worded(GRAVITY * hanging.give), push])
     return table(["the job", "", ""], rows, words=[1, 2])
 
 
@@ -340,31 +346,32 @@ def _without_limits(times: Times) -> str:
     return at_feeds if asked == capped else f"{at_feeds}, {capped} with none above $15"
 
 
-def _volume(volume: float) -> str:
+def _volume(volume: float, unit: Unit) -> str:
     """Return a volume [mm3] in the unit that fits the lengths on the screen."""
-    if unit() == "mm":
+    if unit == MM:
         return f"{volume / 1000:.1f} cm3"
     return f"{volume / INCH**3:.2f} cubic inches"
 
 
-def _bits(piece: Piece) -> str:
-    several = " and ".join(sorted({brief(bit.diameter) for bit in piece.bits}))
+def _bits(piece: Piece, unit: Unit) -> str:
+    several = " and ".join(sorted({unit.brief(bit.diameter) for bit in piece.bits}))
     return f"a bit of {several}" + ("" if piece.is_said else ", the usual; --bit says otherwise")
 
 
-def _parts(checked: CheckedJob) -> str:
+def _parts(checked: CheckedJob, unit: Unit) -> str:
     header = ["part", "lines", "size", "deep"]
     header += ["width", "height", "askew"] if checked.has_errors else []
     rows = []
     for number, each in enumerate(checked.parts, start=1):
         width, height = each.size
         row = [str(number), f"{each.first_line}-{each.last_line}"]
-        row += [f"{bare(width, 1)} x {bare(height, 1)}", bare(-each.deepest)]
+        row += [f"{unit.bare(width, 1)} x {unit.bare(height, 1)}", unit.bare(-each.deepest)]
         if checked.has_errors:
-            row += map(_error, (each.width_error, each.height_error, each.skew))
+            errors = (each.width_error, each.height_error, each.skew)
+            row += [_error(error, unit) for error in errors]
         rows.append(row)
     more = len(rows) - PARTS
-    words = [f"Sizes by the middle of the bit, {unit()}."]
+    words = [f"Sizes by the middle of the bit, {unit.name}."]
     if checked.has_errors:
         words.append(
             "Width and height: how much too large the part will come out; askew: how far its top "
@@ -375,14 +382,15 @@ def _parts(checked: CheckedJob) -> str:
     return f"{table(header, rows[:PARTS])}\n\n{sentences(words, mark='')}"
 
 
-def _error(error: Error | None) -> str:
-    return "-" if error is None else f"{signed(error.mm)} +-{bare(error.within)}"
+def _error(error: Error | None, unit: Unit) -> str:
+    return "-" if error is None else f"{unit.signed(error.mm)} +-{unit.bare(error.within)}"
 
 
-def _notes(checked: CheckedJob) -> list[str]:
+def _notes(checked: CheckedJob, unit: Unit) -> list[str]:
     notes = [
         f"{_count(each.moves, 'move')} slower than the program asks, by {each.because}: line "
-        f"{each.line} asks for {_feed(each.asked)} {unit()}/min and gets {_feed(each.feed)}"
+        f"{each.line} asks for {_feed(each.asked, unit)} {unit.name}/min and gets "
+        f"{_feed(each.feed, unit)}"
         for each in checked.slower
     ]
     notes += [
@@ -404,9 +412,9 @@ def _notes(checked: CheckedJob) -> list[str]:
     return notes
 
 
-def _feed(feed: float) -> str:
+def _feed(feed: float, unit: Unit) -> str:
     """Return a feed [mm/min] in the unit of lengths."""
-    return f"{feed:.0f}" if unit() == "mm" else f"{feed / INCH:.1f}"
+    return f"{feed:.0f}" if unit == MM else f"{feed / INCH:.1f}"
 
 
 def _lines(numbers: Sequence[int]) -> str:

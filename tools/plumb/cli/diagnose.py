@@ -24,7 +24,7 @@ from plumb.diagnosis.unseen import unseen_by
 from plumb.model.catalogue import every_effect
 from plumb.model.plain import noun_of, ranked
 from plumb.plan import Proposal, propose
-from plumb.text.values import worded
+from plumb.text.values import Unit
 
 COLUMNS = (
     "Odds: that this is right, against all else. Leaves: the RMS error once it is added. Noise: "
@@ -87,7 +87,7 @@ def likeliest(diagnosis: Diagnosis) -> list[str]:
     parts = []
     if diagnosis.explanations:
         first, *_ = shown = diagnosis.explanations[:FEW]
-        rows = [[diagnosis.called(each), *_numbers_of(each)] for each in shown]
+        rows = [[diagnosis.called(each), *_numbers_of(each, diagnosis.unit)] for each in shown]
         sizes = [size.said for size in first.parameters]
         parts.append(table(HEADER, rows))
         parts += [sentences(sizes, mark="  ")] if 0 < len(sizes) <= SIZES else []
@@ -101,8 +101,9 @@ def likeliest(diagnosis: Diagnosis) -> list[str]:
 
 def falls_table(diagnosis: Diagnosis) -> str:
     """Return how the error falls, effect by effect."""
-    rows = [["the frame alone", worded(diagnosis.rms_before)]]
-    rows += [[f"+ {noun_of(each.effect)}", worded(each.rms)] for each in diagnosis.falls]
+    unit = diagnosis.unit
+    rows = [["the frame alone", unit.worded(diagnosis.rms_before)]]
+    rows += [[f"+ {noun_of(each.effect)}", unit.worded(each.rms)] for each in diagnosis.falls]
     return table(["wrong at once", "leaves"], rows)
 
 
@@ -120,7 +121,7 @@ def details(diagnosis: Diagnosis) -> list[str]:
         if diagnosis.verdict == "cannot_tell":
             parts.append(_reasons(diagnosis))
         parts.append(_remedies(diagnosis))
-    parts.append(sentences([diagnosis.noise.sentence], mark=""))
+    parts.append(sentences([diagnosis.noise.said(diagnosis.unit)], mark=""))
     parts.append(_unseen(diagnosis))
     if diagnosis.warnings:
         parts.append(sentences(diagnosis.warnings))
@@ -131,7 +132,7 @@ def explanation_table(diagnosis: Diagnosis) -> str:
     """Return the accounts of the marks, the likeliest first, with the sizes of their effects."""
     rows: list[list[str]] = []
     for number, explanation in enumerate(diagnosis.explanations[:SHOWN], 1):
-        numbers = _numbers_of(explanation)
+        numbers = _numbers_of(explanation, diagnosis.unit)
         if diagnosis.is_finding:
             numbers[0] = "-"  # they are named by what they predict, not by odds
         rows.append([f"{number}. {diagnosis.called(explanation)}", *numbers])
@@ -143,10 +144,10 @@ def explanation_table(diagnosis: Diagnosis) -> str:
 EMPTY = ["", "", ""]
 
 
-def _numbers_of(explanation: Together) -> list[str]:
+def _numbers_of(explanation: Together, unit: Unit) -> list[str]:
     """Return the odds, what is left of the error, and what noise alone would leave."""
     sizes = (explanation.rms_after, explanation.noise_rms)
-    return [odds_words(explanation.share), *map(worded, sizes)]
+    return [odds_words(explanation.share), *map(unit.worded, sizes)]
 
 
 def _size_rows(explanation: Together, name: str) -> list[list[str]]:
@@ -166,8 +167,9 @@ def _reasons(diagnosis: Diagnosis) -> str:
             continue
         if apart > diagnosis.explanations[i].noise_rms:
             continue
+        how_near = diagnosis.unit.worded(apart)
         said.append(
-            f"{i + 1} and {j + 1} look alike: they move these marks alike to {worded(apart)} RMS"
+            f"{i + 1} and {j + 1} look alike: they move these marks alike to {how_near} RMS"
         )
     return sentences(said)
 
@@ -184,7 +186,9 @@ def _remedies(diagnosis: Diagnosis) -> str:
 def _unseen(diagnosis: Diagnosis) -> str:
     """Return how large effects could still be that are no suspects."""
     unseen = unseen_by(diagnosis, SHOWN)
-    rows = [[cause.noun, worded(cause.mm, 1), cause.taken_up] for cause in unseen.causes]
+    rows = [
+        [cause.noun, diagnosis.unit.worded(cause.mm, 1), cause.taken_up] for cause in unseen.causes
+    ]
     parts = [sentences([unseen.words], mark=""), table(unseen.header, rows)] if rows else []
     return "\n".join([*parts, *([sentences([unseen.silent])] if unseen.silent else [])])
 

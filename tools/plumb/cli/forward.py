@@ -6,13 +6,12 @@ from typing import Annotated
 
 import numpy as np
 
-from plumb.cli.arguments import add_shared, place
+from plumb.cli.arguments import add_shared, place, unit_of
 from plumb.cli.inverse import Outcome, Pair, answered, answers_table, count_sentence
 from plumb.cli.screen import print_json
 from plumb.fit.inputs import settings_in
 from plumb.model.predict import FOUND, places
 from plumb.text.answers import key
-from plumb.text.values import unit
 
 
 @dataclass(frozen=True)
@@ -33,8 +32,9 @@ def run(arguments: argparse.Namespace) -> int:
         print_json(PlacesAnswer(answers, words))
     else:
         said = count_sentence(words, "pair")
-        print(f"{said} Places from the middle of the sheet, y up; {unit()}.\n")
-        print(answers_table(("left", "right"), chains, ("x", "y"), answers, words))
+        unit = unit_of(arguments)
+        print(f"{said} Places from the middle of the sheet, y up; {unit.name}.\n")
+        print(answers_table(("left", "right"), chains, ("x", "y"), answers, words, unit))
     return int(bool((outcome != FOUND).any()))
 
 

@@ -5,7 +5,7 @@ import os
 from dataclasses import dataclass
 from typing import Annotated
 
-from plumb.cli.arguments import add_shared, any_length
+from plumb.cli.arguments import add_shared, any_length, unit_of
 from plumb.cli.output import refuse_twins, write_outputs
 from plumb.cli.screen import next_step, print_json, sentences, table
 from plumb.diagnosis.unseen import share_words
@@ -30,7 +30,7 @@ from plumb.settings.cut_with import cut_with_lines, with_form
 from plumb.settings.machine import MachineSettings
 from plumb.text.answers import meant
 from plumb.text.errors import InputError
-from plumb.text.values import bare, unit, worded
+from plumb.text.values import Unit
 
 Point = tuple[float, float]
 
@@ -88,7 +88,7 @@ def run(arguments: argparse.Namespace) -> int:
     if not arguments.output and (files or not told):
         print(planned.program, end="")
     if told:
-        print(_told(told))
+        print(_told(told, unit_of(arguments)))
     if arguments.output and arguments.marks:
         words = f"Cut {arguments.output}, write what you measure into {arguments.marks}, then:"
         measured = ["calibrate", arguments.settings or "groundcontrol.ini", arguments.marks]
@@ -145,7 +145,11 @@ def _files(arguments: argparse.Namespace, planned: _Planned) -> dict[str, bytes]
         if not arguments.paper.lower().endswith(".pdf"):
             raise InputError(f"--paper {arguments.paper}: end the name with .pdf")
         files[arguments.paper] = grid_paper(
-            planned.grid, planned.machine, settings=arguments.settings, form=form or "marks.toml"
+            planned.grid,
+            planned.machine,
+            unit_of(arguments),
+            settings=arguments.settings,
+            form=form or "marks.toml",
         )
     return files
 
@@ -177,17 +181,17 @@ def _could_tell(arguments: argparse.Namespace, planned: _Planned) -> Preview:
     return preview(settings_in(arguments.settings), plan, sigma=USUAL_SIGMA)
 
 
-def _told(outlook: Preview) -> str:
+def _told(outlook: Preview, unit: Unit) -> str:
     what = f"{outlook.marks} marks"
     what += f" and {outlook.distances} distances" if outlook.distances else ""
     first = (
-        f"{what} read to {worded(outlook.sigma)}: of {len(outlook.outlines)} causes in their usual "
-        f"size, {outlook.seen} would show and {outlook.named} could be named."
+        f"{what} read to {unit.worded(outlook.sigma)}: of {len(outlook.outlines)} causes in their "
+        f"usual size, {outlook.seen} would show and {outlook.named} could be named."
     )
-    return "\n\n".join([sentences([first], mark=""), _outline_table(outlook)])
+    return "\n\n".join([sentences([first], mark=""), _outline_table(outlook, unit)])
 
 
-def _outline_table(outlook: Preview) -> str:
+def _outline_table(outlook: Preview, unit: Unit) -> str:
     rows = []
     for place, outline in enumerate(outlook.outlines, 1):
         alike = ", ".join(map(noun_of, outline.alike[:ALIKE]))
@@ -196,13 +200,13 @@ def _outline_table(outlook: Preview) -> str:
             [
                 str(place),
                 noun_of(outline.effect),
-                bare(outline.raw),
+                unit.bare(outline.raw),
                 share_words(outline.hidden_share),
-                _smallest(outline),
+                _smallest(outline, unit),
                 f"{alike} +{more}" if more > 0 else alike or "-",
             ]
         )
-    header = ["", "effect", f"usual, {unit()}", "taken up", "found from", "taken for"]
+    header = ["", "effect", f"usual, {unit.name}", "taken up", "found from", "taken for"]
     note = (
         f"found from: the smallest size that is found in {100 * POWER:.0f} % of all cases, times "
         "the usual size"
@@ -210,13 +214,13 @@ def _outline_table(outlook: Preview) -> str:
     return table(header, rows, left=2, words=[-2, -1]) + "\n" + sentences([note], mark="")
 
 
-def _smallest(outline: Outline) -> str:
+def _smallest(outline: Outline, unit: Unit) -> str:
     if outline.smallest is None:
         return "never"
     first = outline.parameters[0]
     alone = len(outline.parameters) == 1 and first.smallest is not None
     name, size = f"{outline.effect}.{first.name}", first.smallest or 0.0
-    in_words = f" ({plain_before(name, size)})" if alone else ""
+    in_words = f" ({plain_before(name, size, unit=unit)})" if alone else ""
     return f"x {outline.smallest:.2g}{in_words}"
 
 

@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from plumb.cli.arguments import unit_of
 from plumb.cli.output import STDOUT, say_failure, write_outputs
 from plumb.cli.screen import headline, next_step, print_json, sentences, table
 from plumb.diary.file import HOME, keep
@@ -34,7 +35,7 @@ from plumb.settings.machine import MachineSettings
 from plumb.text.answers import Internal, in_json, json_of
 from plumb.text.errors import InputError
 from plumb.text.locks import alone
-from plumb.text.values import bare, signed, unit, worded
+from plumb.text.values import Unit
 
 
 @dataclass(frozen=True)
@@ -54,6 +55,7 @@ class HomeAnswer:
 
     settings: Internal[MachineSettings]
     kept: Internal[dict[str, HomeMark]]
+    unit: Internal[Unit]
     said: Internal[list[str]] = field(default_factory=list)
     asked: Internal[list[str]] = field(default_factory=list)
     lines: list[str] = field(default_factory=list)
@@ -80,7 +82,9 @@ def run(arguments: argparse.Namespace) -> int:
     settings = settings_in(arguments.settings)
     if arguments.keep and (arguments.at or arguments.touch):
         raise InputError("--keep goes alone: keep the home mark first, then restore by it")
-    answer = HomeAnswer(settings, read_home_marks(home_file(arguments.settings)))
+    answer = HomeAnswer(
+        settings, read_home_marks(home_file(arguments.settings)), unit_of(arguments)
+    )
     if arguments.keep:
         _keep(arguments, answer)
     if arguments.at:
@@ -97,7 +101,8 @@ def _keep(arguments: argparse.Namespace, answer: HomeAnswer) -> None:
     answer.kept[name] = mark
     answer.lines = hole_program(mark)
     answer.said = [
-        f"Home mark {name} is kept at {_place(place)}, with the chains {_chains(mark)}.",
+        f"Home mark {name} is kept at {_place(place, answer.unit)}, with the chains "
+        f"{_chains(mark)}.",
         "Make the hole with the program, in what cannot move: the frame, or a board on it. A hole "
         "in a sheet serves until the sheet is moved.",
     ]
@@ -111,7 +116,8 @@ def _restore(arguments: argparse.Namespace, answer: HomeAnswer) -> None:
     answer.lines = repair_program(np.array(mark.chains), where=where)
     answer.said = [
         f"With the bit in home mark {mark.name}, the chains are {_chains(mark)}.",
-        f"Put the bit into it, send {answer.lines[-1]}, and the machine shows {_place(shown)}.",
+        f"Put the bit into it, send {answer.lines[-1]}, and the machine shows "
+        f"{_place(shown, answer.unit)}.",
     ]
     for touched in touches_of(arguments):
         other = answer.kept.get(touched.name)
@@ -166,7 +172,7 @@ def _text(arguments: argparse.Namespace, answer: HomeAnswer) -> str:
     if not answer.said:
         return _listed(arguments, answer)
     parts = [headline(answer.said[0]), sentences(answer.said[1:], mark="")]
-    parts += [_fit_text(fit) for fit in answer.fits]
+    parts += [_fit_text(fit, answer.unit) for fit in answer.fits]
     parts += [sentences(answer.asked, mark="")] if answer.asked else []
     if arguments.output:
         parts.append(next_step("Send it:", ["send", arguments.output]))
@@ -182,31 +188,33 @@ def _listed(arguments: argparse.Namespace, answer: HomeAnswer) -> str:
     if not answer.marks:
         keeping = ["recover", arguments.settings, "--keep=left=-900,250", "-o", "left.nc"]
         return f"There is no home mark yet.\n\n{next_step('Keep a hole:', keeping)}"
-    rows = [[mark.name, _place(mark.place), _chains(mark)] for mark in answer.marks]
-    return table(["home mark", f"place [{unit()}]", "chains [mm]"], rows, words=[1, 2])
+    rows = [[mark.name, _place(mark.place, answer.unit), _chains(mark)] for mark in answer.marks]
+    heads = ["home mark", f"place [{answer.unit.name}]", "chains [mm]"]
+    return table(heads, rows, words=[1, 2])
 
 
-def _fit_text(fit: HomeFit) -> str:
+def _fit_text(fit: HomeFit, unit: Unit) -> str:
     x, y = fit.error
-    error = f"{signed(x)}, {signed(y)} {unit()}"
+    error = f"{unit.signed(x)}, {unit.signed(y)} {unit.name}"
     if fit.fits:
         said = (
             f"Home mark {fit.name} fits: its hole is {error} from where the machine shows it, and "
-            f"two touches by hand differ by up to {worded(fit.limit)}."
+            f"two touches by hand differ by up to {unit.worded(fit.limit)}."
         )
     else:
         left, right = fit.chains
         said = (
             f"Home mark {fit.name} does not fit: its hole is {error} from where the machine shows "
-            f"it, more than the {worded(fit.limit)} of two touches by hand. Its chains are "
-            f"{signed(left)} (left) and {signed(right)} {unit()} (right) longer than the machine "
-            "believes. Check that the bit was in the right holes, and that neither hole has moved."
+            f"it, more than the {unit.worded(fit.limit)} of two touches by hand. Its chains are "
+            f"{unit.signed(left)} (left) and {unit.signed(right)} {unit.name} (right) longer than "
+            "the machine believes. Check that the bit was in the right holes, and that neither "
+            "hole has moved."
         )
     return sentences([said], mark="")
 
 
-def _place(place: Any) -> str:
-    return f"{bare(place[0])}, {bare(place[1])}"
+def _place(place: Any, unit: Unit) -> str:
+    return f"{unit.bare(place[0])}, {unit.bare(place[1])}"
 
 
 def _chains(mark: HomeMark | ShownMark) -> str:

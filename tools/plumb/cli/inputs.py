@@ -9,7 +9,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import NamedTuple
 
-from plumb.cli.arguments import add_shared
+from plumb.cli.arguments import add_shared, unit_of
 from plumb.diagnosis import Checked
 from plumb.fit.by_hand import UNITS, number_read
 from plumb.fit.expected import refuse_absurd
@@ -20,24 +20,21 @@ from plumb.model.catalogue import parameter_words
 from plumb.pictures.drawing import FORMATS
 from plumb.settings.machine import MachineSettings
 from plumb.text.errors import InputError, naming
-from plumb.text.values import length_in, number_in, show_in
+from plumb.text.values import length_in, number_in
 
 
 def inputs_of(arguments: argparse.Namespace) -> Inputs:
-    """Return everything that a command with marks reads; lengths are shown as the marks
-    were typed.
-    """
+    """Return everything that a command with marks reads."""
     inputs = read_inputs(
         arguments.settings,
         arguments.marks,
         cut_with=arguments.cut_with,
         controller=arguments.controller,
     )
-    if not arguments.json:
-        show_in(arguments.units or inputs.measurements.typed.unit)
     without = vars(arguments).get("without")
     marks = without_marks(inputs.measurements, without) if without else inputs.measurements
-    return replace(inputs, measurements=marks)
+    unit = unit_of(arguments, inputs.measurements.typed.unit)
+    return replace(inputs, measurements=marks, unit=unit)
 
 
 def stated_inputs(arguments: argparse.Namespace) -> Inputs:

@@ -7,7 +7,7 @@ from typing import Annotated
 
 import numpy as np
 
-from plumb.cli.arguments import add_shared, place
+from plumb.cli.arguments import add_shared, place, unit_of
 from plumb.cli.screen import print_json, table
 from plumb.fit.inputs import settings_in
 from plumb.model.predict import (
@@ -23,7 +23,7 @@ from plumb.model.predict import (
 from plumb.settings.machine import MachineSettings
 from plumb.text.answers import among, key
 from plumb.text.errors import InputError
-from plumb.text.values import bare, unit
+from plumb.text.values import MM, Unit
 
 Pair = tuple[float, float] | None  # None where there is no answer
 Outcome = Annotated[str, among(FOUND_WORDS)]
@@ -58,10 +58,11 @@ def run(arguments: argparse.Namespace) -> int:
         print_json(ChainLengths(whose, answers, words, tuple(moved.tolist())))
     else:
         said = count_sentence(words, "place")
-        print(f"{said} Chain paid out from 12 o'clock, formula of {whose}; {unit()}.\n")
+        unit = unit_of(arguments)
+        print(f"{said} Chain paid out from 12 o'clock, formula of {whose}; {unit.name}.\n")
         if moved.any():
             print(f"{moved.sum()} off the sheet: the {whose} controller moves them to its edge.\n")
-        print(answers_table(("x", "y"), points, ("left", "right"), answers, words))
+        print(answers_table(("x", "y"), points, ("left", "right"), answers, words, unit))
     return int(bool((outcome != FOUND).any()))
 
 
@@ -129,6 +130,7 @@ def answers_table(
     names: tuple[str, str],
     answers: Sequence[Pair],
     words: Sequence[str],
+    unit: Unit,
 ) -> str:
     """Return what was given, with its answer, or the word for why there is none."""
     rows = []
@@ -136,8 +138,8 @@ def answers_table(
         numbers: list[float | None] = [*answer] if answer else [None, None]
         rows.append(
             [
-                *(f"{number:g}" if unit() == "mm" else bare(number, 3) for number in pair),
-                *(bare(number, 4) for number in numbers),
+                *(f"{number:g}" if unit == MM else unit.bare(number, 3) for number in pair),
+                *(unit.bare(number, 4) for number in numbers),
                 "" if word == "yes" else word,
             ]
         )

@@ -19,7 +19,6 @@ from typing import Any, NoReturn
 
 from plumb.cli.output import ended, results_of
 from plumb.text.errors import InputError
-from plumb.text.values import shown_in
 
 DESCRIPTION = "Find and cure the errors of a hanging CNC: grid, cut, measure, then calibrate."
 EPILOG = "Lengths are mm, forces N, angles rad. plumb COMMAND --help explains each command."
@@ -92,8 +91,7 @@ def _run(arguments: Sequence[str]) -> int:
     # Until here it ends the program at once: numpy would call an interruption a broken library.
     if signal.getsignal(signal.SIGINT) is signal.SIG_DFL:
         signal.signal(signal.SIGINT, signal.default_int_handler)
-    units = "mm" if "json" in parsed and parsed.json else getattr(parsed, "units", None)
-    with results_of(parsed), shown_in(units or "mm"):
+    with results_of(parsed):
         return run(parsed)
 
 

@@ -163,7 +163,7 @@ def first_proposal(
 
 def to_read(best: Proposal, steps: Sequence[str], settings: MachineSettings) -> str:
     """Return the steps of a measurement, and what is typed for VALUE."""
-    typed = what_to_type([check.name for check in best.option.checks], settings)
+    typed = what_to_type([check.name for check in best.option.checks], settings, best.unit)
     return sentences([*steps, typed] if typed else steps, mark="  ")
 
 
@@ -179,7 +179,7 @@ def after(best: Proposal, arguments: argparse.Namespace, settings: MachineSettin
         checks = [
             word
             for check in best.option.checks
-            for word in ("--checked", to_fill_in(check.name, check.sigma, settings))
+            for word in ("--checked", to_fill_in(check.name, check.sigma, settings, best.unit))
         ]
         again = ["calibrate", *same_inputs(arguments), *checks]
         return next_step("When that is measured:", again)

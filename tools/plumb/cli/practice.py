@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from plumb.cli.arguments import add_shared
+from plumb.cli.arguments import add_shared, unit_of
 from plumb.cli.screen import headline, print_json, sentences, table
 from plumb.cli.vm import add_brain, serve
 from plumb.model.predict import known_effects
@@ -16,7 +16,7 @@ from plumb.settings.files import read_settings
 from plumb.settings.toml import machine_toml
 from plumb.text.errors import InputError
 from plumb.text.files import write_all, write_whole
-from plumb.text.values import bare, unit
+from plumb.text.values import Unit
 from plumb.vm.garage import VirtualMachine
 from plumb.vm.practice import MACHINES, SECRET, Score, Secret, score, secret_in
 from plumb.vm.tape import BLANK, Tape
@@ -106,19 +106,19 @@ def _reveal(folder: Path, arguments: argparse.Namespace) -> int:
     secret = secret_in(folder)
     answer = read_settings(arguments.answer or folder / SETTINGS, known=known_effects())
     result = score(secret, answer)
-    print_json(result) if arguments.json else print(_as_text(result))
+    print_json(result) if arguments.json else print(_as_text(result, unit_of(arguments)))
     return int(bool(result.false or result.missed))
 
 
-def _as_text(result: Score) -> str:
+def _as_text(result: Score, unit: Unit) -> str:
     """Return the score for people."""
-    after = "out of reach" if result.after_mm is None else bare(result.after_mm)
-    rows = [["as the settings were", bare(result.before_mm)], ["yours", after]]
+    after = "out of reach" if result.after_mm is None else unit.bare(result.after_mm)
+    rows = [["as the settings were", unit.bare(result.before_mm)], ["yours", after]]
     return "\n\n".join(
         [
             headline(f"Hidden was {result.hidden}."),
             sentences([result.sentence], mark=""),
-            table([f"error all over the sheet, {unit()} RMS", "left"], rows),
+            table([f"error all over the sheet, {unit.name} RMS", "left"], rows),
         ]
     )
 

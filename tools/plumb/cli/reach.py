@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from plumb.cli.arguments import add_shared
+from plumb.cli.arguments import add_shared, unit_of
 from plumb.cli.inputs import picture_form
 from plumb.cli.output import write_outputs
 from plumb.cli.screen import next_step, print_json, sentences, table
@@ -14,7 +14,7 @@ from plumb.fit.problem import priors_with
 from plumb.model.reach import Extreme, Survey, percent
 from plumb.pictures.drawing import Panel, draw
 from plumb.plan.sheet_reach import MEANING, SheetReach, reach_of
-from plumb.text.values import bare, unit, worded
+from plumb.text.values import Unit
 
 CUT_THERE = ("--marks", "marks.toml", "--output", "grid.nc")
 CUT = 10.0  # [N] the side force of a light cut
@@ -34,7 +34,8 @@ def run(arguments: argparse.Namespace) -> int:
     priors_with(arguments.prior)  # refuses a number that is none
     survey, expected = reach_of(settings, dict(arguments.prior))
     written = [arguments.output] if arguments.output else []
-    answer = ReachMap(survey=survey, expected=expected, written=written)
+    unit = unit_of(arguments)
+    answer = ReachMap(survey=survey, expected=expected, unit=unit, written=written)
     if arguments.output:
         write_outputs({arguments.output: drawn_map(survey, form=form)}, inputs=[arguments.settings])
     if arguments.json:
@@ -87,21 +88,24 @@ def as_text(answer: SheetReach) -> str:
         "\n".join(legend),
     ]
     if answer.extremes:
-        rows = [_row(each) for each in answer.extremes]
-        parts.append(table(["", "", "limit", f"at x, y [{unit()}]", ""], rows, words=[-1]))
+        rows = [_row(each, answer.unit) for each in answer.extremes]
+        parts.append(
+            table(["", "", "limit", f"at x, y [{answer.unit.name}]", ""], rows, words=[-1])
+        )
     if answer.assumed:
         parts.append(sentences(answer.assumed))
     return "\n\n".join(parts)
 
 
-def _row(extreme: Extreme) -> list[str]:
+def _row(extreme: Extreme, unit: Unit) -> list[str]:
     x, y = extreme.place
-    place = f"{bare(x, 0)}, {bare(y, 0)}"
+    place = f"{unit.bare(x, 0)}, {unit.bare(y, 0)}"
     if extreme.unit == "N":
         sizes = [f"{extreme.value:.1f} N", f"{extreme.limit:g} N"]
         return [extreme.title, *sizes, place, extreme.side]
-    sizes = [f"{worded(size)}/N" for size in (extreme.value, extreme.limit)]
-    return [extreme.title, *sizes, place, f"{CUT:g} N move it {worded(CUT * extreme.value, 1)}"]
+    sizes = [f"{unit.worded(size)}/N" for size in (extreme.value, extreme.limit)]
+    moved = unit.worded(CUT * extreme.value, 1)
+    return [extreme.title, *sizes, place, f"{CUT:g} N move it {moved}"]
 
 
 # The arguments of `plumb reach`.

@@ -24,7 +24,7 @@ from rich.text import Text
 from plumb.text.answers import json_of
 from plumb.text.commands import GOES_ON, quoted
 from plumb.text.files import numbered
-from plumb.text.values import unit
+from plumb.text.values import MM, Unit
 
 WIDEST = 80  # [characters]
 PATIENCE = 2.0  # [s] before a bar shows how far the work is
@@ -258,11 +258,11 @@ def into_machine(machine: str) -> str:
     return next_step(words, ["send", machine])
 
 
-def second_round(arguments: argparse.Namespace, files: Sequence[str]) -> str:
+def second_round(arguments: argparse.Namespace, files: Sequence[str], unit: Unit) -> str:
     """Return how to see on new marks that the new settings hold; the machine leads the files."""
     machine = files[0]
     marks, program = free_name("marks", ".toml"), free_name("grid", ".nc")
-    tape = ["--units", unit()] if unit() != "mm" else []
+    tape = ["--units", unit.name] if unit != MM else []
     grid = ["grid", "--settings", machine, *tape, "--marks", marks, "--output", program]
     again = ["calibrate", machine, marks]
     if not any(Path(path).suffix in CLIENT_OF for path in files):

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from plumb.cli.arguments import unit_of
 from plumb.cli.home import asked_signs, touches_of, write_program
 from plumb.cli.output import say_failure
 from plumb.cli.screen import BAD, GOOD, OPEN, headline, next_step, print_json, sentences, table
@@ -26,7 +27,7 @@ from plumb.job.slip import (
     repair_program,
 )
 from plumb.text.answers import Internal, in_json, json_of, part
-from plumb.text.values import bare, signed, unit, worded
+from plumb.text.values import Unit
 
 SIDES = ("left", "right")
 SHOWN = 4  # accounts
@@ -49,6 +50,7 @@ class SlipAnswer:
     finding: Internal[SlipFinding]
     written: list[str]
     touch_next: Point | None  # where a hole would tell most
+    unit: Internal[Unit]
 
     verdict = part("finding.verdict", str)
     accounts = part("finding.accounts", tuple[SlipAccount, ...], "The likeliest first.")
@@ -57,7 +59,7 @@ class SlipAnswer:
     @in_json
     def sentence(self) -> str:
         """The verdict in a sentence."""
-        return sentence(self.finding)
+        return sentence(self.finding, self.unit)
 
     @in_json
     def touches(self) -> list[SlipTouch]:
@@ -90,6 +92,7 @@ def run(arguments: argparse.Namespace) -> int:
         finding=finding,
         written=write_program(arguments, lines) if lines else [],
         touch_next=next_hole(settings, finding) if finding.verdict == CANNOT_TELL else None,
+        unit=unit_of(arguments),
     )
     say_failure(keep(arguments.settings, SLIP_ENTRY, json_of(answer), begin=False))
     print_json(answer) if arguments.json else print(_text(answer, arguments))
@@ -105,6 +108,7 @@ def repair_lines(finding: SlipFinding) -> list[str]:
 
 
 def _text(answer: SlipAnswer, arguments: argparse.Namespace) -> str:
+    unit = answer.unit
     good = GOOD if answer.verdict in (NOTHING, SHEET) else BAD
     kind = OPEN if answer.verdict == CANNOT_TELL else good
     parts = [headline(answer.sentence, kind), _touch_table(answer), _odds(answer)]
@@ -112,9 +116,9 @@ def _text(answer: SlipAnswer, arguments: argparse.Namespace) -> str:
         there = answer.touches[-1]
         said = (
             f"Leave the bit in the hole of touch {there.name}, where the machine shows "
-            f"{bare(there.shown[0])}, {bare(there.shown[1])}, and send the line that says how long "
-            f"the chains are: {lines[-1]}. Then look why the chain could slip: a worn sprocket, a "
-            "slack chain, a sled that hung."
+            f"{unit.bare(there.shown[0])}, {unit.bare(there.shown[1])}, and send the line that "
+            f"says how long the chains are: {lines[-1]}. Then look why the chain could slip: a "
+            "worn sprocket, a slack chain, a sled that hung."
         )
         parts.append(sentences([said], mark=""))
         repair = [arguments.output] if arguments.output else [lines[-1]]
@@ -123,21 +127,21 @@ def _text(answer: SlipAnswer, arguments: argparse.Namespace) -> str:
         said = "Touch another hole far from these, and give all touches."
         if further := answer.touch_next:
             said = (
-                f"Touch another hole near {bare(further[0], 0)}, {bare(further[1], 0)}, where the "
-                "likeliest accounts differ most, and give all touches."
+                f"Touch another hole near {unit.bare(further[0], 0)}, {unit.bare(further[1], 0)}, "
+                "where the likeliest accounts differ most, and give all touches."
             )
         parts.append(sentences([said], mark=""))
     asked = asked_signs(answer.touches)
     return "\n\n".join([*parts, sentences(asked, mark="")] if asked else parts)
 
 
-def sentence(finding: SlipFinding) -> str:
+def sentence(finding: SlipFinding, unit: Unit) -> str:
     """Return the verdict in a sentence."""
     if finding.verdict == SLIP:
         both = 0 not in finding.best.links
         slipped = "both slipped on their sprockets" if both else "it slipped on its sprocket"
-        return f"{_longer(finding.best)}: {slipped}."
-    worst = worded(float(np.hypot(*finding.errors.T).max()))
+        return f"{_longer(finding.best, unit)}: {slipped}."
+    worst = unit.worded(float(np.hypot(*finding.errors.T).max()))
     says = {
         NOTHING: f"No chain slipped: each hole is within {worst} of where the machine shows it.",
         SHEET: "No chain slipped: the sheet has moved, or another sheet is on the machine.",
@@ -148,11 +152,11 @@ def sentence(finding: SlipFinding) -> str:
     return says[finding.verdict]
 
 
-def _longer(account: SlipAccount) -> str:
+def _longer(account: SlipAccount, unit: Unit) -> str:
     """Return which chain is how much longer or shorter."""
     said = [
         f"the {side} chain is {abs(count)} link{'s' if abs(count) > 1 else ''} "
-        f"({worded(abs(count) * LINK)}) {'longer' if count > 0 else 'shorter'}"
+        f"({unit.worded(abs(count) * LINK)}) {'longer' if count > 0 else 'shorter'}"
         for side, count in zip(SIDES, account.links, strict=True)
         if count
     ]
@@ -175,17 +179,18 @@ def _account(account: SlipAccount) -> str:
 
 
 def _touch_table(answer: SlipAnswer) -> str:
+    unit = answer.unit
     rows = [
         [
             touch.name,
-            f"{bare(touch.hole[0], 1)}, {bare(touch.hole[1], 1)}",
-            f"{bare(touch.shown[0], 1)}, {bare(touch.shown[1], 1)}",
-            f"{signed(touch.error[0])}, {signed(touch.error[1])}",
-            f"{signed(touch.left[0])}, {signed(touch.left[1])}",
+            f"{unit.bare(touch.hole[0], 1)}, {unit.bare(touch.hole[1], 1)}",
+            f"{unit.bare(touch.shown[0], 1)}, {unit.bare(touch.shown[1], 1)}",
+            f"{unit.signed(touch.error[0])}, {unit.signed(touch.error[1])}",
+            f"{unit.signed(touch.left[0])}, {unit.signed(touch.left[1])}",
         ]
         for touch in answer.touches
     ]
-    heads = ["touch", f"hole [{unit()}]", "shown", "error", "left by the likeliest"]
+    heads = ["touch", f"hole [{unit.name}]", "shown", "error", "left by the likeliest"]
     return table(heads, rows)
 
 

@@ -29,7 +29,7 @@ from plumb.model.plain import noun_of, plain_name, plain_range, plain_size
 from plumb.model.predict import frame_words
 from plumb.settings.machine import MachineSettings
 from plumb.text.answers import Internal, Number, among, in_json, key, meant, part
-from plumb.text.values import bare, worded
+from plumb.text.values import Unit
 
 Sizes = Mapping[str, Mapping[str, float]]  # of parameters, effect by effect
 FAR = 2.0  # [prior sigmas] a stated number that moved farther was probably measured wrongly
@@ -125,6 +125,7 @@ class Addition:
     warnings: tuple[str, ...]
     by_effect: tuple[FitStep, ...]  # in the order given; the last is `after`
     sigma_from: str  # where the sigma of the fits comes from: noise_sources.py, or "residuals"
+    unit: Internal[Unit]  # of the lengths in what is said of it
 
     effects = part("settings.effects", Sizes)
     lab_effects = part("after_fit.lab_effects", Sizes)
@@ -156,7 +157,8 @@ class Addition:
     def cures(self) -> tuple[str, ...]:
         """A sentence for each lab effect that was fitted: no setting holds it."""
         return tuple(
-            _cure(name, parameters) for name, parameters in self.after_fit.lab_effects.items()
+            _cure(name, parameters, self.unit)
+            for name, parameters in self.after_fit.lab_effects.items()
         )
 
     @property
@@ -182,12 +184,12 @@ class Addition:
     @property
     def intervals_said(self) -> str:
         """For which noise they hold: a diagnosis may take another."""
-        return intervals_sentence(self.after_fit.sigma, self.sigma_from)
+        return intervals_sentence(self.after_fit.sigma, self.sigma_from, self.unit)
 
     @property
     def stops(self) -> tuple[str, ...]:
         """The reason not to use these numbers in a machine; empty if there is none."""
-        wrong = (_impossible(each) for each in self.parameters if not each.possible)
+        wrong = (_impossible(each, self.unit) for each in self.parameters if not each.possible)
         return (*_unsettled(self.after_fit), *wrong)
 
     @property
@@ -224,7 +226,7 @@ def add(
 
 def add_to(board: LiveBoard, raw: Comparison, chosen: Chosen, *, patch: bool = False) -> Addition:
     """Return the same on a board that is at hand, for a choice that it does not refuse."""
-    rows, noise = board.rows, board.noise
+    rows, noise, unit = board.rows, board.noise, board.inputs.unit
     names = chosen.effects
     before_fit = board.fit(Chosen())
     before = quality_of(before_fit, rows)
@@ -253,16 +255,19 @@ def add_to(board: LiveBoard, raw: Comparison, chosen: Chosen, *, patch: bool = F
         ),
         warnings=(
             *_unsettled(after_fit),
-            *(_impossible(each) for each in parameters if not each.possible),
+            *(_impossible(each, unit) for each in parameters if not each.possible),
             *raw.warnings,
             *board.said,
             *_unfelt(after_fit),
             *notes_on(parameter.name for parameter in parameters),
-            *_surprises(parameters, known),
-            *_bad_bargains(before, after, [step for step in steps if not _is_known(step, known)]),
+            *_surprises(parameters, known, unit),
+            *_bad_bargains(
+                before, after, [step for step in steps if not _is_known(step, known)], unit
+            ),
         ),
         by_effect=steps,
         sigma_from=noise.source,
+        unit=unit,
     )
 
 
@@ -289,18 +294,21 @@ def _turn_sentences(addition: Addition) -> list[str]:
     """Return what to do about the sheet's rotation, if the marks prove it."""
     if not addition.after_fit.proves_sheet_rotation:
         return []
-    rise = addition.sheet_rise
+    rise, unit = addition.sheet_rise, addition.unit
     which = "raise" if rise > 0 else "lower"
     return [
         f"no setting holds the sheet's rotation: {which} the right end of the next sheet by "
-        f"{worded(abs(rise))} over its width of {worded(addition.settings.sheet_width, 0)}"
+        f"{unit.worded(abs(rise))} over its width of "
+        f"{unit.worded(addition.settings.sheet_width, 0)}"
     ]
 
 
-def _cure(name: str, parameters: Mapping[str, float]) -> str:
+def _cure(name: str, parameters: Mapping[str, float], unit: Unit) -> str:
     """Return what to do about a lab effect that was fitted."""
     remedy = next(each.words["remedy"] for each in LAB_EFFECTS if each.name == name)
-    sizes = ", ".join(plain_size(f"{name}.{each}", size) for each, size in parameters.items())
+    sizes = ", ".join(
+        plain_size(f"{name}.{each}", size, unit=unit) for each, size in parameters.items()
+    )
     return f"{sizes}: {NO_FIRMWARE}. {remedy[0].upper()}{remedy[1:]}"
 
 
@@ -333,19 +341,21 @@ def _unsettled(fitted: Fit) -> list[str]:
     return [] if fitted.settled else [restless]
 
 
-def _surprises(parameters: Sequence[Parameter], known: Collection[str]) -> list[str]:
+def _surprises(parameters: Sequence[Parameter], known: Collection[str], unit: Unit) -> list[str]:
     """Sentences about numbers that moved too far, or that may be zero;
     what is known of a number, measured or usual, holds whether the marks show it or not.
     """
     said = []
     for parameter in parameters:
         if parameter.possible and parameter.name not in known and may_be_zero(parameter):
-            size = plain_size(parameter.name, parameter.value)
+            size = plain_size(parameter.name, parameter.value, unit=unit)
             said.append(f"{size} may as well be zero: its interval contains it")
         moved = parameter.value - parameter.before
         trusted = parameter.prior_sigma
         if trusted and not parameter.of_patch and abs(moved) > FAR * trusted:
-            now, apart = (_finely(size, parameter.unit) for size in (parameter.value, abs(moved)))
+            now, apart = (
+                _finely(size, parameter.unit, unit) for size in (parameter.value, abs(moved))
+            )
             said.append(
                 f"{plain_name(parameter.name)}: the marks say {now}, {apart} "
                 f"{'more' if moved > 0 else 'less'} than your settings. That is much for a misread "
@@ -354,9 +364,9 @@ def _surprises(parameters: Sequence[Parameter], known: Collection[str]) -> list[
     return said
 
 
-def _finely(size: float, of_unit: str) -> str:
+def _finely(size: float, of_unit: str, unit: Unit) -> str:
     """Return a size of the frame with its unit; a length in the unit in which lengths are shown."""
-    return worded(size) if of_unit == "mm" else f"{size:.3g} {of_unit}"
+    return unit.worded(size) if of_unit == "mm" else f"{size:.3g} {of_unit}"
 
 
 def may_be_zero(parameter: Parameter) -> bool:
@@ -365,11 +375,12 @@ def may_be_zero(parameter: Parameter) -> bool:
     return free and parameter.low < 0 < parameter.high
 
 
-def _impossible(parameter: Parameter) -> str:
+def _impossible(parameter: Parameter, unit: Unit) -> str:
     plausible = parameter.plausible_range
+    size = plain_size(parameter.name, parameter.value, unit=unit)
     return (
-        f"{plain_size(parameter.name, parameter.value)}: that is impossible for a real machine, "
-        f"which has {plain_range(parameter.name, plausible.low, plausible.high)}; it takes the "
+        f"{size}: that is impossible for a real machine, which has "
+        f"{plain_range(parameter.name, plausible.low, plausible.high, unit)}; it takes the "
         "place of another cause; check which settings were in force and the signs of the marks"
     )
 
@@ -396,19 +407,21 @@ def _is_known(step: FitStep, known: Collection[str]) -> bool:
     return bool(names) and all(name in known for name in names)
 
 
-def _bad_bargains(before: Quality, after: Quality, steps: Sequence[FitStep]) -> list[str]:
+def _bad_bargains(
+    before: Quality, after: Quality, steps: Sequence[FitStep], unit: Unit
+) -> list[str]:
     """Sentences about effects that serve the fit alone."""
     if not steps:
         return []
     if after.fit_rms < before.fit_rms and after.left_out_rms > before.left_out_rms:
         return [
             "the fit got better but, checked on marks not used, the error rose from "
-            f"{bare(before.left_out_rms)} to {worded(after.left_out_rms)}: the effects follow the "
-            "noise, do not keep them"
+            f"{unit.bare(before.left_out_rms)} to {unit.worded(after.left_out_rms)}: the effects "
+            "follow the noise, do not keep them"
         ]
     return [
         f"with {noun_of(step.effect)} only the fit got better; marks not used are predicted worse "
-        f"({worded(step.left_out_rms)}): it may follow the noise"
+        f"({unit.worded(step.left_out_rms)}): it may follow the noise"
         for step in steps
         if step.only_fit
     ]

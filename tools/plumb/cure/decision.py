@@ -22,7 +22,6 @@ from plumb.model.catalogue import every_effect
 from plumb.model.plain import noun_of, plainly, ranked
 from plumb.text.answers import Internal, among, in_json, key, part
 from plumb.text.errors import in_both, said_by, to_do
-from plumb.text.values import bare, worded
 
 AS_GOOD = 0.95  # of an error at marks left out, below which another is clearly less
 # Where two effects or more act, others hide behind them that the marks do not ask for, and so does
@@ -220,16 +219,18 @@ def _headline(decision: Decision) -> str:
 
 def fall_sentence(addition: Addition) -> str:
     """Return the error before and after, for people."""
+    unit, after = addition.unit, addition.after
     return (
-        f"The error falls from {bare(addition.raw.rms)} to {worded(addition.after.fit_rms)} RMS, "
-        f"{worded(addition.after.left_out_rms)} checked on marks not used."
+        f"The error falls from {unit.bare(addition.raw.rms)} to {unit.worded(after.fit_rms)} RMS, "
+        f"{unit.worded(after.left_out_rms)} checked on marks not used."
     )
 
 
 def _notes(decision: Decision) -> list[Note]:
     promises = [decision.apart.sentence] if decision.apart else []
     if decision.expected_mm is not None and not decision.rivals:
-        promises.append(f"Over the sheet expect errors of {worded(decision.expected_mm)} RMS.")
+        expected = decision.inputs.unit.worded(decision.expected_mm)
+        promises.append(f"Over the sheet expect errors of {expected} RMS.")
     slips = [slip.sentence for slip in decision.diagnosis.outliers]
     notes = list(decision.addition.notes) if decision.addition else []
     notes += [Note("promise", each) for each in promises] + [Note("doubt", each) for each in slips]

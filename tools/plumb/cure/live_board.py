@@ -81,7 +81,9 @@ class LiveBoard:
         sigma = inputs.stated.sigma if inputs.stated else USUAL_SIGMA
         # Checks of effects count in a fit of these effects: the noise is the same for every fit.
         frame = [check for check in inputs.checked if "." not in check.name]
-        board = Board.of(model, rows, sigma=sigma, priors=inputs.priors, checked=frame)
+        board = Board.of(
+            model, rows, sigma=sigma, priors=inputs.priors, checked=frame, unit=inputs.unit
+        )
         self.noise, self.said = (noise, noise.notes) if noise else noise_of(inputs, board)
         self._fits: dict[object, Fit] = {}
         self._last: Fit | None = None
@@ -132,6 +134,7 @@ class LiveBoard:
                 sigma=self.noise.sigma,
                 priors=self.inputs.priors,
                 checked=self.inputs.checked,
+                unit=self.inputs.unit,
             )
         )
 
@@ -194,9 +197,7 @@ def noise_of(inputs: Inputs, board: Board) -> tuple[Noise, tuple[str, ...]]:
     is likelier off than not, and for what does not go together.
     """
     shifts, posterior = clear_outliers(board, inputs.stated)
-    said = [
-        described(shift, inputs.measurements, inputs.settings.sheet).sentence for shift in shifts
-    ]
+    said = [described(shift, inputs).sentence for shift in shifts]
     return posterior.noise, (*said, *posterior.noise.notes)
 
 

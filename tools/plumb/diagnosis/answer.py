@@ -22,7 +22,7 @@ from plumb.fit.problem import Checked
 from plumb.model.catalogue import place_of
 from plumb.model.plain import plainly
 from plumb.text.answers import Internal, among, in_json, key, meant, part
-from plumb.text.values import bare, worded
+from plumb.text.values import Unit
 
 VERDICTS = ("nothing_provable", "one_suspect", "cannot_tell", "not_in_library", "slip")
 Verdict = Annotated[str, among(VERDICTS)]
@@ -130,6 +130,11 @@ class Diagnosis:
     ]
     warnings: tuple[str, ...]
     disagreements: tuple[str, ...] = ()  # rounds that do not go together
+
+    @property
+    def unit(self) -> Unit:
+        """Of the lengths in what is said of it."""
+        return self.best.board.unit
 
     @property
     def noise(self) -> Noise:
@@ -269,7 +274,7 @@ def _outlier(diagnosis: Diagnosis) -> str:
 
 
 def _nothing_provable(diagnosis: Diagnosis) -> str:
-    left = _left(diagnosis.rms_before, diagnosis.noise_rms)
+    left = _left(diagnosis.rms_before, diagnosis.noise_rms, diagnosis.unit)
     if diagnosis.is_good:
         good = "as good as these marks can show"
         said = (
@@ -291,6 +296,7 @@ def _not_in_library(diagnosis: Diagnosis) -> str:
     left = _left(
         nearest.rms_after if nearest else diagnosis.rms_before,
         nearest.noise_rms if nearest else diagnosis.noise_rms,
+        diagnosis.unit,
     )
     what = _unknown(diagnosis)
     if nearest is None or not nearest.effects:
@@ -303,14 +309,16 @@ COUNTS = {2: "Two", 3: "Three", 4: "Four"}  # more are written as a number
 
 def _finding(diagnosis: Diagnosis) -> str:
     """Return how the error falls, and what stays that no effect draws."""
-    falls = diagnosis.falls
+    falls, unit = diagnosis.falls, diagnosis.unit
     share = "Most" if diagnosis.takes_most else "Part"
     which = f"{share} of it is {plainly(diagnosis.likely)}"
     if len(falls) > 1:
         which = f"{COUNTS.get(len(falls), len(falls))} things are wrong at once"
-    steps = ", ".join(bare(each) for each in [diagnosis.rms_before, *(f.rms for f in falls[:-1])])
-    said = f"{which}. The error falls from {steps} to {worded(falls[-1].rms)} RMS"
-    return f"{said}; a pattern of {worded(diagnosis.pattern_mm)} stays that no effect draws."
+    steps = ", ".join(
+        unit.bare(each) for each in [diagnosis.rms_before, *(f.rms for f in falls[:-1])]
+    )
+    said = f"{which}. The error falls from {steps} to {unit.worded(falls[-1].rms)} RMS"
+    return f"{said}; a pattern of {unit.worded(diagnosis.pattern_mm)} stays that no effect draws."
 
 
 def _unknown(diagnosis: Diagnosis) -> str:
@@ -326,18 +334,18 @@ def _unknown(diagnosis: Diagnosis) -> str:
     )
 
 
-def _left(rms: float, by_noise: float) -> str:
+def _left(rms: float, by_noise: float, unit: Unit) -> str:
     """Return what a fit leaves, and what it would leave of noise alone."""
-    return f"{worded(rms)} RMS is left; noise alone leaves {worded(by_noise)}"
+    return f"{unit.worded(rms)} RMS is left; noise alone leaves {unit.worded(by_noise)}"
 
 
 def _one_suspect(diagnosis: Diagnosis) -> str:
-    (first,) = diagnosis.explanations
+    (first,), unit = diagnosis.explanations, diagnosis.unit
     causes = "The cause is" if len(first.effects) == 1 else "The causes are"
     return (
         f"{causes} most likely {_named(first.effects)}: the odds are {odds_words(first.share)}. "
-        f"The error falls from {bare(diagnosis.rms_before)} to {worded(first.rms_after)} RMS; "
-        f"noise alone leaves {worded(first.noise_rms)}."
+        f"The error falls from {unit.bare(diagnosis.rms_before)} to "
+        f"{unit.worded(first.rms_after)} RMS; noise alone leaves {unit.worded(first.noise_rms)}."
     )
 
 

@@ -18,7 +18,6 @@ from plumb.fit.inputs import Inputs
 from plumb.marks.model import Round
 from plumb.model.catalogue import effect_names
 from plumb.model.plain import ranked
-from plumb.text.values import worded
 
 
 @dataclass(frozen=True)
@@ -171,20 +170,19 @@ def _place_warnings(readings: CleanReadings, nearest: Explanation) -> list[str]:
     if not of_marks:
         return []
     worst = ranked(of_marks, lambda shift: -shift.drop)[0]
-    name, off = board.rows.names[worst.reading.index], float(np.hypot(*worst.offset))
+    name = board.rows.names[worst.reading.index]
+    far = board.unit.worded(float(np.hypot(*worst.offset)), 1)
     if board.rows.names.count(name) > 1:
-        return [
-            f"mark {name} stays {worded(off, 1)} off when it is read again: it is the machine there"
-        ]
+        return [f"mark {name} stays {far} off when it is read again: it is the machine there"]
     if spot := readings.posterior.with_fields.spot:
-        x, y = (worded(float(along), 0) for along in spot.middle)
+        x, y = (board.unit.worded(float(along), 0) for along in spot.middle)
         return [
             f"what no effect draws acts about x {x}, y {y}: look there for a sheet that gives or "
             "lies uneven, and for a cable or hose that pulls"
         ]
     return [
-        f"the marks are farthest off at {name}, by {worded(off, 1)}: read it again; if it stays, "
-        "it is the machine there"
+        f"the marks are farthest off at {name}, by {far}: read it again; if it stays, it is the "
+        "machine there"
     ]
 
 

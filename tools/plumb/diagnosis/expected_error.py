@@ -17,8 +17,8 @@ from plumb.fit.expected import places_over
 from plumb.fit.observations import Observations, rms, visited
 from plumb.model.plain import ranked
 from plumb.model.predict import FOUND, NAMES, Array, lengths
-from plumb.text.answers import in_json
-from plumb.text.values import worded
+from plumb.text.answers import Internal, in_json
+from plumb.text.values import Unit
 
 
 def expected_error(used: Explanation, rivals: Sequence[tuple[Explanation, float]] = ()) -> float:
@@ -93,11 +93,13 @@ class RivalError:
 
     mm: float  # RMS over that part of the sheet
     where: str  # for people
+    unit: Internal[Unit]
 
     @in_json
     def sentence(self) -> str:
         """By how much and where, for people."""
-        return f"On the sheet the likely causes differ by {worded(self.mm, 1)} in {self.where}."
+        apart = self.unit.worded(self.mm, 1)
+        return f"On the sheet the likely causes differ by {apart} in {self.where}."
 
 
 def rival_error(explanations: Sequence[Explanation], noise: float) -> RivalError | None:
@@ -129,7 +131,9 @@ def rival_error(explanations: Sequence[Explanation], noise: float) -> RivalError
         return None
     mirrored = rms[worst[0], 2 - worst[1]]
     both = worst[1] != 1 and mirrored > ALIKE * rms[worst]
-    return RivalError(rms[worst], BOTH_WORDS[worst[0]] if both else SIDE_WORDS[worst])
+    return RivalError(
+        rms[worst], BOTH_WORDS[worst[0]] if both else SIDE_WORDS[worst], used.board.unit
+    )
 
 
 # How much of a machine's errors the marks leave open, all over its sheet.
@@ -149,6 +153,7 @@ class LeftOpen:
 
     before: float  # anything was measured
     now: float
+    unit: Unit
 
     @property
     def is_too_much(self) -> bool:
@@ -161,10 +166,11 @@ class LeftOpen:
         if not self.is_too_much:
             return ""
         return (
-            f"These marks do not reach over the sheet: of the {worded(self.before, 1)} by which "
-            "holes may be off among each other before anything is measured, they leave "
-            f"{worded(self.now, 1)} open. What a fit promises holds near the marks only; measure "
-            "marks all over the sheet"
+            "These marks do not reach over the sheet: of the "
+            f"{self.unit.worded(self.before, 1)} by which holes may be off among each other before "
+            "anything is measured, they leave "
+            f"{self.unit.worded(self.now, 1)} open. What a fit promises holds near the marks only; "
+            "measure marks all over the sheet"
         )
 
 
@@ -183,7 +189,7 @@ def left_open(explanation: Explanation) -> LeftOpen:
         variance = np.einsum("rij,jk,rik->", moved, covariance, moved)
         return float(np.sqrt(variance / len(moved)))
 
-    return LeftOpen(error(before), error(before + measured.T @ measured))
+    return LeftOpen(error(before), error(before + measured.T @ measured), board.unit)
 
 
 def _among_each_other(explanation: Explanation, columns: list[int]) -> Array:

@@ -16,6 +16,7 @@ from plumb.marks.read import Measurements
 from plumb.model.catalogue import effect_names, parameter_names
 from plumb.settings.machine import MachineSettings
 from plumb.text.errors import InputError
+from plumb.text.values import MM, Unit
 
 Array = np.ndarray
 INVISIBLE = 1e-5  # share of a column's length below which its rest is rounding
@@ -28,6 +29,7 @@ class Board:
     problem: Problem
     effect_columns: Mapping[str, tuple[int, ...]]  # in the catalogue's order
     usual: int = 0  # the last rows of its direct checks say only what is usual
+    unit: Unit = MM  # of the lengths in what is said of it
 
     @staticmethod
     def of(
@@ -37,6 +39,7 @@ class Board:
         sigma: float,
         priors: Mapping[str, float] = PRIORS,
         checked: Sequence[Checked] = (),
+        unit: Unit = MM,
     ) -> Board:
         """Return the board of a model that starts from these settings; sigma [mm] whitens it."""
         problem = Problem.of(settings, rows, effect_names(), priors, sigma, checked)
@@ -44,7 +47,7 @@ class Board:
             effect: tuple(problem.names.index(name) for name in parameter_names(effect))
             for effect in effect_names()
         }
-        return Board(problem, effect_columns)
+        return Board(problem, effect_columns, unit=unit)
 
     @property
     def rows(self) -> Observations:
@@ -213,8 +216,15 @@ def measured_board(inputs: Inputs) -> Board:
     """
     model, rows = inputs.model_and_observations()
     _refuse_too_few(inputs.measurements, rows)
+    return board_of(inputs, model, rows)
+
+
+def board_of(inputs: Inputs, model: MachineSettings, rows: Observations) -> Board:
+    """Return the board of these observations, whitened by what is known of a reading."""
     sigma = inputs.stated.sigma if inputs.stated else USUAL_SIGMA
-    return Board.of(model, rows, sigma=sigma, priors=inputs.priors, checked=inputs.checked)
+    return Board.of(
+        model, rows, sigma=sigma, priors=inputs.priors, checked=inputs.checked, unit=inputs.unit
+    )
 
 
 def _refuse_too_few(measurements: Measurements, rows: Observations) -> None:

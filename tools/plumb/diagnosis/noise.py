@@ -11,7 +11,7 @@ from plumb.diagnosis.priors import NOISE_DEGREES, noise_prior
 from plumb.fit.inputs import Stated
 from plumb.fit.observations import Observations
 from plumb.text.errors import to_do
-from plumb.text.values import worded
+from plumb.text.values import Unit
 
 Array = np.ndarray
 KNOWN = np.inf  # degrees of freedom of a noise that needs no estimate
@@ -49,15 +49,13 @@ class Noise:
         """Distance of a 95 % upper limit, in standard deviations."""
         return 1.645 if np.isinf(self.degrees) else float(scipy.special.stdtrit(self.degrees, 0.95))
 
-    @property
-    def sentence(self) -> str:
-        """A sentence on the noise of a reading."""
-        return (
-            f"Noise of a reading: {worded(self.sigma)} ({ORIGINS[self.source]}). Intervals: 95 %."
-        )
+    def said(self, unit: Unit) -> str:
+        """Return a sentence on the noise of a reading."""
+        said = f"Noise of a reading: {unit.worded(self.sigma)}"
+        return f"{said} ({ORIGINS[self.source]}). Intervals: 95 %."
 
 
-def noise_by(sigmas: Array, weights: Array, stated: Stated | None) -> Noise:
+def noise_by(sigmas: Array, weights: Array, stated: Stated | None, unit: Unit) -> Noise:
     """Return the noise by log weights (m,) of some standard deviations [mm].
 
     The logarithm of a standard deviation that is known with n degrees of freedom spreads by
@@ -71,10 +69,10 @@ def noise_by(sigmas: Array, weights: Array, stated: Stated | None) -> Noise:
     variance = float(chances @ (logs - middle) ** 2)
     variance = variance or NOISE_STEP**2 / 12  # where one is left, it is known to a step
     noise = Noise(float(np.exp(middle)), 0.5 / variance, "stated and marks" if stated else "marks")
-    return noise if stated is None else _compared(noise, stated)
+    return noise if stated is None else _compared(noise, stated, unit)
 
 
-def _compared(noise: Noise, stated: Stated) -> Noise:
+def _compared(noise: Noise, stated: Stated, unit: Unit) -> Noise:
     """Return the noise with a note if the marks contradict what was stated."""
     _, spread = noise_prior(stated)
     off = np.log(noise.sigma / stated.sigma)
@@ -82,8 +80,8 @@ def _compared(noise: Noise, stated: Stated) -> Noise:
         return noise
     than = "more" if off > 0 else "less"
     note = (
-        f"the marks scatter by {worded(noise.sigma)}, {than} than the stated "
-        f"{worded(stated.sigma)}: read three marks three times, "
+        f"the marks scatter by {unit.worded(noise.sigma)}, {than} than the stated "
+        f"{unit.worded(stated.sigma)}: read three marks three times, "
         + to_do("or say with --sigma what holds", page="or correct what your tape is good to")
     )
     return Noise(noise.sigma, noise.degrees, noise.source, (note,))

@@ -11,11 +11,12 @@ import numpy as np
 from plumb.diagnosis.explanation import Board
 from plumb.diagnosis.noise import library_basis
 from plumb.fit.compare import Comparison
+from plumb.fit.inputs import Inputs
 from plumb.fit.observations import Observations
 from plumb.marks.read import Measurements
 from plumb.model.plain import greatest
 from plumb.text.answers import Internal, in_json, key
-from plumb.text.values import worded
+from plumb.text.values import MM, Unit
 
 # Single readings: a mark's place or a distance, and how far a reading is off.
 
@@ -145,6 +146,7 @@ class Outlier:
     guess: str  # the likely cause, or nothing
     against: Internal[str] = EXPLANATIONS  # what it disagrees with
     corrected: Internal[tuple[float, ...] | None] = None  # [mm] what was meant, if that is right
+    unit: Internal[Unit] = MM  # in which its length is said
 
     @property
     def length(self) -> float:
@@ -160,7 +162,8 @@ class Outlier:
     def sentence(self) -> str:
         """Advice for people."""
         because = f"; {self.guess}" if self.guess else self._advice
-        return f"remeasure {self.called}: it reads {worded(self.length, 1)} {self.way}{because}"
+        off = f"{self.unit.worded(self.length, 1)} {self.way}"
+        return f"remeasure {self.called}: it reads {off}{because}"
 
     @property
     def _advice(self) -> str:
@@ -183,9 +186,9 @@ class Outlier:
         return f"off ({abs(x):.1f} {across}, {abs(y):.1f} {along})"
 
 
-def described(shift: Shift, measurements: Measurements, sheet: tuple[float, float]) -> Outlier:
-    """Return the outlier for people; sheet is its width and height [mm]."""
-    index = shift.reading.index
+def described(shift: Shift, inputs: Inputs) -> Outlier:
+    """Return the outlier for people."""
+    index, measurements = shift.reading.index, inputs.measurements
     offset = tuple(float(value) for value in shift.offset)
     sigma = tuple(float(value) for value in shift.sigma)
     if shift.reading.is_mark:
@@ -195,8 +198,12 @@ def described(shift: Shift, measurements: Measurements, sheet: tuple[float, floa
         name = " - ".join(measurements.distances[index].between)
         read = (measurements.distances[index].length,)
     expected = tuple(a - b for a, b in zip(read, offset, strict=True))
+    sheet = inputs.settings.sheet
     guess = Guess(_EITHER) if shift.is_one_of_two else _guess(read, offset, sigma, sheet)
-    return Outlier(name, offset, sigma, read, expected, guess.said, shift.against, guess.corrected)
+    against, corrected = shift.against, guess.corrected
+    return Outlier(
+        name, offset, sigma, read, expected, guess.said, against, corrected, unit=inputs.unit
+    )
 
 
 @dataclass(frozen=True)
@@ -373,6 +380,7 @@ def _outlier(
         expected=tuple(expected.tolist()),
         guess=f"{both} may be exchanged",
         corrected=tuple(expected.tolist()),
+        unit=mixed_up.board.unit,
     )
 
 

@@ -280,7 +280,9 @@ def posterior_of(board: Board, stated: Stated | None) -> Posterior:
         ),
         outliers=outlier_weights(linear, few, noises, numbers) + np.log(OUTLIER),
         turned=_turned(frame, linear, few, noises),
-        noise=noise_by(noises.sigmas, np.logaddexp(clean.by_noise, with_fields.by_noise), stated),
+        noise=noise_by(
+            noises.sigmas, np.logaddexp(clean.by_noise, with_fields.by_noise), stated, board.unit
+        ),
         noises=noises,
         with_fields=with_fields,
     )

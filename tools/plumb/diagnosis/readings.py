@@ -6,7 +6,7 @@ from functools import cached_property
 
 import numpy as np
 
-from plumb.diagnosis.explanation import Board, Explanation, explain
+from plumb.diagnosis.explanation import Board, Explanation, board_of, explain
 from plumb.diagnosis.noise import KNOWN_QUANTILE, Noise
 from plumb.diagnosis.outliers import (
     EXPLANATIONS,
@@ -24,11 +24,9 @@ from plumb.diagnosis.posterior import Account, Posterior, posterior_of
 from plumb.diagnosis.refit import explain_account
 from plumb.fit.inputs import Inputs, Stated
 from plumb.fit.observations import model_and_observations
-from plumb.fit.problem import USUAL_SIGMA
 from plumb.marks.plausible import far_reading
 from plumb.marks.read import Measurements
 from plumb.model.plain import greatest
-from plumb.text.values import worded
 
 DOUBTED = 1 / 3  # chance from which on a reading is read again: that costs a minute
 SURE = 1.96  # sigmas
@@ -67,7 +65,7 @@ def clean_readings(board: Board, inputs: Inputs) -> CleanReadings:
     measurements = inputs.measurements
     outliers = (
         *mixed_up_outliers(mixed_up, measurements),
-        *(described(shift, measurements, inputs.settings.sheet) for shift in shifts),
+        *(described(shift, inputs) for shift in shifts),
     )
     left = posterior.frame.board
     frame = explain(left.with_rows(left.rows, sigma=posterior.noise.sigma), start=posterior.frame)
@@ -221,7 +219,9 @@ def _far_readings(inputs: Inputs) -> tuple[Doubted, ...]:
         far = far_reading(measurements, mark, sheet)
         if far:
             cause = f"; {far.mistake}" if far.mistake else ""
-            said = f"it reads {worded(far.error, 0)} from where the mark was sent{cause}"
+            said = (
+                f"it reads {inputs.unit.worded(far.error, 0)} from where the mark was sent{cause}"
+            )
             doubts.append(Doubted(index, True, far.error, said, far.corrected))
     return tuple(doubts)
 
@@ -245,9 +245,7 @@ def _clean(inputs: Inputs) -> CleanReadings:
         cut_with=inputs.cut_with,
         controller=inputs.controller,
     )
-    sigma = inputs.stated.sigma if inputs.stated else USUAL_SIGMA
-    board = Board.of(model, rows, sigma=sigma, priors=inputs.priors, checked=inputs.checked)
-    return clean_readings(board, inputs)
+    return clean_readings(board_of(inputs, model, rows), inputs)
 
 
 def _doubted(outlier: Outlier, measurements: Measurements) -> Doubted:

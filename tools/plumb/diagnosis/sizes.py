@@ -12,8 +12,8 @@ from plumb.diagnosis.noise import ORIGINS, Noise
 from plumb.fit.expected import plausible_range, range_said
 from plumb.model.catalogue import parameter_words
 from plumb.model.plain import plain_size
-from plumb.text.answers import in_json, key, meant
-from plumb.text.values import worded
+from plumb.text.answers import Internal, in_json, key, meant
+from plumb.text.values import Unit
 
 Array = np.ndarray
 
@@ -30,11 +30,13 @@ class Size:
     unit: str
     plausible: bool  # whether a real machine can have the value
     possible: bool  # whether its interval reaches what a real machine may have
+    shown: Internal[Unit]  # in which its lengths are said
 
     @in_json
     def said(self) -> str:
         """The same in words."""
-        return plain_size(f"{self.effect}.{self.name}", self.value, self.low, self.high)
+        name = f"{self.effect}.{self.name}"
+        return plain_size(name, self.value, self.low, self.high, unit=self.shown)
 
     @in_json
     def limits(self) -> tuple[float | None, float | None]:
@@ -44,7 +46,7 @@ class Size:
     @in_json
     def range_said(self) -> str:
         """The same in words; empty: no limit is known."""
-        return range_said(f"{self.effect}.{self.name}")
+        return range_said(f"{self.effect}.{self.name}", self.shown)
 
 
 @dataclass(frozen=True)
@@ -89,6 +91,7 @@ def sizes_of(explanation: Explanation, effect: str, noise: Noise) -> tuple[Size,
                 unit=words[name]["unit"],
                 plausible=plausible.holds(value),
                 possible=bool(plausible.is_near(value - half, value + half)),
+                shown=explanation.board.unit,
             )
         )
     return tuple(sizes)
@@ -177,6 +180,6 @@ def _largest(explanation: Explanation, raw: Array, total: Array, covariance: Arr
     return middle + radius * max(board.rows.rms_of(board.sigma * axis) for axis in (left * sizes).T)
 
 
-def intervals_sentence(sigma: float, source: str) -> str:
+def intervals_sentence(sigma: float, source: str, unit: Unit) -> str:
     """Return for which noise [mm] the intervals of a fit hold."""
-    return f"Intervals hold for a reading error of {worded(sigma)} ({ORIGINS[source]})."
+    return f"Intervals hold for a reading error of {unit.worded(sigma)} ({ORIGINS[source]})."

@@ -8,6 +8,7 @@ from typing import Annotated
 from plumb.diary.file import FIT, Diary, Entry
 from plumb.model.plain import PlainChange, plain_change, plainly
 from plumb.text.answers import Moment, Number, in_json, key
+from plumb.text.values import Unit
 
 
 @dataclass(frozen=True)
@@ -57,12 +58,12 @@ class Course:
         return now.low > before.high or now.high < before.low
 
 
-def history_of(diary: Diary) -> tuple[tuple[DiaryFit, ...], tuple[Course, ...]]:
+def history_of(diary: Diary, unit: Unit) -> tuple[tuple[DiaryFit, ...], tuple[Course, ...]]:
     """Return all fits of a diary, the oldest first, and how their numbers went, in the order in
     which they came up.
     """
     fits = diary.of_kind(FIT)
-    return tuple(map(_fit, fits)), tuple(_courses(fits))
+    return tuple(map(_fit, fits)), tuple(_courses(fits, unit))
 
 
 def _fit(entry: Entry) -> DiaryFit:
@@ -78,14 +79,14 @@ def _fit(entry: Entry) -> DiaryFit:
     )
 
 
-def _courses(fits: Iterable[Entry]) -> Iterable[Course]:
+def _courses(fits: Iterable[Entry], unit: Unit) -> Iterable[Course]:
     points: dict[str, list[Point]] = {}
     words: dict[str, PlainChange] = {}
     for entry in fits:
         for each in entry.content["numbers"]:
             name = each["name"]
             value, low, high = (_number(each[end]) for end in ("value", "low", "high"))
-            words[name] = plain_change(name, value, value, low, high)
+            words[name] = plain_change(name, value, value, low, high, unit)
             point = Point(entry.at, value, low, high, words[name].after)
             points.setdefault(name, []).append(point)
     for name, course in points.items():

@@ -20,7 +20,7 @@ from plumb.model.predict import FOUND, NAMES, Array, places_with_slopes, values_
 from plumb.settings.machine import MachineSettings
 from plumb.settings.toml import machine_in
 from plumb.text.answers import Internal, Moment, in_json, key, part
-from plumb.text.values import signed, worded
+from plumb.text.values import MM, Unit
 
 LEVEL = 0.99  # of the rechecks of an unchanged machine hold
 STEP = 0.1  # [mm] of chain
@@ -41,10 +41,9 @@ class LikelyChange:
     chi_square: Internal[float]  # that it leaves
     explains: bool  # whether what it leaves is within the interval
 
-    @property
-    def words(self) -> str:
-        """The change with its size."""
-        size = f"{signed(self.size)} +- {worded(self.sigma)}"
+    def words(self, unit: Unit) -> str:
+        """Return the change with its size."""
+        size = f"{unit.signed(self.size)} +- {unit.worded(self.sigma)}"
         if self.name in (LEFT, RIGHT):
             return f"the {self.name} is {size} longer than the machine believes"
         if self.name in (SHEET_X, SHEET_Y):
@@ -53,9 +52,9 @@ class LikelyChange:
         if "." not in self.name and words["unit"] == "mm":
             return f"{plain_name(self.name)} by {size}"
         now = self.before + self.size
-        said = plain_change(self.name, self.before, now, now - self.sigma, now + self.sigma)
+        said = plain_change(self.name, self.before, now, now - self.sigma, now + self.sigma, unit)
         by = f"by {said.shift} +- {said.margin} {said.unit}"
-        return in_feet(words["more"]).replace("by #", "#").replace("#", by)
+        return in_feet(words["more"], unit).replace("by #", "#").replace("#", by)
 
 
 @dataclass(frozen=True)
@@ -84,6 +83,7 @@ class Recheck:
     # [rad] of the sheet, counter-clockwise: as it was fitted, or 0 if it hangs straight
     turn: Annotated[float, key("sheet_turned_rad")]
     changes: tuple[LikelyChange, ...]  # the best first
+    unit: Internal[Unit] = MM  # of the lengths in the verdict
 
     @in_json
     def holds(self) -> bool:
@@ -95,7 +95,7 @@ class Recheck:
     @in_json
     def sentence(self) -> str:
         """The verdict in a sentence or two."""
-        worst = worded(max(mark.off for mark in self.marks))
+        worst = self.unit.worded(max(mark.off for mark in self.marks))
         of_date = f"the fit of {self.fit.at:%Y-%m-%d}"
         if self.holds:
             return (
@@ -104,7 +104,7 @@ class Recheck:
             )
         best = self.changes[0]
         said = (
-            f"Something changed since {of_date}. The likeliest: {best.words}."
+            f"Something changed since {of_date}. The likeliest: {best.words(self.unit)}."
             if best.explains
             else f"Errors up to {worst} are more than {of_date} allows; no single change explains "
             "them."
@@ -120,6 +120,7 @@ def recheck(
     *,
     cut_with: MachineSettings | None = None,
     sigma: float | None = None,
+    unit: Unit = MM,
 ) -> Recheck:
     """Hold marks against the fit that gave these settings. sigma [mm] of a coordinate.
 
@@ -129,7 +130,7 @@ def recheck(
     chains = believed_chains(cut_with or settings, touches)
     fitted = settings.fitted.last_sheet_rotation if settings.fitted else 0.0
     turned = [_recheck(fit, settings, touches, chains, turn, sigma) for turn in (fitted, 0.0)]
-    return ranked(turned, lambda checked: checked.chi_square)[0]
+    return replace(ranked(turned, lambda checked: checked.chi_square)[0], unit=unit)
 
 
 def _recheck(

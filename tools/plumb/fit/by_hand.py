@@ -11,7 +11,7 @@ from plumb.model.effect_words import RuleReading
 from plumb.model.lab_effects import LAB_EFFECTS
 from plumb.model.predict import library
 from plumb.settings.machine import GRAVITY, MachineSettings
-from plumb.text.values import INCH, in_inches, length_in, number_in, unit
+from plumb.text.values import INCH, INCHES, Unit, length_in, number_in
 
 WEIGHT = "sled_weight"
 WEIGHED = 0.2  # [kg] to which a sled is weighed
@@ -42,11 +42,11 @@ def readings(settings: MachineSettings, sled_weight: float) -> Mapping[str, Rule
 # A typed reading with the unit of its rule or scale.
 
 VALUE = "VALUE"  # stands where the owner types his number
-INCHES = ("inches", "inch", "in", '"')
-UNITS = ("mm", *INCHES, "kg", "g", "degrees")
+INCH_WORDS = ("inches", "inch", "in", '"')
+UNITS = ("mm", *INCH_WORDS, "kg", "g", "degrees")
 
 
-def to_fill_in(name: str, sigma: float, settings: MachineSettings) -> str:
+def to_fill_in(name: str, sigma: float, settings: MachineSettings, unit: Unit) -> str:
     """Return the words of --checked for a number that is measured next: `motor_gap=VALUE+-1mm`.
 
     sigma: of a number that is not read off a rule or scale [its unit].
@@ -54,19 +54,19 @@ def to_fill_in(name: str, sigma: float, settings: MachineSettings) -> str:
     reading = _reading_of(name, settings)
     if reading is None:
         return f"{name}={VALUE}+-{sigma:g}"
-    if reading.unit == "mm" and unit() == "inch":
+    if reading.unit == "mm" and unit == INCHES:
         return f"{name}={VALUE}+-{reading.usual / INCH:.1g}in"
     return f"{name}={VALUE}+-{reading.usual:g}{reading.unit}"
 
 
-def what_to_type(names: Iterable[str], settings: MachineSettings) -> str:
+def what_to_type(names: Iterable[str], settings: MachineSettings, unit: Unit) -> str:
     """Return the word for VALUE, for people; "" for numbers that cannot be read."""
     read = [reading for name in names if (reading := _reading_of(name, settings))]
     if not read:
         return ""
-    shown = "inches" if read[0].unit == "mm" and unit() == "inch" else read[0].unit
-    titles = "; then ".join(reading.title for reading in read)
-    return in_inches(f"{VALUE}: {titles}, in {shown}.")
+    shown = "inches" if read[0].unit == "mm" and unit == INCHES else read[0].unit
+    titles = "; then ".join(unit.reading(reading.title) for reading in read)
+    return f"{VALUE}: {titles}, in {shown}."
 
 
 def number_read(
@@ -79,11 +79,11 @@ def number_read(
     reading = _reading_of(name, settings)
     if reading is None:
         raise ValueError(f"this is not measured in {typed}: write the number without a unit")
-    is_length = typed == "mm" or typed in INCHES
+    is_length = typed == "mm" or typed in INCH_WORDS
     if reading.unit != ("mm" if is_length else typed):
         raise ValueError(f"it is read in {reading.unit}, not in {typed}")
     if is_length:
-        size = INCH if typed in INCHES else 1.0
+        size = INCH if typed in INCH_WORDS else 1.0
         read, off = length_in(value, unit=size), length_in(sigma, unit=size)
     else:
         read, off = number_in(value), number_in(sigma)

@@ -30,7 +30,7 @@ from plumb.model.predict import (
 from plumb.settings.machine import FRAME_FIELDS, MachineSettings
 from plumb.text.answers import Internal, in_json
 from plumb.text.errors import InputError, to_do
-from plumb.text.values import worded
+from plumb.text.values import Unit
 
 # [mm, N] how far a number may be off that no fit moves, before the owner measured it.
 WIDE = {"rotation_radius": 5.0, "sled_weight": 15.0}
@@ -64,14 +64,14 @@ def expected_priors(known: Mapping[str, float]) -> dict[str, float]:
     return {**PRIORS, **WIDE, **frame}
 
 
-def expected_sentence(expected: Expected | None) -> str:
+def expected_sentence(expected: Expected | None, unit: Unit) -> str:
     """Return what is normal, for people; empty if no mark can be made."""
     if expected is None:
         return ""
     return (
         "Before anything is corrected, marks may well be off by "
-        f"{worded(expected.among_marks_mm, 1)} among each other, and all together by "
-        f"{worded(expected.whole_mm, 0)} where the sheet hangs otherwise. That is normal."
+        f"{unit.worded(expected.among_marks_mm, 1)} among each other, and all together by "
+        f"{unit.worded(expected.whole_mm, 0)} where the sheet hangs otherwise. That is normal."
     )
 
 
@@ -183,10 +183,10 @@ def plausible_range(name: str) -> PlausibleRange:
     return PlausibleRange(words[name]["low"], words[name]["high"])
 
 
-def range_said(name: str) -> str:
+def range_said(name: str, unit: Unit) -> str:
     """Return the same in words; empty: no limit is known."""
     low, high = plausible_range(name).limits
-    return "" if low is None or high is None else plain_range(name, low, high)
+    return "" if low is None or high is None else plain_range(name, low, high, unit)
 
 
 # Numbers that no real machine has: a slip of the pen, or another unit, and no measurement.

@@ -15,6 +15,7 @@ from plumb.settings.files import read_settings
 from plumb.settings.machine import MachineSettings
 from plumb.settings.toml import FitRecord
 from plumb.text.errors import InputError, to_do
+from plumb.text.values import MM, Unit
 
 
 @dataclass(frozen=True)
@@ -38,6 +39,7 @@ class Inputs:
     priors: Mapping[str, float] = field(default_factory=lambda: PRIORS)
     sigma: float | None = None  # [mm] of one reading, used as it is; None: diagnosis/noise.py
     checked: Sequence[Checked] = ()  # numbers that were measured directly
+    unit: Unit = MM  # of the lengths in what is said of it
 
     @property
     def stated(self) -> Stated | None:

@@ -30,7 +30,6 @@ from plumb.model.reach import percent, survey_sheet
 from plumb.settings.machine import GRAVITY, MachineSettings, frame_of
 from plumb.settings.toml import machine_toml
 from plumb.text.files import numbered, read_bytes, write_whole
-from plumb.text.values import bare, brief, unit, worded
 
 SETTINGS = "machine.toml"
 SLEDS = {"r": "on a ring or a linkage: both chains point at the bit", "b": "on two brackets"}
@@ -96,9 +95,10 @@ def read_machine(visit: GuideVisit) -> bool:
 
 def check_wires(visit: GuideVisit) -> bool:
     """Jog each axis a little and ask what the owner saw."""
-    jogs = [chain_jog("left"), chain_jog("right")]
+    unit = visit.talk.unit
+    jogs = [chain_jog("left", unit), chain_jog("right", unit)]
     if _has_z(visit):
-        jogs.append(height_jog())
+        jogs.append(height_jog(unit))
     return all(_is_wired_right(visit, jog) for jog in jogs)
 
 
@@ -121,7 +121,8 @@ def _is_wired_right(visit: GuideVisit, jog: Jog) -> bool:
         return False
     before = visit.height
     alarm = visit.move(*jog.there)
-    astray = ran_away(HEIGHT, visit.height - before) if jog.axis == "z" and not alarm else ""
+    is_height = jog.axis == "z" and not alarm
+    astray = ran_away(HEIGHT, visit.height - before, visit.talk.unit) if is_height else ""
     seen = visit.talk.choice(jog.question, jog.answers)
     mend = astray or remedy(jog.axis, seen, alarm)
     if not (alarm or astray):
@@ -176,30 +177,29 @@ def show_reach(visit: GuideVisit) -> bool:
     expected = expected_anywhere(settings, expected_priors(visit.progress.sigmas))
     visit.talk.say(
         f"The machine can use {percent(survey.shares['usable'])} of the sheet; Reach shows where.\n"
-        f"{expected_sentence(expected)}"
+        f"{expected_sentence(expected, visit.talk.unit)}"
     )
     return True
 
 
 def set_chains(visit: GuideVisit) -> bool:
     """Return both sprockets to 12 o'clock, chains on their top teeth, chains paid out."""
-    talk = visit.talk
+    talk, unit = visit.talk, visit.talk.unit
     talk.say("Take both chains off their sprockets.")
     for side in ("left", "right"):
         _turn_to_twelve(visit, side)
     hooked = (
         "Lay each chain's end link over the tooth that points straight up. The machine then takes "
-        f"both chains as {brief(0)} long. Nothing moves."
+        f"both chains as {unit.brief(0)} long. Nothing moves."
     )
-    if not talk.agrees(hooked, f"Take both chains as {brief(0)} long; nothing moves"):
+    if not talk.agrees(hooked, f"Take both chains as {unit.brief(0)} long; nothing moves"):
         return False
     visit.move("B06 L0 R0")
     out = read_numbers(visit.sender)[EXTENDED]
     for side, line in (("left", "B02 L1 R0"), ("right", "B02 L0 R1")):
-        moves = (
-            f"The {side.upper()} motor pays out {brief(out)} of chain. Keep the chain on the teeth."
-        )
-        if not talk.agrees(moves, f"Pay out {brief(out)} of the {side} chain"):
+        length = unit.brief(out)
+        moves = f"The {side.upper()} motor pays out {length} of chain. Keep the chain on the teeth."
+        if not talk.agrees(moves, f"Pay out {length} of the {side} chain"):
             return False
         alarm = visit.move(line)
         if alarm:
@@ -222,7 +222,7 @@ def _turn_to_twelve(visit: GuideVisit, side: str) -> None:
 
 def first_mark(visit: GuideVisit) -> bool:
     """Hang the sled, drive it to the middle, make a dimple, and compare with the tape."""
-    talk, settings = visit.talk, visit.settings()
+    talk, settings, unit = visit.talk, visit.settings(), visit.talk.unit
     _has_z(visit)
     moves = "Hang the sled on both chains. Both motors then bring it to the MIDDLE of the sheet."
     if not talk.agrees(moves, "Move the sled to the middle of the sheet"):
@@ -231,14 +231,14 @@ def first_mark(visit: GuideVisit) -> bool:
     alarm = visit.move("B15")
     place = visit.sender.status.place if visit.sender.status else (np.inf, np.inf, 0.0)
     if alarm or max(abs(place[0]), abs(place[1])) > NEAR:
-        reported = f"it reports {bare(place[0])}, {bare(place[1])} {unit()}"
+        reported = f"it reports {unit.bare(place[0])}, {unit.bare(place[1])} {unit.name}"
         talk.say(f"The sled is not in the middle: {alarm or reported}")
         return False
     moves = (
         "Switch the router on, its bit just above the sheet. The Z motor lowers the bit by "
-        f"{brief(DIMPLE)} and raises it by {brief(HEIGHT_AFTER)}."
+        f"{unit.brief(DIMPLE)} and raises it by {unit.brief(HEIGHT_AFTER)}."
     )
-    act = f"Lower the bit by {brief(DIMPLE)} and raise it by {brief(HEIGHT_AFTER)}"
+    act = f"Lower the bit by {unit.brief(DIMPLE)} and raise it by {unit.brief(HEIGHT_AFTER)}"
     if not talk.agrees(moves, act):
         return False
     alarm = visit.move("G91", f"G1 Z-{DIMPLE:g} F100", f"G0 Z{HEIGHT_AFTER:g}", "G90")
@@ -250,6 +250,7 @@ def first_mark(visit: GuideVisit) -> bool:
 
 def _judge_mark(visit: GuideVisit, settings: MachineSettings) -> bool:
     """Say how far the first mark is off, and whether that is normal."""
+    unit = visit.talk.unit
     half_width, half_height = settings.sheet_width / 2, settings.sheet_height / 2
     left = visit.talk.length(
         "From the sheet's left edge to the mark",
@@ -268,13 +269,14 @@ def _judge_mark(visit: GuideVisit, settings: MachineSettings) -> bool:
     normal = 2 * expected_error(settings, priors, at=np.zeros((1, 2))).frame
     if off <= normal:
         visit.talk.say(
-            f"The mark is {worded(off, 1)} from the middle. Up to {worded(normal, 0)} is normal."
+            f"The mark is {unit.worded(off, 1)} from the middle. Up to {unit.worded(normal, 0)} is "
+            "normal."
         )
     else:
         visit.talk.say(
-            f"The mark is {worded(off, 1)} from the middle; more than the {worded(normal, 0)} that "
-            "your numbers allow. Measure the motors again, and look whether a chain sits a tooth "
-            "off."
+            f"The mark is {unit.worded(off, 1)} from the middle; more than the "
+            f"{unit.worded(normal, 0)} that your numbers allow. Measure the motors again, and look "
+            "whether a chain sits a tooth off."
         )
     return off <= normal
 

@@ -10,7 +10,7 @@ from pydantic.dataclasses import dataclass as pydantic_dataclass
 
 from plumb.text.errors import InputError
 from plumb.text.files import read_text, write_whole
-from plumb.text.values import brief, worded
+from plumb.text.values import Unit
 
 
 class LeftError(Exception):
@@ -41,6 +41,7 @@ class Talk:
 
     say: Callable[[str], None]
     put: Callable[[Question], str]  # waits for the answer
+    unit: Unit  # of the lengths that are said
 
     def agrees(self, what: str, act: str) -> bool:
         """Return whether the owner says yes to what will move; `act` says it in a few words, for a
@@ -93,7 +94,7 @@ class Jog:
     answers: dict[str, str]
 
 
-def chain_jog(side: str) -> Jog:
+def chain_jog(side: str, unit: Unit) -> Jog:
     """Winds 20 mm of a chain in, and pays it out again."""
     other = "right" if side == "left" else "left"
     word = side[0].upper()
@@ -101,8 +102,8 @@ def chain_jog(side: str) -> Jog:
         side,
         ("G91", f"B09 {word}-{CHAIN:g} F{SPEED}", "G90"),
         ("G91", f"B09 {word}{CHAIN:g} F{SPEED}", "G90"),
-        f"The {side.upper()} motor winds {brief(CHAIN)} of its chain in, slowly. {SLED}",
-        f"Wind {brief(CHAIN)} of the {side} chain in",
+        f"The {side.upper()} motor winds {unit.brief(CHAIN)} of its chain in, slowly. {SLED}",
+        f"Wind {unit.brief(CHAIN)} of the {side} chain in",
         "What did you see?",
         {
             "s": f"the {side} chain got shorter",
@@ -114,15 +115,15 @@ def chain_jog(side: str) -> Jog:
     )
 
 
-def height_jog() -> Jog:
+def height_jog(unit: Unit) -> Jog:
     """Raise the bit by 1 mm, and lowers it again."""
     return Jog(
         "z",
         ("G91", f"G0 Z{HEIGHT:g}", "G90"),
         ("G91", f"G0 Z-{HEIGHT:g}", "G90"),
-        f"The Z motor raises the router by {brief(HEIGHT)}, or lowers it if a wire is wrong: take "
-        "the bit out, or leave it room. Watch the screw that lifts the router.",
-        f"Raise the router by {brief(HEIGHT)}",
+        f"The Z motor raises the router by {unit.brief(HEIGHT)}, or lowers it if a wire is wrong: "
+        "take the bit out, or leave it room. Watch the screw that lifts the router.",
+        f"Raise the router by {unit.brief(HEIGHT)}",
         "Did the router go up? A turn of its screw by a few degrees counts.",
         {
             "s": "it went up",
@@ -133,15 +134,15 @@ def height_jog() -> Jog:
     )
 
 
-def ran_away(asked: float, counted: float) -> str:
+def ran_away(asked: float, counted: float, unit: Unit) -> str:
     """Return what is wrong with a way [mm] that the machine counted; empty if it is as was
     asked.
     """
     if abs(counted - asked) <= FOLLOWS:
         return ""
     return (
-        f"The machine was to move by {worded(asked)} and counts {worded(counted)}: the motor does "
-        "not follow. Check its power wires, its encoder, and its gains ($29 to $36)."
+        f"The machine was to move by {unit.worded(asked)} and counts {unit.worded(counted)}: the "
+        "motor does not follow. Check its power wires, its encoder, and its gains ($29 to $36)."
     )
 
 

@@ -7,7 +7,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from concurrent.futures import Future, ThreadPoolExecutor
-from contextvars import copy_context
 from dataclasses import dataclass, field, replace
 from threading import Lock
 from typing import Generic, TypeVar, cast
@@ -74,8 +73,7 @@ class Background:
                     task.is_overtaken = True
                     task.future.cancel()
                 task = self._tasks[kind] = Task(key)
-                # The thread speaks to whom the asker speaks to.
-                task.future = self._thread.submit(copy_context().run, work, task.progress)
+                task.future = self._thread.submit(work, task.progress)
         if not task.future.done():
             return Answer(min(task.share, NEARLY), None)
         return Answer(1.0, cast(Result, task.future.result()))
@@ -85,7 +83,6 @@ class Background:
 
 # Choices that a board does not depend on.
 OF_THE_PAGE = {
-    "units",
     "bench",
     "accepted",
     "edges",

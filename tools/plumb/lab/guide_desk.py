@@ -16,7 +16,7 @@ from plumb.guide.talk import NO, YES, LeftError, Question, Talk, progress_in
 from plumb.lab.machine_line import MachineLine
 from plumb.line.sender import Sender, StoppedError
 from plumb.text.errors import InputError, on_page
-from plumb.text.values import shown_in
+from plumb.text.values import Unit
 
 MOMENT = 0.05  # [s] between two looks for an answer
 PAYS_OUT = "chains"  # the step that does
@@ -42,7 +42,7 @@ class GuideDesk:
         folder: Path,
         line: MachineLine,
         *,
-        unit: str,
+        unit: Unit,
         finished: Callable[[GuideVisit], None],
     ) -> None:
         """Begin a step; `finished` is called when it is done. Raises InputError for a busy line."""
@@ -53,12 +53,13 @@ class GuideDesk:
 
         def work(sender: Sender) -> None:
             try:
-                talk = Talk(self.said.append, lambda question: self._put(question, sender, line))
+                talk = Talk(
+                    self.said.append, lambda question: self._put(question, sender, line), unit
+                )
                 self._note_hanging(step, line)
                 visit = GuideVisit(sender, talk, progress_in(folder), lambda: self._hang(line))
-                with shown_in(unit):
-                    if take(visit, step):
-                        finished(visit)
+                if take(visit, step):
+                    finished(visit)
             finally:
                 self.question = None
 

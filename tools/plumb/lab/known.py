@@ -14,7 +14,7 @@ from plumb.model.effect_words import RuleReading
 from plumb.plan.separation import FRAME_CHECKS, NumberCheck, effect_checks
 from plumb.settings.machine import GRAVITY, MachineSettings
 from plumb.text.errors import InputError
-from plumb.text.values import worded
+from plumb.text.values import Unit
 
 
 @dataclass(frozen=True)
@@ -80,11 +80,11 @@ class KnownNumber(RuleReading):
     stated: tuple[float, float] | None  # as it was read, and how far that may be off
     refused: str = ""  # why what is stated cannot have been measured; empty if it can
 
-    def said(self, value: float) -> str:
-        """Return what is read for a value, a length in the unit in which lengths are shown."""
+    def said(self, value: float, unit: Unit) -> str:
+        """Return what is read for a value, a length in this unit."""
         read = self.read(value)
         if self.unit == "mm":
-            return worded(read, self.digits)
+            return unit.worded(read, self.digits)
         return f"{read:.{self.digits}f} {self.unit}"
 
 
@@ -148,23 +148,24 @@ def _refused(
     """Why stated numbers cannot be, by name. What rests on such a number is not judged."""
     absurd = {check.name: check for check in stated(choices).checked if is_absurd(check, settings)}
     return {
-        number.name: _why(number, absurd[number.name].value)
+        number.name: _why(number, absurd[number.name].value, choices.unit)
         for number in numbers
         if number.name in absurd and number.by not in absurd
     }
 
 
-def _why(number: KnownNumber, value: float) -> str:
+def _why(number: KnownNumber, value: float, unit: Unit) -> str:
     """Why a value of a number cannot be, as it is read."""
-    said = number.said(value)
+    said = number.said(value, unit)
     if "." not in number.name:
         assert number.believed is not None
-        believed = number.said(number.value(number.believed))
+        believed = number.said(number.value(number.believed), unit)
         return f"{said} is far from the {believed} of the settings. Check the number and its unit."
     met = plausible_range(number.name)
     low, high = sorted((met.low, met.high), key=number.read)
     return (
-        f"{said} cannot be: real machines have {number.said(low)} to {number.said(high)}. "
+        f"{said} cannot be: real machines have {number.said(low, unit)} to "
+        f"{number.said(high, unit)}. "
         "Check the number and its unit."
     )
 

@@ -5,7 +5,6 @@ import re
 from collections.abc import Callable, Iterator, Mapping
 from concurrent.futures import Future
 from contextlib import contextmanager
-from contextvars import copy_context
 from dataclasses import dataclass
 from threading import Lock
 from typing import Annotated, TypeVar
@@ -160,7 +159,7 @@ class MachineLine:
         done.
         """
         try:
-            return self.worker.do(_as_here(work)).result(PATIENCE)
+            return self.worker.do(work).result(PATIENCE)
         except StoppedError:
             raise InputError("Stop was pressed; the machine has stopped") from None
         except TimeoutError:
@@ -176,7 +175,7 @@ class MachineLine:
 
         The future is done when the line takes other work again, or is lost.
         """
-        return self.worker.do(_as_here(work))
+        return self.worker.do(work)
 
     @contextmanager
     def resting(self) -> Iterator[None]:
@@ -206,12 +205,6 @@ class MachineLine:
         self._worker.close()
         self._before = self._worker
         return was
-
-
-def _as_here(work: Callable[[Sender], Result]) -> Callable[[Sender], Result]:
-    """Work for the line's thread that speaks to whom this thread speaks to."""
-    context = copy_context()
-    return lambda sender: context.run(work, sender)
 
 
 def line_of(connection: HTTPConnection) -> MachineLine:

@@ -20,6 +20,7 @@ from plumb.text.errors import InputError
 from plumb.text.files import Unlinked, numbered, opened, parsed, write_all
 from plumb.text.locks import alone
 from plumb.text.tables import read_table
+from plumb.text.values import Unit, unit_called
 
 # A name is a single word without a folder, so no name from outside leads out of the project.
 NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_.-]{0,63}")
@@ -179,6 +180,11 @@ class Choices(BaseModel):
     bench: Bench = Bench()
     accepted: list[str] = []  # numbers of the correction that the owner accepted
     settings_before: list[str] = []  # what was open before each correction, the latest last
+
+    @property
+    def unit(self) -> Unit:
+        """In which lengths are shown."""
+        return unit_called(self.units)
 
 
 def read_choices(project: Project) -> tuple[Choices, str]:

@@ -22,7 +22,6 @@ from plumb.lab.routes.next import NextAnswer, offers_of
 from plumb.lab.routes.project import ProjectAnswer, machine_of
 from plumb.lab.routes.verdict import Verdict, VerdictAnswer, verdict_of
 from plumb.plan import Next
-from plumb.text.values import unit, worded
 
 PAGE = Path(__file__).parent / "page"
 PACKAGES = ("plumb-maslow", "numpy", "scipy")
@@ -46,7 +45,7 @@ def report(
         "verdict": VerdictAnswer(share=1, verdict=verdict, command=command("diagnose")),
         "next": _next(advice, command("next")),
         "correction": correction_of(inputs, decision, project.choices),
-        "diary": diary_answer(diary or Diary(Path(), ())),
+        "diary": diary_answer(diary or Diary(Path(), ()), inputs.unit),
         **dict(_of_bench(inputs, decision.diagnosis, verdict)),
     }
     return _file(answers, title=f"{verdict.title} · {about['title']}", said=verdict.sentence)
@@ -60,7 +59,7 @@ def _project(inputs: Inputs) -> ProjectAnswer:
         folder="",
         key="",
         files={},
-        choices=Choices.model_construct(settings=settings, marks=names, units=unit()),
+        choices=Choices.model_construct(settings=settings, marks=names, units=inputs.unit.name),
         choices_digest="",
         machine=machine_of(inputs.settings, settings),
         trouble="",
@@ -98,7 +97,7 @@ def _about(inputs: Inputs, command: str) -> dict[str, object]:
     said += [("marks", name, digest) for name, digest in _rounds(inputs)]
     counts = ((len(measurements.measured_marks), "mark"), (len(measurements.distances), "distance"))
     read = [f"{count} {noun}{'s' if count != 1 else ''}" for count, noun in counts if count]
-    width, height = (worded(length, 0) for length in inputs.settings.sheet)
+    width, height = (inputs.unit.worded(length, 0) for length in inputs.settings.sheet)
     dates = ", ".join(dict.fromkeys(part.date for part in measurements.rounds if part.date))
     names = " and ".join(name for what, name, _ in said if what == "marks")
     return {

@@ -379,7 +379,7 @@ def inputs_of(project: Project, *, among: Sequence[str] | None = None) -> api.In
     inputs = api.read(*map(project.path, [choices.settings, *names]))
     refuse_absurd_known(settings, choices)
     known = stated(choices)
-    return replace(inputs, priors=known.priors, checked=known.checked)
+    return replace(inputs, priors=known.priors, checked=known.checked, unit=choices.unit)
 
 
 def changed_since_fit(project: Project, choices: Choices, settings: MachineSettings) -> str:

@@ -17,6 +17,7 @@ from plumb.model.effect_words import (
     PlainWords,
     RuleReading,
 )
+from plumb.text.values import in_both_units
 
 Array = NDArray[np.float64]
 SLED = "sled"  # the sled comes to rest elsewhere, before the turn of the sheet
@@ -196,7 +197,7 @@ SHEET_SKEW = LabEffect(
         sigma=0.0005,
         check={
             "title": "both diagonals of the sheet",
-            "steps": "Measure both diagonals of the sheet to 1 mm.",
+            "steps": in_both_units("Measure both diagonals of the sheet to {1 mm|0.039 inch}."),
             "value": "(top left to bottom right squared - bottom left to top right squared) / "
             "(4 width height)",
             "minutes": 5.0,
@@ -236,8 +237,11 @@ TAPE_SCALE = LabEffect(
         sigma=0.0001,
         check={
             "title": "the tape against a certified length",
-            "steps": "Hold the tape against a steel rule or a certified length of 1 m, or a second "
-            "tape over 2 m, and read the difference to 0.1 mm per metre.",
+            "steps": in_both_units(
+                "Hold the tape against a steel rule or a certified length of {1 m|39 3/8 inches}, "
+                "or a second tape over {2 m|78 3/4 inches}, and read the difference to "
+                "{0.1 mm per metre|0.001 inch per foot}."
+            ),
             "value": "mm that the tape reads too much over a metre, / 1000",
             "minutes": 4.0,
         },
@@ -247,7 +251,10 @@ TAPE_SCALE = LabEffect(
     hidden_as="strain",
     change=_scale,
     reading=lambda width, height: RuleReading(
-        "how much too much the tape reads over a metre", 0.1, 1 / 1000, digits=2
+        in_both_units("how much too much the tape reads over {a metre|39 3/8 inches}"),
+        0.1,
+        1 / 1000,
+        digits=2,
     ),
 )
 

@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from plumb.model.catalogue import every_effect, parameter_words
 from plumb.model.predict import frame_words
-from plumb.text.values import in_unit, unit
+from plumb.text.values import INCHES, Unit
 
 if TYPE_CHECKING:
     from plumb.model.effect_words import PlainWords
@@ -53,18 +53,20 @@ def plainly(effects: Iterable[str]) -> str:
     return f"{', '.join(others)} and {final}" if others else final
 
 
-def plain_size(name: str, value: float, low: float | None = None, high: float | None = None) -> str:
+def plain_size(
+    name: str, value: float, low: float | None = None, high: float | None = None, *, unit: Unit
+) -> str:
     """Return a parameter of an effect with its size and, in brackets, its interval."""
     words = words_of(name)
     below = value < 0 and bool(words["less"])
     sign = -1.0 if below else 1.0
     shown, *ends = [
-        shown_size(words, sign * number)
+        shown_size(words, sign * number, unit)
         for number in (value, *((low, high) if low is not None and high is not None else ()))
     ]
     digits = digits_for(shown, ends)
-    said = in_feet(words["less"] if below else words["more"])
-    said = said.replace("#", f"{_rounded(shown, digits)} {_unit(words)}")
+    said = in_feet(words["less"] if below else words["more"], unit)
+    said = said.replace("#", f"{_rounded(shown, digits)} {_unit(words, unit)}")
     if not ends:
         return said
     least, most = (_rounded(end, digits) for end in sorted(ends))
@@ -72,23 +74,23 @@ def plain_size(name: str, value: float, low: float | None = None, high: float | 
 
 
 def plain_before(
-    name: str, value: float, low: float | None = None, high: float | None = None
+    name: str, value: float, low: float | None = None, high: float | None = None, *, unit: Unit
 ) -> str:
     """Return a size as it was before, in the unit of its words; as fine as the interval that it has
     now, or nobody could tell how far it moved.
     """
     words = words_of(name)
-    shown = shown_size(words, value)
-    ends = [shown_size(words, end) for end in (low, high) if end is not None]
-    return f"{_rounded(shown, digits_for(shown, ends))} {_unit(words)}" if shown else "0"
+    shown = shown_size(words, value, unit)
+    ends = [shown_size(words, end, unit) for end in (low, high) if end is not None]
+    return f"{_rounded(shown, digits_for(shown, ends))} {_unit(words, unit)}" if shown else "0"
 
 
-def plain_range(name: str, low: float, high: float) -> str:
+def plain_range(name: str, low: float, high: float, unit: Unit) -> str:
     """From the smallest to the largest size that real machines have, in the unit of its words."""
     words = words_of(name)
-    ends = sorted(shown_size(words, end) for end in (low, high))
+    ends = sorted(shown_size(words, end, unit) for end in (low, high))
     digits = digits_for(max(map(abs, ends)), [])
-    return f"{_rounded(ends[0], digits)} to {_rounded(ends[1], digits)} {_unit(words)}"
+    return f"{_rounded(ends[0], digits)} to {_rounded(ends[1], digits)} {_unit(words, unit)}"
 
 
 def words_of(name: str) -> PlainWords:
@@ -100,13 +102,13 @@ def words_of(name: str) -> PlainWords:
         return parameter["plain"]
     frame = {words["name"]: words for words in frame_words()}
     if name in frame:
-        noun, unit = frame[name]["noun"], frame[name]["unit"]
+        noun, shown = frame[name]["noun"], frame[name]["unit"]
     else:
-        noun, unit = name, parameter["unit"] if parameter else ""
-    return {"more": f"{noun} #", "less": "", "unit": unit, "times": 1.0, "shown": "as is"}
+        noun, shown = name, parameter["unit"] if parameter else ""
+    return {"more": f"{noun} #", "less": "", "unit": shown, "times": 1.0, "shown": "as is"}
 
 
-def shown_size(words: PlainWords, value: float) -> float:
+def shown_size(words: PlainWords, value: float, unit: Unit) -> float:
     """Return the size as it is shown, in the unit of its words; the sign stays."""
     size = value * words["times"]
     if words["shown"] != "as is":
@@ -115,18 +117,18 @@ def shown_size(words: PlainWords, value: float) -> float:
         return math.degrees(math.atan(size))
     if words["unit"] != "mm":
         return size
-    per_foot = FOOT if PER_METRE in words["more"] and unit() == "inch" else 1.0
-    return in_unit(size) * per_foot
+    per_foot = FOOT if PER_METRE in words["more"] and unit == INCHES else 1.0
+    return unit.of(size) * per_foot
 
 
-def in_feet(said: str) -> str:
+def in_feet(said: str, unit: Unit) -> str:
     """Return words for a length of a metre for a foot, where lengths are shown in inches."""
-    return said.replace(PER_METRE, PER_FOOT) if unit() == "inch" else said
+    return said.replace(PER_METRE, PER_FOOT) if unit == INCHES else said
 
 
-def _unit(words: PlainWords) -> str:
+def _unit(words: PlainWords, unit: Unit) -> str:
     """Return the unit of the words; a length has the unit in which lengths are shown."""
-    return unit() if words["unit"] == "mm" else words["unit"]
+    return unit.name if words["unit"] == "mm" else words["unit"]
 
 
 def digits_for(shown: float, ends: list[float]) -> int:
@@ -158,14 +160,18 @@ class PlainChange:
         return f"{float(self.after) - float(self.before):+.{digits}f}"
 
 
-def plain_change(name: str, before: float, value: float, low: float, high: float) -> PlainChange:
+def plain_change(
+    name: str, before: float, value: float, low: float, high: float, unit: Unit
+) -> PlainChange:
     """Return how a number changes, in a maker's words."""
     words = words_of(name)
-    was, now, *ends = (shown_size(words, number) for number in (before, value, low, high))
+    was, now, *ends = (shown_size(words, number, unit) for number in (before, value, low, high))
     digits = digits_for(now, ends)
-    noun = " ".join(in_feet(words["more"]).replace("#", "").split())
+    noun = " ".join(in_feet(words["more"], unit).replace("#", "").split())
     margin = _rounded(abs(ends[1] - ends[0]) / 2, digits)
-    return PlainChange(noun, _rounded(was, digits), _rounded(now, digits), margin, _unit(words))
+    return PlainChange(
+        noun, _rounded(was, digits), _rounded(now, digits), margin, _unit(words, unit)
+    )
 
 
 # The order of computed numbers, the same on every processor.

@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from plumb import _core
 from plumb.settings.machine import HOLEY_CHAIN_WEIGHT, MachineSettings, frame_of
+from plumb.text.values import in_both_units
 
 if TYPE_CHECKING:
     from plumb._core import FrameWords
@@ -45,7 +46,13 @@ class Reached:
 @cache
 def library() -> list[EffectWords]:
     """Return every effect of the firmware, in the order applied: words, parameters and units."""
-    return _core.effects()
+    effects = _core.effects()
+    for effect in effects:
+        if effect["check"]:
+            effect["check"]["steps"] = in_both_units(effect["check"]["steps"])
+        for reading in filter(None, (each["reading"] for each in effect["parameters"])):
+            reading["title"] = in_both_units(reading["title"])
+    return effects
 
 
 def frame_words() -> list[FrameWords]:

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import plumb.grid as marks_grid
 from plumb.pictures.measuring_sheet import Hole, MeasuringSheet, ReadingRow, measuring_sheet
-from plumb.text.values import bare, unit
+from plumb.text.values import Unit
 
 TAPE = {
     "mm": "Read the tape in mm, to half a millimetre if you can.",
@@ -13,16 +13,26 @@ TAPE = {
 
 
 def grid_paper(
-    grid: marks_grid.Grid, machine: marks_grid.PlainMachine, *, settings: str | None, form: str
+    grid: marks_grid.Grid,
+    machine: marks_grid.PlainMachine,
+    unit: Unit,
+    *,
+    settings: str | None,
+    form: str,
 ) -> bytes:
     """Return the pages, as a pdf, for a grid that was made with these settings; `form` waits for
     the numbers.
     """
-    return measuring_sheet(content_of(grid, machine, settings=settings, form=form))
+    return measuring_sheet(content_of(grid, machine, unit, settings=settings, form=form))
 
 
 def content_of(
-    grid: marks_grid.Grid, machine: marks_grid.PlainMachine, *, settings: str | None, form: str
+    grid: marks_grid.Grid,
+    machine: marks_grid.PlainMachine,
+    unit: Unit,
+    *,
+    settings: str | None,
+    form: str,
 ) -> MeasuringSheet:
     """Return what the pages say."""
     cut = f" These marks are cut with {Path(settings).name}." if settings else ""
@@ -33,15 +43,19 @@ def content_of(
         how=(
             "x: from the left edge of the wood to the middle of the mark. "
             "y: from its top edge down to it.",
-            f"{TAPE[unit()]} A white dot is its neighbour made again: read both."
+            f"{TAPE[unit.name]} A white dot is its neighbour made again: read both."
             if grid.repeats
-            else TAPE[unit()],
+            else TAPE[unit.name],
             then,
         ),
         words=("mark", "planned x", "planned y", "x", "y"),
         holes=holes,
         readings=tuple(
-            ReadingRow(hole.name, (bare(hole.x, 1), bare(hole.y, 1)), "again" if hole.again else "")
+            ReadingRow(
+                hole.name,
+                (unit.bare(hole.x, 1), unit.bare(hole.y, 1)),
+                "again" if hole.again else "",
+            )
             for hole in holes
         ),
         sheet=(machine.sheet_width, machine.sheet_height),

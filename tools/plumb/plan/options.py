@@ -11,7 +11,7 @@ from plumb.plan.case import Case, PlannedCheck
 from plumb.plan.planned_visits import Visits, grid, joined, new_places, nowhere, sent, usable
 from plumb.plan.separation import FRAME_CHECKS, Chooser, NumberCheck, effect_checks
 from plumb.settings.machine import GRAVITY
-from plumb.text.values import bare
+from plumb.text.values import Unit, in_both_units
 
 Array = np.ndarray
 EXTRA_KILOGRAMS = (2.5, 5.0, 10.0)  # what a maker finds to hang on a sled
@@ -99,7 +99,7 @@ class _Shop:
     """Makes options for a case."""
 
     def __init__(self, case: Case) -> None:
-        self.case, self.rows = case, case.board.rows
+        self.case, self.rows, self.unit = case, case.board.rows, case.board.unit
         known: dict[str, int] = {}
         for name, row in zip(self.rows.names, self.rows.mark_rows, strict=True):
             known.setdefault(name, int(row))
@@ -114,7 +114,7 @@ class _Shop:
         if len(pool) < FEW:
             return []
         visits = pool.taken(self.spread(pool))
-        do = f"Cut and read {FEW} marks more, at {spots(visits)}."
+        do = f"Cut and read {FEW} marks more, at {spots(visits, self.unit)}."
         return [_marks("marks", f"{FEW} more marks", do, visits)]
 
     def many(self) -> Option | None:
@@ -148,10 +148,12 @@ class _Shop:
             if len(pool) < FEW:
                 continue
             visits = pool.taken(self.spread(pool))
-            offered.append(_heavier(f"{FEW} marks", kilograms, visits))
+            offered.append(_heavier(f"{FEW} marks", kilograms, visits, self.unit))
             near = self.visits(self.inwards(ROOM_FOR_A_SECOND), weight)
             if kilograms == EXTRA_KILOGRAMS[1] and FEW < len(near) <= MOST_AGAIN:
-                offered.append(_heavier(f"{len(near)} marks near the old", kilograms, near))
+                offered.append(
+                    _heavier(f"{len(near)} marks near the old", kilograms, near, self.unit)
+                )
         return offered
 
     def spread(self, pool: Visits) -> list[int]:
@@ -188,9 +190,10 @@ class _Shop:
         chosen = Chooser(self.case, pool).best(range(len(pool)), FEW // 2)
         both = {twin for i in chosen for twin in (i, (i // count ^ 1) * count + i % count)}
         visits = pool.taken(sorted(both, key=lambda i: (i % count, i)))
+        way = self.unit.reading(in_both_units("the last {100 mm|3.9 inch} straight"))
         do = (
-            "Touch two marks next to each other from opposite sides, the last 100 mm straight "
-            f"towards the mark, at {spots(visits)}; write down the approach."
+            f"Touch two marks next to each other from opposite sides, {way} towards the mark, at "
+            f"{spots(visits, self.unit)}; write down the approach."
         )
         return [_marks("approach", "marks from opposite sides", do, visits)]
 
@@ -262,8 +265,8 @@ def _marks(kind: str, title: str, do: str, visits: Visits, *, more: float = 0.0)
     return Option(kind, title, (do,), ROUND + MARK * len(visits) + more, visits)
 
 
-def _heavier(which: str, kilograms: float, visits: Visits) -> Option:
-    places = spots(visits)
+def _heavier(which: str, kilograms: float, visits: Visits, unit: Unit) -> Option:
+    places = spots(visits, unit)
     do = (
         f"Hang {kilograms:g} kg more on the sled, low and in the middle, change nothing else, and "
         f"cut and read {len(visits)} marks, at {places}. Weigh what you hang."
@@ -272,12 +275,12 @@ def _heavier(which: str, kilograms: float, visits: Visits) -> Option:
     return _marks("weight", title, do, visits, more=HANGING)
 
 
-def spots(visits: Visits) -> str:
+def spots(visits: Visits, unit: Unit) -> str:
     """Return the places for people, each once; a mark that is there already by its name."""
     named = zip(visits.names, visits.targets, strict=True)
-    return ", ".join(dict.fromkeys(_spot(name, at) for name, at in named))
+    return ", ".join(dict.fromkeys(_spot(name, at, unit) for name, at in named))
 
 
-def _spot(name: str, at: Array) -> str:
-    place = f"({bare(at[0], 0)}, {bare(at[1], 0)})"
+def _spot(name: str, at: Array, unit: Unit) -> str:
+    place = f"({unit.bare(at[0], 0)}, {unit.bare(at[1], 0)})"
     return place if "/" in name else f"{name} {place}"

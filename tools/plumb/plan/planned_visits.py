@@ -20,7 +20,7 @@ from plumb.model.reach import with_soft_chains
 from plumb.settings.machine import GRAVITY, MachineSettings
 from plumb.text.answers import key
 from plumb.text.errors import InputError
-from plumb.text.values import bare, unit
+from plumb.text.values import INCHES, Unit
 
 Array = np.ndarray
 
@@ -310,14 +310,15 @@ def marks_file(
     controller: str,
     said: tuple[str, ...],
     cut_with: str = "",
+    unit: Unit,
 ) -> str:
-    """Return the text of the file: places count from the sheet's top left corner, y down, in the
-    unit in which lengths are shown; `cut_with` are lines that name the settings in force.
+    """Return the text of the file: places count from the sheet's top left corner, y down, in this
+    unit; `cut_with` are lines that name the settings in force.
     """
-    if unit() == "inch":
+    if unit == INCHES:
         cut_with = f'\nunits = "inch"  # fractions too, like 3 7/8{cut_with}'
     lines = [
-        f"# Measured from the sheet's left and top edges, in {unit()}: take away the # before",
+        f"# Measured from the sheet's left and top edges, in {unit.name}: take away the # before",
         "# `measured` and write what the tape says. Give this file to plumb after your marks.",
         *(f"# {sentence}" for sentence in said),
         f'frame = "sheet-top-left"{cut_with}',
@@ -325,7 +326,7 @@ def marks_file(
     ]
     for i, name in enumerate(visits.names):
         x, y = visits.targets[i, 0] + sheet[0] / 2, sheet[1] / 2 - visits.targets[i, 1]
-        target = f"target = [{bare(x, 3)}, {bare(y, 3)}]"
+        target = f"target = [{unit.bare(x, 3)}, {unit.bare(y, 3)}]"
         lines += ["", "[[mark]]", f'name = "{name}"', target]
         lines.append(f"sled_weight_n = {visits.sled_weights[i]:.1f}")
         side = visits.approaches[i]

@@ -32,7 +32,7 @@ from plumb.plan.separation import ENOUGH, apart, drawn_by
 from plumb.settings.cut_with import cut_with_lines, with_form
 from plumb.text.answers import Internal, among, in_json, key, meant, part
 from plumb.text.errors import Source
-from plumb.text.values import bare, in_inches, worded
+from plumb.text.values import Unit
 
 Array = np.ndarray
 # A question: what the chance is the chance of.
@@ -57,6 +57,7 @@ class Proposal:
     """One thing to measure, and what to expect of it."""
 
     option: Internal[Option]
+    unit: Internal[Unit]  # of the lengths in what is said of it
     question: Annotated[str, key("chance_to"), among((SETTLE, CONFIRM, FIND, REREAD, EXPLORE))]
     chance: Annotated[float | None, meant("Null: nothing can be computed.")]
     left: Annotated[float | None, key("suspects_left", "On average.")]
@@ -81,15 +82,16 @@ class Proposal:
     @in_json
     def steps(self) -> list[str]:
         """What to do, and what it tells, in sentences."""
-        return [*map(in_inches, self.option.do), *_shown_by(self.parts)]
+        return [*map(self.unit.reading, self.option.do), *_shown_by(self.parts)]
 
     @in_json
     def promise(self) -> str:
         """What to hope of it, for a table."""
         if self.question != FIND or not self.rooms:
             return percent(self.chance)
+        unit = self.unit
         promise = ", ".join(
-            f"{noun_of(room.effect)} {bare(room.now, 1)} -> {worded(room.then, 1)}"
+            f"{noun_of(room.effect)} {unit.bare(room.now, 1)} -> {unit.worded(room.then, 1)}"
             for room in self.rooms[:2]
             if room.then < 0.9 * room.now
         )
@@ -130,12 +132,14 @@ def propose(
     if diagnosis.verdict == "slip":
         _, rows = inputs.model_and_observations()
         proposals = [
-            Proposal(option, REREAD, chance, None)
+            Proposal(option, inputs.unit, REREAD, chance, None)
             for option, chance in for_slips(diagnosis.outliers, rows, case.noise)
         ]
         return Next(diagnosis.verdict, case, tuple(proposals), None)
     if diagnosis.verdict == "not_in_library":
-        proposals = [Proposal(option, EXPLORE, None, None) for option in near_the_worst(case)]
+        proposals = [
+            Proposal(option, inputs.unit, EXPLORE, None, None) for option in near_the_worst(case)
+        ]
         return Next(diagnosis.verdict, case, tuple(proposals), None)
     several, outlooks = options(case), Outlooks(case)
     blind = many_marks(case)
@@ -163,7 +167,8 @@ def _weighed(outlooks: Outlooks, option: Option, rooms: Sequence[Room]) -> Propo
     question = QUESTIONS[case.verdict]
     parts = _parted(case, planned) if question != FIND else ()
     then = _rooms(case, planned, rooms) if question == FIND else ()
-    return Proposal(option, question, expected.chance, expected.left, expected.bits, parts, then)
+    chance, left, bits = expected.chance, expected.left, expected.bits
+    return Proposal(option, case.board.unit, question, chance, left, bits, parts, then)
 
 
 def _parted(case: Case, planned: PlannedMeasurement) -> tuple[tuple[str, str], ...]:
@@ -241,6 +246,7 @@ def form_of(
         controller=advice.case.controller,
         said=(f"Proposal {place}: {option.title}.", *option.do),
         cut_with=cut_with_lines(settings, path),
+        unit=advice.case.board.unit,
     ).encode()
 
 
@@ -285,7 +291,7 @@ def _hope(best: Proposal) -> str:
     if best.question == FIND and best.rooms:
         first = best.rooms[0]
         noun = noun_of(first.effect)
-        now, then = (worded(size, 1) for size in (first.now, first.then))
+        now, then = (best.unit.worded(size, 1) for size in (first.now, first.then))
         return f". {noun[0].upper()}{noun[1:]} may act unseen by {now} now, by {then} then"
     if best.chance is None:
         return ""
@@ -346,8 +352,9 @@ def near_the_worst(case: Case) -> list[Option]:
     ]
     if len(near):
         do = (
-            f"Cut and read marks around {names}, where the error is worst, at {spots(near)}: what "
-            "is local (a bent frame, a bump in the sheet, a sticking chain) shows itself here."
+            f"Cut and read marks around {names}, where the error is worst, at "
+            f"{spots(near, case.board.unit)}: what is local (a bent frame, a bump in the sheet, a "
+            "sticking chain) shows itself here."
         )
         minutes = ROUND + MARK * len(near)
         offered.append(Option("near", "marks around the worst places", (do,), minutes, near))

@@ -15,6 +15,7 @@ from plumb.model.catalogue import every_effect
 from plumb.model.plain import greatest
 from plumb.plan.case import Case, Hypothesis, visit_slopes
 from plumb.plan.planned_visits import Visits
+from plumb.text.values import in_both_units
 
 Array = np.ndarray
 ENOUGH = 12.0  # lambda at which two effects are distinguished in more than nine of ten cases
@@ -171,21 +172,29 @@ def effect_checks() -> dict[str, NumberCheck]:
 FRAME_CHECKS: Mapping[str, NumberCheck] = {
     "motor_gap": NumberCheck(
         "the gap between the motors",
-        "Measure between the sprocket centres to 1 mm, with a chain pulled tight or a steel tape.",
+        in_both_units(
+            "Measure between the sprocket centres to {1 mm|0.039 inch}, with a chain pulled tight "
+            "or a steel tape."
+        ),
         "mm",
         10.0,
         {"motor_gap": 1.0},
     ),
     "motor_height": NumberCheck(
         "the motors above the top edge of the sheet",
-        "Measure from the sheet's top edge up to the sprocket centres to 1 mm, on both sides.",
+        in_both_units(
+            "Measure from the sheet's top edge up to the sprocket centres to {1 mm|0.039 inch}, on "
+            "both sides."
+        ),
         "the mean of both sides and half the sheet's height, mm",
         8.0,
         {"motor_height": 1.0},
     ),
     "rotation_radius": NumberCheck(
         "the rotation radius",
-        "Measure from the bit to the first link pin of each chain to 0.5 mm.",
+        in_both_units(
+            "Measure from the bit to the first link pin of each chain to {0.5 mm|0.02 inch}."
+        ),
         "mm",
         5.0,
         {"rotation_radius": 0.5},

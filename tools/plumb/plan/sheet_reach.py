@@ -8,6 +8,7 @@ from plumb.model.predict import REACH_WORDS
 from plumb.model.reach import Extreme, Survey, conclusion_of, percent, survey_sheet
 from plumb.settings.machine import MachineSettings
 from plumb.text.answers import Internal, in_json, part
+from plumb.text.values import MM, Unit
 
 SIGNS = ".TSV#"  # by verdict
 MEANING = (
@@ -35,6 +36,7 @@ class SheetReach:
 
     survey: Internal[Survey]
     expected: Expected | None  # None: no sled hangs on this sheet
+    unit: Internal[Unit] = MM  # of the lengths in what is said of it
 
     extremes = part("survey.extremes", tuple[Extreme, ...])
     assumed = part("survey.assumed", tuple[str, ...], "What the settings do not say.")
@@ -47,7 +49,7 @@ class SheetReach:
     @in_json
     def normal(self) -> str:
         """The expected error in sentences; empty if no mark can be made."""
-        return expected_sentence(self.expected)
+        return expected_sentence(self.expected, self.unit)
 
     @in_json
     def shares(self) -> dict[str, float]:

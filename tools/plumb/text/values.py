@@ -2,9 +2,8 @@
 
 import math
 import re
-from collections.abc import Iterable, Iterator
-from contextlib import contextmanager
-from contextvars import ContextVar
+from collections.abc import Iterable
+from dataclasses import dataclass
 from difflib import get_close_matches
 
 _DECIMAL = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?", re.ASCII)
@@ -83,98 +82,78 @@ def shortened(value: object) -> str:
 
 # Lengths as people are shown them: in mm, or in inches where they ask for or type those.
 #
-# Files, JSON and pictures stay in mm. An inch gets a decimal more, so a size stays as fine as it
-# was.
+# Files, JSON and pictures stay in mm.
 
-_FINER = {"mm": 0, "inch": 1}  # decimals more than in mm
-_unit: ContextVar[str] = ContextVar("unit", default="mm")
+INCH = 25.4  # [mm]
 
 
-@contextmanager
-def shown_in(name: str) -> Iterator[None]:
-    """Lengths are shown in a unit, until the end or until show_in names another."""
-    token = _unit.set(name)
-    try:
-        yield
-    finally:
-        _unit.reset(token)
+@dataclass(frozen=True)
+class Unit:
+    """The unit in which lengths are shown."""
+
+    name: str
+    size: float  # [mm]
+    finer: int = 0  # decimals more than in mm: a size stays as fine as it was
+
+    def of(self, length: float) -> float:
+        """Return a length [mm] in this unit."""
+        return length / self.size
+
+    def bare(self, length: float | None, digits: int = 2) -> str:
+        """Return a length [mm] without the unit, with this many decimals if it is in mm; a dash
+        for none.
+        """
+        if length is None or not math.isfinite(length):
+            return "-"
+        # No zero has a sign: that of a rounded number is chance.
+        return f"{self.of(length):z.{digits + self.finer}f}"
+
+    def signed(self, length: float | None) -> str:
+        """Return the same with its sign."""
+        return "-" if length is None else f"{self.of(length):+z.{2 + self.finer}f}"
+
+    def worded(self, length: float | None, digits: int = 2) -> str:
+        """Return a length [mm] with the unit."""
+        return f"{self.bare(length, digits)} {self.name}"
+
+    def brief(self, length: float) -> str:
+        """Return a chosen length [mm], with the unit and no more decimals than it needs."""
+        return f"{round(self.of(length), 2):g} {self.name}"
+
+    def reading(self, words: str) -> str:
+        """Return words that hold their lengths in both units, in this one."""
+        return words.inches if self.finer and isinstance(words, _InBoth) else words
 
 
-def show_in(name: str) -> None:
-    """From now on lengths are shown in this unit."""
-    _unit.set(name)
+MM, INCHES = Unit("mm", 1.0), Unit("inch", INCH, finer=1)
 
 
-def unit() -> str:
-    """Return the unit in which lengths are shown, of UNITS."""
-    return _unit.get()
+def unit_called(name: str) -> Unit:
+    """Return the unit of this name, of UNITS."""
+    return INCHES if name == INCHES.name else MM
 
 
-def in_unit(length: float) -> float:
-    """Return a length [mm] in the unit in which lengths are shown."""
-    return length / UNITS[unit()]
+# Words with chosen lengths, each in both units: `read to {0.2 mm|0.0079 inch}`.
+
+_LENGTH = re.compile(r"\{(.*?)\|(.*?)\}")
 
 
-def bare(length: float | None, digits: int = 2) -> str:
-    """Return a length [mm] without its unit, with this many decimals if it is in mm; a dash for
-    none.
-    """
-    if length is None or not math.isfinite(length):
-        return "-"
-    # No zero has a sign: that of a rounded number is chance.
-    return f"{in_unit(length):z.{digits + _FINER[unit()]}f}"
+class _InBoth(str):
+    """Words with lengths in mm, which know those in inches; in an f-string they lose these."""
+
+    inches: str
 
 
-def signed(length: float | None) -> str:
-    """Return the same with its sign."""
-    if length is None:
-        return "-"
-    return f"{in_unit(length):+z.{2 + _FINER[unit()]}f}"
-
-
-def worded(length: float | None, digits: int = 2) -> str:
-    """Return a length [mm] with its unit."""
-    return f"{bare(length, digits)} {unit()}"
-
-
-def brief(length: float) -> str:
-    """Return a chosen length [mm], with its unit and no more decimals than it
-    needs.
-    """
-    return f"{round(in_unit(length), 2):g} {unit()}"
-
-
-# Sentences with lengths in mm and metres, for a reader with an inch tape.
-
-_BOTH = re.compile(r"[\d.]+ mm \(([\d.]+ inch(?:es)?)\)")  # says both already
-_PER_METRE = re.compile(r"([\d.]+) mm per metre")
-_MILLIMETRES = re.compile(r"([\d.]+) mm\b")
-_METRES = re.compile(r"\b(?:(\d+) m|a metre)\b")
-
-
-def in_inches(sentence: str) -> str:
-    """Return a sentence with its lengths in inches, where lengths are shown so."""
-    if unit() != "inch":
-        return sentence
-    said = _BOTH.sub(r"\1", sentence)
-    said = _PER_METRE.sub(lambda length: f"{float(length[1]) * 0.012:.1g} inch per foot", said)
-    said = _MILLIMETRES.sub(lambda length: f"{float(length[1]) / INCH:.2g} inch", said)
-    return _METRES.sub(lambda length: _eighths(1000 * float(length[1] or 1)), said)
-
-
-def _eighths(length: float) -> str:
-    """Return a length [mm] in inches and eighths."""
-    whole, part = divmod(round(8 * length / INCH), 8)
-    if not part:
-        return f"{whole} inches"
-    top, below = {2: (1, 4), 4: (1, 2), 6: (3, 4)}.get(part, (part, 8))
-    return f"{whole} {top}/{below} inches"
+def in_both_units(words: str) -> str:
+    """Return words as they read in mm; Unit.reading() has them in inches."""
+    said = _InBoth(_LENGTH.sub(r"\1", words))
+    said.inches = _LENGTH.sub(r"\2", words)
+    return said
 
 
 # Lengths as people type them: millimetres or inches, decimals or fractions like 47 7/8.
 
-INCH = 25.4  # [mm]
-UNITS = {"mm": 1.0, "inch": INCH}  # [mm] of each
+UNITS = {unit.name: unit.size for unit in (MM, INCHES)}  # [mm] of each
 # A whole number and a fraction, or either: 47 7/8, 47-7/8, 7/8; an inch sign may follow.
 _FRACTION = re.compile(r"(?P<sign>[+-]?)(?:(?P<whole>\d+)[ -]+)?(?P<top>\d+)\s*/\s*(?P<below>\d+)")
 

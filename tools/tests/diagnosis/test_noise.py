@@ -22,6 +22,7 @@ from plumb.diagnosis.priors import STATED_SPREAD
 from plumb.fit.inputs import Inputs, Stated
 from plumb.fit.observations import observe
 from plumb.marks.read import Measurements
+from plumb.text.values import MM
 from scipy import stats
 from synthetic import BELIEVED, TRUE, grid, marks_on
 
@@ -47,13 +48,13 @@ def weights_for(sigmas, sigma, degrees):
 @pytest.mark.parametrize("degrees", [10, 200])
 def test_a_noise_is_known_as_well_as_its_posterior_is_narrow(degrees):
     sigmas = np.geomspace(0.05, 5.0, 400)
-    noise = noise_by(sigmas, weights_for(sigmas, 0.6, degrees), None)
+    noise = noise_by(sigmas, weights_for(sigmas, 0.6, degrees), None, MM)
     assert noise.source == "marks" and noise.sigma == pytest.approx(0.6, rel=1.5 / degrees)
     assert noise.degrees == pytest.approx(degrees, rel=2 / degrees + 0.01)
     assert noise.quantile == pytest.approx(stats.t.isf(0.025, noise.degrees))
     assert noise.upper_quantile == pytest.approx(stats.t.isf(0.05, noise.degrees))
     # A constant in all weights is none.
-    less = noise_by(sigmas, weights_for(sigmas, 0.6, degrees) - 900.0, None)
+    less = noise_by(sigmas, weights_for(sigmas, 0.6, degrees) - 900.0, None, MM)
     assert (less.sigma, less.degrees) == pytest.approx((noise.sigma, noise.degrees))
 
 
@@ -82,7 +83,7 @@ def test_noise_far_from_the_stated_noise_is_reported(off, says):
     stated = Stated(0.5)
     sigma = stated.sigma * np.exp(off * SURPRISING * STATED_SPREAD)
     sigmas = np.geomspace(0.05, 5.0, 4001)
-    noise = noise_by(sigmas, weights_for(sigmas, sigma, 4000), stated)
+    noise = noise_by(sigmas, weights_for(sigmas, sigma, 4000), stated, MM)
     assert len(noise.notes) == bool(says)
     assert not says or f", {says} than the stated 0.50 mm" in noise.notes[0]
 

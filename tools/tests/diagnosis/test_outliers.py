@@ -3,15 +3,18 @@
 import numpy as np
 import pytest
 from plumb.diagnosis.outliers import Reading, Shift, described
+from plumb.fit.inputs import Inputs
 from plumb.marks.read import Distance, Mark, Measurements
-from synthetic import SHEET
+from synthetic import BELIEVED
 
 
 def slip_of(read, expected, sigma=0.3):
     """The slip of a mark that was read here and expected there."""
     marks = Measurements((Mark("A", (0.0, 0.0), read),))
     offset = np.subtract(read, expected)
-    return described(Shift(Reading(0, True), offset, np.full(2, sigma), 99.0), marks, SHEET)
+    return described(
+        Shift(Reading(0, True), offset, np.full(2, sigma), 99.0), Inputs(BELIEVED, marks)
+    )
 
 
 def slip_of_distance(read, expected):
@@ -19,7 +22,9 @@ def slip_of_distance(read, expected):
     ends = (Mark("A", (0.0, 0.0)), Mark("B", (900.0, 0.0)))
     marks = Measurements(ends, (Distance(("A", "B"), read),))
     offset = np.array([read - expected])
-    return described(Shift(Reading(0, False), offset, np.array([0.3]), 99.0), marks, SHEET)
+    return described(
+        Shift(Reading(0, False), offset, np.array([0.3]), 99.0), Inputs(BELIEVED, marks)
+    )
 
 
 @pytest.mark.parametrize(

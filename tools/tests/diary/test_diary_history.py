@@ -21,6 +21,7 @@ from plumb.diary.history import history_of
 from plumb.fit.inputs import Inputs
 from plumb.marks.read import Measurements
 from plumb.settings.toml import machine_toml, read_machine_toml
+from plumb.text.values import MM
 from synthetic import BELIEVED, TRUE, grid, marks_on
 
 FIRST, SECOND = (datetime(2026, month, 1, tzinfo=UTC) for month in (5, 6))
@@ -79,7 +80,7 @@ def test_the_history_shows_errors_and_numbers_over_time(first, tmp_path):
     append(tmp_path, FIT, entry_of(*first), at=FIRST)
     append(tmp_path, "program", program_entry("grid.nc", ["G0 X0"], whole=True))
     append(tmp_path, FIT, entry_of(*fitted(gap_mm=6.0, seed=2)), at=SECOND)
-    fits, courses = history_of(read_diary(tmp_path))
+    fits, courses = history_of(read_diary(tmp_path), MM)
     assert [fit.at for fit in fits] == [FIRST, SECOND]
     assert [fit.count for fit in fits] == [15, 15]
     assert fits[0].rms == first[0].after.fit_rms
@@ -113,7 +114,7 @@ def points(*ends):
 def test_a_number_has_moved_if_its_intervals_have_nothing_in_common(ends, moved, tmp_path):
     for number in points(*ends):
         append(tmp_path, FIT, entry_with(numbers=[number]))
-    _, (course,) = history_of(read_diary(tmp_path))
+    _, (course,) = history_of(read_diary(tmp_path), MM)
     assert course.has_moved is moved
 
 

@@ -1,8 +1,12 @@
 """An owner who answers the guide without a page."""
 
+from plumb.text.values import MM
+
 
 class PreparedOwner:
     """Answers each question by a function of its text; `said` holds what was said and asked."""
+
+    unit = MM
 
     def __init__(self, answer):
         self.said, self._answer = [], answer

@@ -6,6 +6,7 @@ from plumb.guide.steps import GuideVisit, _judge_mark, show_reach
 from plumb.guide.talk import GuideProgress, progress_in
 from plumb.settings.toml import machine_toml
 from plumb.text.errors import InputError
+from plumb.text.values import MM
 from prepared_owner import PreparedOwner
 from synthetic import BELIEVED
 
@@ -39,4 +40,4 @@ def test_the_guide_calls_normal_what_plumb_reach_does(tmp_path):
     (tmp_path / "machine.toml").write_text(machine_toml(BELIEVED))
     assert show_reach(GuideVisit(None, owner, GuideProgress(tmp_path, [], SIGMAS)))
     expected = expected_anywhere(BELIEVED, expected_priors(SIGMAS))
-    assert owner.said[-1].endswith(expected_sentence(expected))
+    assert owner.said[-1].endswith(expected_sentence(expected, MM))

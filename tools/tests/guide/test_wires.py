@@ -6,6 +6,7 @@ from plumb.guide.steps import GuideVisit, check_wires
 from plumb.guide.talk import GuideProgress, chain_jog, ran_away, remedy
 from plumb.line.memory import read_numbers
 from plumb.line.sender import Sender
+from plumb.text.values import MM
 from plumb.vm.garage import Garage
 from plumb.vm.owner import InProcessPort
 from prepared_owner import PreparedOwner
@@ -23,7 +24,7 @@ def jogged(tmp_path, side, *faults):
     sender = switched_on(machine)
     visit = GuideVisit(sender, PreparedOwner(input), GuideProgress(tmp_path))
     before = machine.chains[SIDES.index(side)]
-    alarm = visit.move(*chain_jog(side).there)
+    alarm = visit.move(*chain_jog(side, MM).there)
     change = machine.chains[SIDES.index(side)] - before
     seen = "n" if abs(change) < MOVED else "s" if change < 0 else "l"
     return seen, alarm
@@ -144,4 +145,4 @@ def test_a_motor_that_ran_away_is_not_called_good(tmp_path):
         (1, 1.31, False),
         (1, 0.69, False),
     ]:
-        assert (ran_away(asked, counted) == "") is is_good
+        assert (ran_away(asked, counted, MM) == "") is is_good

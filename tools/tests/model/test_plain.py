@@ -11,7 +11,7 @@ from plumb.model.plain import (
     plain_size,
 )
 from plumb.model.predict import judged, with_parameters
-from plumb.text.values import shown_in
+from plumb.text.values import INCHES, MM
 from synthetic import BELIEVED
 
 
@@ -51,7 +51,7 @@ from synthetic import BELIEVED
     ],
 )
 def test_sizes_are_in_a_makers_words(name, numbers, said):
-    assert plain_size(name, *numbers) == said
+    assert plain_size(name, *numbers, unit=MM) == said
 
 
 @pytest.mark.parametrize(
@@ -61,7 +61,7 @@ def test_every_parameter_has_plain_words_and_its_size_can_be_read_back(name):
     words = parameter_words()[name]["plain"]
     assert words and words["more"].count("#") == 1 and words["less"].count("#") <= 1
     assert words["more"] != words["less"]
-    said = plain_size(name, parameter_words()[name]["typical"])
+    said = plain_size(name, parameter_words()[name]["typical"], unit=MM)
     shown = float(said.partition(f" {words['unit']}")[0].split()[-1])
     back = {
         "as is": shown,
@@ -78,14 +78,13 @@ def test_every_effect_has_a_noun():
 
 
 @pytest.mark.parametrize(
-    ("shown", "now", "before"),
-    [("mm", "2980.2 mm", "2978.4 mm"), ("inch", "117.330 inch", "117.260 inch")],
+    ("unit", "now", "before"),
+    [(MM, "2980.2 mm", "2978.4 mm"), (INCHES, "117.330 inch", "117.260 inch")],
 )
-def test_a_size_before_is_as_fine_as_the_size_now(shown, now, before):
+def test_a_size_before_is_as_fine_as_the_size_now(unit, now, before):
     interval = (2979.8, 2980.6)
-    with shown_in(shown):
-        assert f"motors {now} (" in plain_size("motor_gap", 2980.18, *interval)
-        assert plain_before("motor_gap", 2978.4, *interval) == before
+    assert f"motors {now} (" in plain_size("motor_gap", 2980.18, *interval, unit=unit)
+    assert plain_before("motor_gap", 2978.4, *interval, unit=unit) == before
 
 
 @pytest.mark.parametrize("feed", ["top", "bottom"])
@@ -104,5 +103,5 @@ def test_the_high_spot_of_a_sprocket_is_where_the_judge_has_its_middle(
     else:  # a clockwise turn lifts what is left of the axis
         said = "that rises" if x * clockwise < 0 else "that sinks"
     assert max(abs(x), abs(y)) == pytest.approx(0.1)
-    assert plain_size(name, size).endswith(said)
-    assert plain_size(name, size).startswith(f"{side} sprocket 0.100 mm off its middle")
+    words = plain_size(name, size, unit=MM)
+    assert words.startswith(f"{side} sprocket 0.100 mm off its middle") and words.endswith(said)

@@ -9,6 +9,7 @@ import pytest
 from matplotlib.patches import Rectangle
 from plumb.pictures.grid_paper import content_of
 from plumb.pictures.measuring_sheet import PAPER, measuring_sheet, pages_of
+from plumb.text.values import MM
 
 MACHINE = marks_grid.PlainMachine()
 # US Letter is wider and lower than A4: what both can print lies within these [mm].
@@ -23,7 +24,7 @@ GRIDS = {
 
 def content(**options):
     grid = marks_grid.Grid(**options)
-    return content_of(grid, MACHINE, settings="home/groundcontrol.ini", form="home/marks.toml")
+    return content_of(grid, MACHINE, MM, settings="home/groundcontrol.ini", form="home/marks.toml")
 
 
 def extents(figure):
@@ -102,6 +103,7 @@ def test_the_same_grid_gives_the_same_pages(run, tmp_path):
         content_of(
             marks_grid.Grid(repeats=False, places=places),
             MACHINE,
+            MM,
             settings=None,
             form="marks.toml",
         )

@@ -19,6 +19,7 @@ from plumb.plan.options import (
 )
 from plumb.plan.separation import FRAME_CHECKS, effect_checks
 from plumb.settings.machine import GRAVITY
+from plumb.text.values import MM
 from synthetic import grid
 
 USUAL = MACHINE.sled_weight
@@ -78,7 +79,7 @@ def test_two_marks_close_together_are_touched_from_opposite_sides(by_kind):
         assert gap == pytest.approx((ROOM_FOR_A_SECOND, ROOM_FOR_A_SECOND))
     apart = np.linalg.norm(visits.targets[0] - visits.targets[2])
     assert apart > 2 * ROOM_FOR_A_SECOND
-    assert "opposite sides" in sides.do[0] and spots(visits) in sides.do[0]
+    assert "opposite sides" in sides.do[0] and spots(visits, MM) in sides.do[0]
 
 
 def test_every_mark_is_read_again_as_it_was_made(by_kind, case):

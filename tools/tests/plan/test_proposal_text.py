@@ -14,13 +14,14 @@ from plumb.plan.proposal import (
     RoomThen,
     percent,
 )
+from plumb.text.values import MM
 
 CUT = Option("marks", "4 more marks", ("Cut four.",), 9.4, nowhere())
 ROOMS = (RoomThen("chain_sag", 5.0, 1.24), RoomThen("chain_pitch", 2.0, 1.9))
 
 
 def proposal(question=SETTLE, chance=0.42, **how):
-    return Proposal(CUT, question, chance, None, **how)
+    return Proposal(CUT, MM, question, chance, None, **how)
 
 
 @pytest.mark.parametrize(

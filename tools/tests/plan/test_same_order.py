@@ -7,6 +7,7 @@ from plumb.fit.compare import compare
 from plumb.fit.inputs import Inputs
 from plumb.marks.read import Mark, Measurements
 from plumb.plan import propose
+from plumb.text.values import MM
 from synthetic import BELIEVED, grid
 
 
@@ -33,7 +34,7 @@ def answers(seed):
         "ranking": [each.effect for each in diagnosis.ranking],
         "explanations": [each.effects for each in diagnosis.explanations],
         "proposals": [(each.option.title, each.option.do) for each in proposals],
-        "worst mark": conclusion(compare(Inputs(BELIEVED, measurements))),
+        "worst mark": conclusion(compare(Inputs(BELIEVED, measurements)), MM),
     }
 
 

@@ -10,6 +10,7 @@ from plumb.plan.planned_visits import (
     program,
     sent,
 )
+from plumb.text.values import MM
 from synthetic import BELIEVED
 
 
@@ -35,7 +36,9 @@ def test_a_form_keeps_place_side_and_weight(file):
         sled_weight=147.0,
         approaches=sides,
     )
-    text = marks_file(visits, sheet=BELIEVED.sheet, controller="plumb", said=("Four marks.",))
+    text = marks_file(
+        visits, sheet=BELIEVED.sheet, controller="plumb", said=("Four marks.",), unit=MM
+    )
     read = read_form(file("form.toml", text), sheet=BELIEVED.sheet).measurements
     assert read.controller == "plumb" and len(read.marks) == 2
     for mark, target, side in zip(read.marks, targets, sides, strict=True):

@@ -9,6 +9,7 @@ from example_machine import checked
 from plumb.cli.main import main
 from plumb.model.plain import plain_change
 from plumb.settings.toml import write_machine_toml
+from plumb.text.values import MM
 from reports import EXAMPLE, asked, board, nine, reported, spans
 from synthetic import TRUE, grid, marks_on
 from systems import ON_POSIX
@@ -111,7 +112,7 @@ def test_the_numbers_are_those_of_add(made, opened):
     sizes = {}
     for each in said["parameters"]:
         four = (each[key] for key in ("before", "value", "low", "high"))
-        change = plain_change(each["name"], *four)
+        change = plain_change(each["name"], *four, MM)
         after = f"{change.after}\n± {change.margin} {change.unit}"
         sizes[change.noun] = [change.before, after]
     rows = table(opened(path), "The numbers")

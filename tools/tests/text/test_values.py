@@ -1,7 +1,7 @@
 """Single checks on values that people type."""
 
 import pytest
-from plumb.text.values import bare, number, number_in, pair, signed
+from plumb.text.values import MM, number, number_in, pair
 
 
 @pytest.mark.parametrize(
@@ -46,5 +46,5 @@ def test_pair_needs_two_numbers(value):
 
 
 def test_a_number_shown_as_zero_has_no_sign():
-    assert signed(-1e-12) == signed(1e-12) == "+0.00" and bare(-0.004) == "0.00"
-    assert signed(-0.02) == "-0.02" and bare(-0.02) == "-0.02"
+    assert MM.signed(-1e-12) == MM.signed(1e-12) == "+0.00" and MM.bare(-0.004) == "0.00"
+    assert MM.signed(-0.02) == "-0.02" and MM.bare(-0.02) == "-0.02"

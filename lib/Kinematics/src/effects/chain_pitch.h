@@ -34,8 +34,8 @@ struct ChainPitch : Effect<Real> {
 
   static CheckInfo check() {
     return {"100 links of each chain",
-            "Lay 100 links of each chain, pulled tight, along a steel rule: they should be 635 mm "
-            "(25 inches); read to 0.2 mm.",
+            "Lay 100 links of each chain, pulled tight, along a steel rule: they should be "
+            "{635 mm (25 inches)|25 inches}; read to {0.2 mm|0.0079 inch}.",
             "(read - 635) / 635, of each chain", 15};
   }
   static ReadingInfo reading(uint8_t i) {

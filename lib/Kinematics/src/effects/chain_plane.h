@@ -35,7 +35,7 @@ struct ChainPlane : Effect<Real> {
 
   static CheckInfo check() {
     return {"a ruler at sprocket and ring",
-            "Measure how far sprockets and ring stand off the sheet, to 3 mm.",
+            "Measure how far sprockets and ring stand off the sheet, to {3 mm|0.12 inch}.",
             "the difference of both, squared", 6};
   }
   static ReadingInfo reading(uint8_t) {

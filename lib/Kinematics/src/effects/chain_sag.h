@@ -47,14 +47,15 @@ struct ChainSag : Effect<Real> {
 
   static CheckInfo check() {
     return {"sled and chain on a scale",
-            "Weigh the sled with router and bricks to 0.2 kg, and 3 m of chain to 10 g.",
+            "Weigh the sled with router and bricks to 0.2 kg, and {3 m|118 1/8 inches} of chain "
+            "to 10 g.",
             "(kg of one mm of chain / kg of the sled) squared, / 24", 12};
   }
   /// 3 m of chain: grams / 1000 / 3000 mm * 9.81 N/kg, over the sled's weight.
   static ReadingInfo reading(uint8_t) {
     const double newtons_a_mm = 9.81 / 1000 / 3000;
     const double factor = newtons_a_mm * newtons_a_mm / 24;
-    return {"3 m of chain on a scale", "g", 10, factor, 0, 0, kSquare};
+    return {"{3 m|118 1/8 inches} of chain on a scale", "g", 10, factor, 0, 0, kSquare};
   }
   static double usual(const Frame<Real>& frame, uint8_t) {
     const double ratio = double(weightRatio(frame));

@@ -34,13 +34,15 @@ struct ChainStretch : Effect<Real> {
 
   static CheckInfo check() {
     return {"a weight on a measured chain",
-            "Hang 10 kg on 3 m of chain and measure how much longer it becomes, to 0.2 mm.",
+            "Hang 10 kg on {3 m|118 1/8 inches} of chain and measure how much longer it becomes, "
+            "to {0.2 mm|0.0079 inch}.",
             "mm longer / 3000 mm / 98 N", 20};
   }
   static ReadingInfo reading(uint8_t) {
     const double pull = 98.1;    // [N] 10 kg
     const double length = 3000;  // [mm]
-    return {"how much longer 3 m of chain become under 10 kg", "mm", 0.2, 1 / pull / length, 2};
+    return {"how much longer {3 m|118 1/8 inches} of chain become under 10 kg", "mm", 0.2,
+            1 / pull / length, 2};
   }
   static double usual(const Frame<Real>&, uint8_t) { return param(0).typical; }
   static Example example(uint8_t) { return {"softer chain", {5.17e-6}, 20}; }

@@ -37,7 +37,7 @@ struct ChainZero : Effect<Real> {
   static CheckInfo check() {
     return {"both chains at 12 o'clock",
             "Send both chains to the length that the machine calls zero and measure how far the "
-            "marked links are past 12 o'clock, to 1 mm.",
+            "marked links are past 12 o'clock, to {1 mm|0.039 inch}.",
             "mm of chain that are out at 12 o'clock", 8};
   }
   static ReadingInfo reading(uint8_t i) {

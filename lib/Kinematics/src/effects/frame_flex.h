@@ -44,7 +44,7 @@ struct FrameFlex : Effect<Real> {
   static CheckInfo check() {
     return {"a gauge at the motor arms",
             "Pull each motor inwards, then down, with 50 N (a luggage scale) and read on a dial "
-            "gauge how far the sprocket moves, to 0.1 mm.",
+            "gauge how far the sprocket moves, to {0.1 mm|0.0039 inch}.",
             "mm moved over newtons pulled, inwards and downwards", 20};
   }
   static ReadingInfo reading(uint8_t i) {

@@ -31,7 +31,7 @@ struct MotorLevel : Effect<Real> {
   static CheckInfo check() {
     return {"a level over the motors",
             "Lay a spirit level on a straight edge, or a water hose, across both sprockets and "
-            "measure how much higher the right axis is, to 1 mm.",
+            "measure how much higher the right axis is, to {1 mm|0.039 inch}.",
             "mm, negative if the left axis is higher", 8};
   }
   static ReadingInfo reading(uint8_t) { return {"how much higher the right motor is", "mm", 1, 1}; }

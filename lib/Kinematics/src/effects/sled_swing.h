@@ -47,7 +47,7 @@ struct SledSwing : Effect<Real> {
   static CheckInfo check() {
     return {"the sled turned on its ring",
             "Turn the sled by hand on its ring and look how the bit wanders: it is off the ring's "
-            "centre by half the circle that it draws. Measure to 0.3 mm.",
+            "centre by half the circle that it draws. Measure to {0.3 mm|0.012 inch}.",
             "mm that the bit is right of, and above, the ring's centre on the upright sled", 12};
   }
   static ReadingInfo reading(uint8_t i) {

@@ -46,6 +46,7 @@ from plumb.model.plain import noun_of, plain_size, plainly
 from plumb.model.predict import Array
 from plumb.text.answers import like
 from plumb.text.errors import InputError, on_page
+from plumb.text.values import Unit
 
 router = APIRouter(tags=["bench"])
 NEW_MACHINE = "new.toml"
@@ -206,8 +207,8 @@ def refit(choice: BenchChoice, project: TheProject, warm: Warm) -> BenchFit:
     chosen = choice.chosen
     warm.live.refuse(chosen)
     fitted = warm.live.fit(chosen)
-    sizes = _sizes(fitted, chosen)
-    intervals = intervals_sentence(fitted.sigma, warm.live.noise.source)
+    sizes = _sizes(fitted, chosen, warm.inputs.unit)
+    intervals = intervals_sentence(fitted.sigma, warm.live.noise.source, warm.inputs.unit)
     title = f"+ {plainly(chosen.effects)}" if chosen.effects else "frame fitted"
     return BenchFit(
         **dict(fitted_state(title, fitted, warm.view, warm.doubts)),
@@ -347,7 +348,7 @@ def _same(title: str, known: Array, unit: str) -> str:
     return f"{title} is {known[0]:.5g} {unit} for all marks".replace("  ", " ") if is_same else ""
 
 
-def _sizes(fitted: Fit, chosen: Chosen) -> dict[str, BenchSize]:
+def _sizes(fitted: Fit, chosen: Chosen, unit: Unit) -> dict[str, BenchSize]:
     sizes = {}
     for name in chosen.parameters:
         estimate = next((each for each in fitted.estimates if each.name == name), None)
@@ -355,7 +356,7 @@ def _sizes(fitted: Fit, chosen: Chosen) -> dict[str, BenchSize]:
         interval = (estimate.low, estimate.high) if estimate and estimate.felt else ()
         sizes[name] = BenchSize(
             value=value,
-            said=plain_size(name, value, *interval),
+            said=plain_size(name, value, *interval, unit=unit),
             held=name in chosen.held,
             possible=bool(plausible_range(name).is_near(*(interval or (value, value)))),
         )

@@ -108,7 +108,7 @@ class Written(BaseModel):
 def show_correction(project: TheProject, background: TheBackground) -> CorrectionAnswer:
     """Return what the marks would change."""
     choices = project.choices
-    key = "\n".join([key_of(project), choices.units, *sorted(choices.accepted)])
+    key = "\n".join([key_of(project), *sorted(choices.accepted)])
     inputs = inputs_of(project)
     refuse_other_origin(inputs)
 
@@ -276,12 +276,14 @@ def _auto_words(choices: Choices) -> list[str]:
 
 
 def _number(number: Parameter, choices: Choices) -> ChangedNumber:
-    change = plain_change(number.name, number.before, number.value, number.low, number.high)
+    change = plain_change(
+        number.name, number.before, number.value, number.low, number.high, choices.unit
+    )
     return ChangedNumber(
         name=number.name,
         **vars(change),
         possible=number.possible,
-        range_said=range_said(number.name),
+        range_said=range_said(number.name, choices.unit),
         is_accepted=number.name in choices.accepted,
     )
 

@@ -8,6 +8,7 @@ from pydantic import BaseModel
 from plumb.diary.file import FIT, Diary, noted, read_diary
 from plumb.diary.history import Course, DiaryFit, history_of
 from plumb.lab.routes.project import TheProject
+from plumb.text.values import Unit
 
 router = APIRouter(tags=["diary"])
 MOST = 50  # other entries that are shown
@@ -32,12 +33,12 @@ class DiaryAnswer(BaseModel):
 @router.get("/diary")
 def show_diary(project: TheProject) -> DiaryAnswer:
     """Return the diary of the folder."""
-    return diary_answer(read_diary(project.folder))
+    return diary_answer(read_diary(project.folder), project.choices.unit)
 
 
-def diary_answer(diary: Diary) -> DiaryAnswer:
+def diary_answer(diary: Diary, unit: Unit) -> DiaryAnswer:
     """Return a diary as the page shows it."""
-    fits, courses = history_of(diary)
+    fits, courses = history_of(diary, unit)
     return DiaryAnswer(
         fits=fits,
         courses=courses,

@@ -80,7 +80,7 @@ def begin(wanted: Beginning, project: TheProject, line: TheLine, desk: Desk) -> 
         STEPS[names.index(wanted.step)],
         project.folder,
         line,
-        unit=project.choices.units,
+        unit=project.choices.unit,
         finished=lambda visit: _keep(project, line, visit, wanted.step),
     )
     return show_guide(project, desk)

@@ -126,12 +126,11 @@ def put_back(project: TheProject) -> ProjectAnswer:
 
 def _proposed(project: Project, background: Background, inputs: api.Inputs) -> Answer[Next]:
     """Return what to measure next, or how far that is."""
-    choices = project.choices
 
     def work(progress: Progress) -> Next:
         return propose(api.diagnose(inputs), inputs, progress=progress)
 
-    return background.ask("next", f"{key_of(project)}\n{choices.units}", work)
+    return background.ask("next", key_of(project), work)
 
 
 def offers_of(advice: Next, taking: Callable[[int], Taking | None]) -> list[Offer]:

@@ -55,7 +55,9 @@ def _paper(project: Project) -> bytes:
     marks, plan = chosen_round(project), planned(settings, choices.layout, choices.planned)
     if marks.origin == "proposed":
         plan = planned(settings, "own", [mark.target for mark in marks.marks])
-    return grid_paper(plan.grid, plan.machine, settings=choices.settings, form=marks.form)
+    return grid_paper(
+        plan.grid, plan.machine, choices.unit, settings=choices.settings, form=marks.form
+    )
 
 
 _PAPERS: Mapping[str, tuple[str, Callable[[Project], bytes]]] = {

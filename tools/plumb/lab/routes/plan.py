@@ -29,7 +29,7 @@ from plumb.plan.preview import Outline, Preview, as_read, preview
 from plumb.plan.sheet_reach import SheetReach, reach_of
 from plumb.settings.machine import MachineSettings
 from plumb.text.errors import InputError
-from plumb.text.values import worded
+from plumb.text.values import Unit
 
 router = APIRouter(tags=["plan"])
 MOST_MARKS = 400
@@ -120,15 +120,15 @@ def layout_advice(project: TheProject) -> AdviceAnswer:
     minutes = {layout: planned(settings, layout, ()).minutes for layout in TITLES}
     worth = {layout: (each.named, each.seen, -minutes[layout]) for layout, each in previews.items()}
     best = max(TITLES, key=lambda layout: worth[layout])
-    return AdviceAnswer(layout=best, sentence=_advice(previews, best, minutes[best]))
+    return AdviceAnswer(layout=best, sentence=_advice(previews, best, minutes[best], choices.unit))
 
 
-def _advice(previews: Mapping[Layout, Preview], best: Layout, minutes: float) -> str:
+def _advice(previews: Mapping[Layout, Preview], best: Layout, minutes: float, unit: Unit) -> str:
     first, taken = next(iter(TITLES)), previews[best]
     if not taken.seen:
         return (
-            f"With a tape that reads to {worded(taken.sigma)} no plan here would show a cause of "
-            "its usual size. Any of them shows causes that move marks further."
+            f"With a tape that reads to {unit.worded(taken.sigma)} no plan here would show a cause "
+            "of its usual size. Any of them shows causes that move marks further."
         )
     said = (
         f"{TITLES[best]}, about {minutes:.0f} minutes: of {len(taken.effects)} causes in their "
@@ -215,4 +215,4 @@ def reach(project: TheProject) -> ReachAnswer:
     survey, expected = reach_of(settings, known)
     words = prior_words(expected_priors(known), expected_priors({}))
     said = command("reach", choices.settings, *words, *unit_words(choices))
-    return ReachAnswer(survey=survey, expected=expected, command=said)
+    return ReachAnswer(survey=survey, expected=expected, unit=choices.unit, command=said)

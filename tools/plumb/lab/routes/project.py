@@ -2,7 +2,7 @@
 
 import os
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager, suppress
+from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
 from tempfile import mkstemp
@@ -29,7 +29,6 @@ from plumb.marks.plausible import from_edges
 from plumb.settings.machine import MachineSettings
 from plumb.text.answers import like
 from plumb.text.errors import InputError, on_page
-from plumb.text.values import show_in
 from plumb.vm.practice import Score, score, secret_in
 
 router = APIRouter(tags=["project"])
@@ -67,11 +66,9 @@ class ChoicesChange(BaseModel):
 
 
 async def project_of(request: Request) -> Project:
-    """Return the project that this server serves; from now on lengths are shown in its unit."""
+    """Return the project that this server serves."""
     project = request.app.state.project
     assert isinstance(project, Project)
-    with suppress(InputError, OSError):  # who reads the choices says what is wrong with them
-        show_in(project.choices.units)
     return project
 
 
@@ -198,6 +195,7 @@ def show_doubts(project: TheProject, file: str) -> DoubtsAnswer:
         cut_with=in_force,
         priors=known.priors,
         checked=known.checked,
+        unit=choices.unit,
     )
     looked = look_over(inputs)
     return DoubtsAnswer(

@@ -166,7 +166,14 @@ def _checked(project: Project, inputs: Inputs, form: str) -> Recheck | None:
         return None
     fit = fit_of(read_diary(project.folder), inputs.settings) or _fitted_now(project, inputs)
     cut_with = marks.rounds[0].cut_with
-    return recheck(fit, inputs.settings, touches, cut_with=cut_with, sigma=marks.tape_sigma)
+    return recheck(
+        fit,
+        inputs.settings,
+        touches,
+        cut_with=cut_with,
+        sigma=marks.tape_sigma,
+        unit=inputs.unit,
+    )
 
 
 def _fitted_now(project: Project, inputs: Inputs) -> Entry:

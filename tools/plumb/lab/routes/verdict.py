@@ -24,7 +24,6 @@ from plumb.model.catalogue import every_effect
 from plumb.model.plain import noun_of, plainly, ranked
 from plumb.text.answers import like
 from plumb.text.errors import on_page
-from plumb.text.values import worded
 
 router = APIRouter(tags=["verdict"])
 MOST_CARDS = 6
@@ -99,7 +98,6 @@ TheBackground = Annotated[Background, Depends(of_lab("background", Background))]
 @router.get("/verdict")
 def show_verdict(project: TheProject, background: TheBackground) -> VerdictAnswer:
     """Return the verdict on the readings so far."""
-    choices = project.choices
     key = key_of(project)  # before the files are read: what changes meanwhile is asked for again
     inputs = inputs_of(project)
 
@@ -111,7 +109,7 @@ def show_verdict(project: TheProject, background: TheBackground) -> VerdictAnswe
         progress(0.8)
         return verdict_of(inputs, diagnosis, decision)
 
-    answer = background.ask("verdict", f"{key}\n{choices.units}", work)
+    answer = background.ask("verdict", key, work)
     return VerdictAnswer(
         share=answer.share,
         verdict=answer.result,
@@ -142,7 +140,7 @@ def verdict_of(inputs: api.Inputs, diagnosis: Diagnosis, decision: Decision) -> 
         doubted_spans=list(doubts.spans),
         apart=decision.apart.sentence if decision.apart else "",
         sigma=diagnosis.noise.sigma,
-        noise=diagnosis.noise.sentence,
+        noise=diagnosis.noise.said(diagnosis.unit),
         cards=[_card(diagnosis, i, each) for i, each in enumerate(shown)],
         more_cards=max(len(diagnosis.explanations) - MOST_CARDS, 0),
         ruled_out=_ruled_out(diagnosis) if shown and not doubts.marks else [],
@@ -169,7 +167,7 @@ def _ruled_out(diagnosis: Diagnosis) -> list[RuledOut]:
             others.append(each.rms_after)
     if not others:
         return tempting
-    least = worded(min(others))
+    least = diagnosis.unit.worded(min(others))
     if len(others) == 1:
         return [*tempting, RuledOut(noun="1 other", why=f"By itself it leaves {least}.")]
     said = f"Each by itself leaves {least} or more."
@@ -181,11 +179,11 @@ def _sureness(decision: Decision) -> list[tuple[str, str]]:
     fitted = decision.addition.after_fit if decision.addition else None
     if fitted is None:
         return []
-    noise = decision.diagnosis.noise
+    noise, unit = decision.diagnosis.noise, decision.inputs.unit
     return [
-        ("Marks left out are predicted to", worded(fitted.left_out_rms)),
-        (f"Noise of a reading ({ORIGINS[noise.source]})", worded(noise.sigma)),
-        ("The same, as these marks show it", worded(fitted.corrected_rms / 2**0.5)),
+        ("Marks left out are predicted to", unit.worded(fitted.left_out_rms)),
+        (f"Noise of a reading ({ORIGINS[noise.source]})", unit.worded(noise.sigma)),
+        ("The same, as these marks show it", unit.worded(fitted.corrected_rms / 2**0.5)),
     ]
 
 
@@ -223,7 +221,8 @@ def _looks_like(diagnosis: Diagnosis, index: int) -> list[str]:
         if index in (i, j)
     ]
     return [
-        f"{plainly(diagnosis.explanations[other].effects)}, {worded(apart)} RMS apart"
+        f"{plainly(diagnosis.explanations[other].effects)}, "
+        f"{diagnosis.unit.worded(apart)} RMS apart"
         for apart, other in ranked(near, lambda each: each[0])[:3]
     ]
 
