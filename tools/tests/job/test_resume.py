@@ -98,9 +98,8 @@ def test_the_cut_after_a_halt_is_the_cut_without(name):
 
 def test_a_cycle_is_drilled_from_its_beginning():
     lines = ["G0 Z4", "G81 X9 Z-3 R1 F60", "X20", "(c)", "X30", "G80", "G0 X0"]
-    assert [resume_at_line(MACHINE, lines, line).first for line in range(1, 8)] == [
-        *(1, 2, 2, 2, 2, 2, 7)
-    ]
+    begins = [resume_at_line(MACHINE, lines, line).first for line in range(1, 8)]
+    assert begins == [1, 2, 2, 2, 2, 2, 7]
     in_force = cycles_after(["G82 Z-1", "G4 P1", "G1 X4", "G83 X5", "M2"])
     assert in_force == [True, True, False, True, False]
     resumed = resume_at_place(MACHINE, lines, (20, 0))

@@ -5,7 +5,7 @@ import signal
 
 import pytest
 from folder import got
-from lab_machine import PATIENCE, bar, start_virtual
+from lab_machine import bar, start_virtual
 from playwright.sync_api import expect
 from served_lab import serve
 
@@ -20,11 +20,11 @@ def lost(lab, page, cable):
     page.goto(lab.url)
     got(lab.client().post("/api/machine/board", json={"port": path}))
     connected = page.get_by_role("heading", name=f"{path} is connected")
-    expect(connected).to_be_visible(timeout=PATIENCE)
-    expect(bar(page)).to_contain_text("stands", timeout=PATIENCE)
+    expect(connected).to_be_visible()
+    expect(bar(page)).to_contain_text("stands")
     cable.pull_out()
-    expect(bar(page)).to_contain_text("the line is lost", timeout=PATIENCE)
-    expect(bar(page)).to_contain_text(f"{UNREACHABLE}.", timeout=PATIENCE)
+    expect(bar(page)).to_contain_text("the line is lost")
+    expect(bar(page)).to_contain_text(f"{UNREACHABLE}.")
     return path
 
 
@@ -33,12 +33,12 @@ def test_the_bar_reconnects_and_offers_new_ports(page, lost):
     modem = {"path": "/dev/ttyS0", "title": "", "is_board": False}
     page.route("**/api/machine/ports", lambda route: route.fulfill(json=[port, modem]))
     new = bar(page).get_by_role("button", name="Connect /dev/ttyACM9")
-    expect(new).to_be_visible(timeout=PATIENCE)
+    expect(new).to_be_visible()
     assert bar(page).get_by_role("button", name="ttyS0").count() == 0
     with page.expect_request("**/api/machine/board") as asked:
         bar(page).get_by_role("button", name=f"Connect {lost} again").click()
     assert asked.value.post_data_json == {"port": lost}
-    expect(new).to_be_visible(timeout=PATIENCE)  # it is not there, so the line is lost again
+    expect(new).to_be_visible()  # it is not there, so the line is lost again
     with page.expect_request("**/api/machine/board") as asked:
         new.click()
     assert asked.value.post_data_json == {"port": "/dev/ttyACM9"}
@@ -53,7 +53,7 @@ def test_the_bar_connects_at_any_port_whose_name_is_typed(page, lost):
     with page.expect_request("**/api/machine/board") as asked:
         bar(page).get_by_role("button", name="Connect", exact=True).click()
     assert asked.value.post_data_json == {"port": "/dev/ttyACM7"}
-    expect(bar(page)).to_contain_text("Connect /dev/ttyACM7 again", timeout=PATIENCE)
+    expect(bar(page)).to_contain_text("Connect /dev/ttyACM7 again")
 
 
 def test_a_refusal_stands_at_its_button(page, lab):
@@ -74,7 +74,7 @@ def cutting(lab, page):
     start_virtual(page, lab, speed=10)
     page.goto(f"{lab.site}#/cut")
     page.get_by_role("button", name="Move the sled and cut 9 marks").click()
-    bar(page).get_by_text(re.compile(r"runs grid.nc: [3-9] of")).wait_for(timeout=PATIENCE)
+    bar(page).get_by_text(re.compile(r"runs grid.nc: [3-9] of")).wait_for()
     return page
 
 

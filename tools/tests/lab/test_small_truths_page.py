@@ -3,7 +3,7 @@
 import re
 
 import pytest
-from lab_machine import PATIENCE, bar, start_virtual, with_machine
+from lab_machine import bar, start_virtual, with_machine
 from playwright.sync_api import expect
 from screens import at_rest, await_question, measured_machine, with_virtual_machine
 
@@ -26,10 +26,10 @@ def test_an_address_that_names_no_screen_shows_none(lab, page):
 def test_the_question_for_the_next_measurement_outlasts_a_reload(lab, page):
     measured_machine(lab.folder)
     page.goto(f"{lab.url}#/verdict")
-    page.get_by_role("button", name="Find the best next measurement").click(timeout=PATIENCE)
-    page.get_by_label("The next measurement").first.wait_for(timeout=PATIENCE)
+    page.get_by_role("button", name="Find the best next measurement").click()
+    page.get_by_label("The next measurement").first.wait_for()
     page.reload()
-    page.get_by_label("The next measurement").first.wait_for(timeout=PATIENCE)
+    page.get_by_label("The next measurement").first.wait_for()
     assert page.get_by_role("button", name="Find the best next measurement").count() == 0
 
 
@@ -38,7 +38,7 @@ def test_a_screen_reader_is_told_states_and_no_places_or_counts(lab, page):
     page.goto(f"{lab.site}#/cut")
     page.evaluate(SPOKEN)
     page.get_by_role("button", name="Move the sled and cut 9 marks").click()
-    page.get_by_text("All marks are cut.").wait_for(timeout=PATIENCE)
+    page.get_by_text("All marks are cut.").wait_for()
     expect(bar(page).locator("[role=status]").first).to_have_text("The virtual machine stands")
     spoken = page.evaluate("() => window.spoken")
     assert any("runs grid.nc" in line for line in spoken)
@@ -51,9 +51,8 @@ def test_the_drawing_of_the_machine_has_the_sled_where_the_bar_says(lab, page):
     for screen in ("known", "open"):
         page.goto(f"{lab.url}#/{screen}")
         at_rest(page)
-        said = re.findall(
-            r"-?\d+\.\d", bar(page).locator(".place").inner_text().replace("\u2212", "-")
-        )
+        place = bar(page).locator(".place").inner_text().replace("\u2212", "-")
+        said = re.findall(r"-?\d+\.\d", place)
         sled = page.locator(".machine-picture .bit")
         drawn = [float(sled.get_attribute("cx")), -float(sled.get_attribute("cy"))]
         assert drawn == pytest.approx([float(mm) for mm in said[:2]], abs=0.06)
@@ -82,7 +81,7 @@ def test_the_page_is_at_rest_once_everything_is_answered_saved_and_drawn(lab, pa
 
 def test_the_page_reveals_what_its_virtual_machine_hides(lab, page):
     page.goto(f"{lab.url}#/practice")
-    page.get_by_text("No virtual machine was started in this folder").wait_for(timeout=PATIENCE)
+    page.get_by_text("No virtual machine was started in this folder").wait_for()
     terminal = page.locator("details.command code")
     expect(terminal).to_have_text("plumb practice start .")
     start_virtual(page, lab, number=7)

@@ -6,8 +6,8 @@ import plumb
 import pytest
 from plumb.marks.read import read_marks
 from plumb.text.errors import InputError
+from synthetic import SHEET
 
-SHEET = (2438.4, 1219.2)
 EXAMPLE = Path(plumb.__file__).parent / "examples" / "mibproj" / "Calibration Measurements.ini"
 
 

@@ -5,11 +5,7 @@ from dataclasses import replace
 
 import pytest
 from plumb.model.catalogue import every_effect, parameter_words
-from plumb.model.plain import (
-    noun_of,
-    plain_before,
-    plain_size,
-)
+from plumb.model.plain import noun_of, plain_before, plain_size
 from plumb.model.predict import judged, with_parameters
 from plumb.text.values import shown_in
 from synthetic import BELIEVED
@@ -63,11 +59,8 @@ def test_every_parameter_has_plain_words_and_its_size_can_be_read_back(name):
     assert words["more"] != words["less"]
     said = plain_size(name, parameter_words()[name]["typical"])
     shown = float(said.partition(f" {words['unit']}")[0].split()[-1])
-    back = {
-        "as is": shown,
-        "root": shown**2,
-        "angle": math.tan(math.radians(shown)) ** 2,
-    }[words["shown"]]
+    by_angle = math.tan(math.radians(shown)) ** 2
+    back = {"as is": shown, "root": shown**2, "angle": by_angle}[words["shown"]]
     assert back / words["times"] == pytest.approx(parameter_words()[name]["typical"], rel=0.01)
 
 

@@ -83,11 +83,8 @@ def listed_below(*headings: str) -> set[Path]:
 
 def commands() -> list[str]:
     """The commands of plumb."""
-    choices = next(
-        action.choices
-        for action in build_parser()._actions
-        if isinstance(action, argparse._SubParsersAction)
-    )
+    actions = build_parser()._actions
+    choices = next(each.choices for each in actions if isinstance(each, argparse._SubParsersAction))
     return list(choices)
 
 

@@ -114,13 +114,8 @@ def every_command_runs(plumb):
 
 
 def the_lab_is_served_with_its_page(plumb):
-    served = plumb(
-        "lab",
-        "--no-browser",
-        "--port",
-        "0",
-        start=partial(subprocess.Popen, stdout=subprocess.PIPE),
-    )
+    running = partial(subprocess.Popen, stdout=subprocess.PIPE)
+    served = plumb("lab", "--no-browser", "--port", "0", start=running)
     try:
         address = [served.stdout.readline() for _ in range(2)][1].partition("?")[0]
         page = urlopen(address, timeout=120).read().decode()

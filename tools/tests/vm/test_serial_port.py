@@ -49,16 +49,6 @@ def test_numbers_are_written_read_back_kept_and_brought_back(served, tmp_path):
     assert entry.content["program"] == "B10 L" and entry.content["whole"]
 
 
-def test_a_refused_line_stops_the_program(served, tmp_path):
-    served()
-    append(tmp_path, "fit", {})
-    (tmp_path / "job.nc").write_text("G21\nG0 X--5\nG0 X10\n")
-    said = plumb("send", "--port", "maslow", "job.nc", folder=tmp_path, code=2)
-    assert "'G0 X--5': the machine says: ALARM: Halted" in said
-    (entry,) = read_diary(tmp_path).of_kind("program")
-    assert entry.content["lines"] == 3 and not entry.content["whole"]
-
-
 MOVES = "G21\nG90\nG1 X0 Y60 F800\nG4 P500\n"
 
 
@@ -101,9 +91,8 @@ def test_the_printed_command_brings_a_lost_place_back(served, tmp_path):
 
 
 @pytest.mark.parametrize("words", [("B05", "job.nc"), ("job.nc", "B05"), ("machine.toml", "B05")])
-def test_a_file_is_sent_alone(words, tmp_path, monkeypatch, capsys):
-    monkeypatch.chdir(tmp_path)
-    (tmp_path / "job.nc").write_text("G0 X1\n")
+def test_a_file_is_sent_alone(words, here, capsys):
+    (here / "job.nc").write_text("G0 X1\n")
     assert main(["send", *words, "--port", "nowhere"]) == 2
     assert "goes alone" in capsys.readouterr().err
 
@@ -114,7 +103,11 @@ def test_the_printed_command_resumes_a_stopped_job(served, tmp_path):
     # longer, or hear the dwell's end as well; the file goes on from the line that it says.
     moves = MOVES.replace("P500", "P1300")
     (tmp_path / "job.nc").write_text(f"(a job)\n{moves}G0 X--5\n")
+    append(tmp_path, "fit", {})
     said = plumb("send", "--port", "maslow", "job.nc", folder=tmp_path, code=2)
+    assert "'G0 X--5': the machine says: ALARM: Halted" in said
+    (entry,) = read_diary(tmp_path).of_kind("program")
+    assert entry.content["lines"] == 5 and not entry.content["whole"]
     commands = re.findall(r"^  plumb (.*)$", said.replace("\\\n", " "), re.MULTILINE)
     read, resume = (shlex.split(each) for each in commands)
     assert read == ["read", "--port", "maslow", "-o", "machine.toml"]

@@ -129,7 +129,6 @@ class BenchSize(BaseModel):
 
     value: float
     said: str  # in words, with its interval if it was fitted
-    held: bool
     possible: bool  # whether its interval, or what holds it, reaches what a real machine may have
 
 
@@ -356,7 +355,6 @@ def _sizes(fitted: Fit, chosen: Chosen) -> dict[str, BenchSize]:
         sizes[name] = BenchSize(
             value=value,
             said=plain_size(name, value, *interval),
-            held=name in chosen.held,
             possible=bool(plausible_range(name).is_near(*(interval or (value, value)))),
         )
     return sizes
