@@ -1,14 +1,12 @@
 """The command line refuses what cannot be used: one clear line, exit 2, nothing written."""
 
-from pathlib import Path
-
 import pytest
+from example_machine import POCKET as JOB
 from plumb.settings.toml import write_machine_toml
 from published_marks import MARKS, SETTINGS
 from synthetic import BELIEVED
 
 BOARD = [str(SETTINGS), str(MARKS)]
-JOB = Path(__file__).resolve().parents[3] / "docs/example/pocket.nc"
 EFFECTS = ["--effect", "chain_pitch", "chain_sag"]
 BAD = [
     ("no marks", ["compare", SETTINGS], "MARKS"),

@@ -6,11 +6,10 @@ from importlib import resources
 from pathlib import Path
 
 import pytest
-from example_machine import checked
+from example_machine import ROOT, checked
 from plumb.model.catalogue import effect_names, parameter_words
 from systems import widest
 
-ROOT = Path(__file__).resolve().parents[3]
 BOARDS = {
     "simple": ROOT / "docs/example",
     "holes": resources.files("plumb") / "examples/madgrizzle-2018-09-02",

@@ -8,11 +8,11 @@ import sys
 from pathlib import Path
 
 import plumb
+from example_machine import ROOT
 from folder import got, with_settings
 from plumb.cli.main import COMMANDS, main
 from published_marks import SETTINGS
 
-ROOT = Path(__file__).resolve().parents[3]
 PAGE = ROOT / "tools/plumb/lab/page"
 MOST = 70_000  # bytes, gzipped
 

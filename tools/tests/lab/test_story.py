@@ -5,6 +5,7 @@ import tomllib
 from itertools import pairwise
 
 import pytest
+from example_machine import ROOT
 from folder import got
 from lab_machine import start_virtual
 from playwright.sync_api import expect
@@ -172,3 +173,29 @@ def test_from_an_empty_folder_to_a_machine_whose_error_has_fallen(lab, page):
     visit.press("Go back to machine.toml")
     as_set = visit.page.get_by_text("as machine.toml says", exact=True)
     expect(as_set.first).to_be_visible()
+
+
+PAGE = ROOT / "docs/tutorial.md"
+
+
+def steps() -> str:
+    """The numbered steps of that part."""
+    part = PAGE.read_text(encoding="utf-8").split("\n## The same in your browser\n")[1]
+    return " ".join(re.findall(r"^\d\..*(?:\n .*)*", part.split("\n## ")[0], re.MULTILINE))
+
+
+@pytest.mark.slow
+def test_the_tutorial_leads_through_the_page(lab, page):
+    page.goto(lab.url)
+    text = " ".join(steps().split())
+    machine = re.search(r"type (\d+) under \*Its number\*", text)[1]
+    for name in re.findall(r"\*([^*]+)\*", text):
+        at_rest(page)
+        if name == "Its number":
+            page.get_by_label(name).fill(machine)
+            continue
+        screen = page.get_by_role("navigation").get_by_role("link", name=name)
+        button = page.locator("main button, main summary", has_text=name)
+        (screen if screen.count() else button).first.click()
+    score = page.get_by_role("region", name="Score")
+    expect(score).to_contain_text("You found chain sag.")

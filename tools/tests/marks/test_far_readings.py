@@ -2,9 +2,9 @@
 
 import random
 import re
-from pathlib import Path
 
 import pytest
+from example_machine import ROOT
 from plumb.marks.model import Mark, Measurements
 from plumb.marks.plausible import far_reading
 from plumb.marks.read import read_marks
@@ -67,7 +67,6 @@ def test_a_far_distance_is_refused_with_the_names_of_its_ends(tmp_path):
             read_marks(path, sheet=SHEET)
 
 
-ROOT = Path(__file__).resolve().parents[3]
 MARKS = ROOT / "docs/example/marks.toml"
 HEAD = "target_x_mm,target_y_mm,measured_x_mm,measured_y_mm\n"
 

@@ -8,9 +8,9 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+from example_machine import ROOT
 from plumb.cli.main import build_parser
 
-ROOT = Path(__file__).resolve().parents[3]
 FOLDERS = ("docs", "lib", "src", "test", "tools")
 # Files that a page tells the reader to write.
 READERS_FILES = {"lib/Kinematics/src/effects/mount_give.h"}

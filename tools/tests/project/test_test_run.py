@@ -4,14 +4,13 @@ import os
 import signal
 import subprocess
 import sys
-from pathlib import Path
 
 import pytest
+from example_machine import ROOT
 
-ROOT = Path(__file__).resolve().parents[3]
 sys.path.insert(0, str(ROOT / "tools/steps"))
-import run_tests as run  # noqa: E402
-from run_tests import Part  # noqa: E402
+import run_tests as run
+from run_tests import Part
 
 
 @pytest.fixture(autouse=True)

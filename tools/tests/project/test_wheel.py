@@ -15,14 +15,14 @@ from pathlib import Path
 from urllib.request import urlopen
 
 import pytest
+from example_machine import ROOT
 from plumb.settings.files import read_settings
 from plumb.settings.toml import machine_toml
 from plumb.text.version import version
 from published_marks import MARKS, SETTINGS
 
-ROOT = Path(__file__).resolve().parents[3]
 sys.path.insert(0, str(ROOT / "tools/bench"))
-from board import built_firmware  # noqa: E402
+from board import built_firmware
 
 PIP = [sys.executable, "-m", "pip", "--disable-pip-version-check"]
 
