@@ -62,6 +62,13 @@ def ask(run):
 
 
 @pytest.fixture
+def here(tmp_path, monkeypatch):
+    """A folder in which the commands of a test run."""
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+@pytest.fixture
 def file(tmp_path):
     """Writes a file and gives its path."""
 

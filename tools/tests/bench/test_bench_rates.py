@@ -1,12 +1,20 @@
-"""`plumb bench`: how often the diagnosis is right, and how its boards are played and counted."""
+"""`plumb bench`: how often the diagnosis is right, how it is counted, and what its boards hide."""
 
 import sys
 from dataclasses import replace
 
+import numpy as np
 import pytest
+from plumb.bench.boards import cut, plan
+from plumb.bench.causes import CAUSES, MAKER, OUTSIDE, Hidden
+from plumb.bench.hiding import PenSlip, slip
 from plumb.bench.judged_board import judge_board
-from plumb.bench.kinds import KINDS
+from plumb.bench.kinds import KINDS, board_of
 from plumb.bench.report import RATES, WantedBoards, play, row_of
+from plumb.bench.shown import Truth
+from plumb.diagnosis import diagnose
+from plumb.fit.inputs import Inputs
+from plumb.model.catalogue import effect_names
 from plumb.text.errors import InputError
 
 SEED = 77
@@ -21,9 +29,8 @@ def one():
 
 def rates(kind, boards, *, marks=25):
     """The rates of some boards of one kind."""
-    return row_of(
-        kind, [judge_board(KINDS[kind], index, marks=marks, seed=SEED) for index in boards]
-    )
+    boards = [judge_board(KINDS[kind], index, marks=marks, seed=SEED) for index in boards]
+    return row_of(kind, boards)
 
 
 @pytest.mark.slow
@@ -129,3 +136,97 @@ def test_a_cluster_needs_dask(monkeypatch):
     monkeypatch.setitem(sys.modules, "distributed", None)
     with pytest.raises(InputError, match=r"pip install 'plumb-maslow\[cluster\]'"):
         play(WantedBoards((NONE,), boards=1, marks=9, seed=2), cluster="tcp://localhost:1")
+
+
+FEW = (5, 15, 19, 25)  # seeds
+
+
+def lengths_of(moved):
+    """Lengths of the rows of (n, 2)."""
+    return np.hypot(*moved.T)
+
+
+def test_a_board_follows_from_its_seed_its_hidden_sizes_too():
+    kind = KINDS["stock/typical"]
+    boards = [board_of(kind, 4, marks=9, seed=seed) for seed in (3, 3, 4)]
+    same, again, other = (each.board.measurements for each in boards)
+    assert same == again != other
+    sizes = [each.hidden.causes[0][1] for each in boards]
+    assert sizes[0] == sizes[1] != sizes[2]
+    # Stretch is on every stock machine, and hidden there it is not usual as well.
+    assert "chain_stretch" in {cause.effect for cause, _ in boards[0].hidden.usual}
+    for index in range(20):
+        hidden = board_of(KINDS["stock/one"], index, marks=9, seed=3).hidden
+        names = [cause.effect for cause, _ in (*hidden.usual, *hidden.causes)]
+        assert len(set(names)) == len(names)
+
+
+@pytest.mark.parametrize("name", KINDS)
+def test_a_board_hides_what_its_kind_describes(name):
+    kind = KINDS[name]
+    board = board_of(kind, 1, marks=9, seed=2)
+    marks = board.board.measurements.marks
+    assert len(marks) == 9 + 6 * kind.repeats and len(board.slipped) == bool(kind.slips)
+    assert bool(board.hidden.usual) == (name.startswith("stock") or "usual" in name)
+    assert bool(board.hidden.outside) == any(part in name for part in ("bump", "field", "other"))
+    count = {"none": 0, "field": 0, "two": 2, "several": 3, "four": 4}
+    _, begins, several = (*name.replace("-", "/").split("/"), "1")[:3]
+    assert len(set(board.hidden.effects)) == count.get(begins, int(several))
+
+
+@pytest.mark.parametrize(
+    ("named", "holds", "exact"),
+    [
+        ({"frame_flex", "chain_stretch"}, True, True),
+        ({"chain_plane"}, True, True),  # draws the same arrows
+        ({"frame_flex", "sled_swing"}, True, False),
+        ({"chain_stretch"}, False, False),
+        (set(), False, False),
+    ],
+)
+def test_named_effects_are_compared_with_the_truth(named, holds, exact):
+    truth = Truth(
+        effects=("frame_flex",),
+        usual=("chain_stretch",),
+        gains={"frame_flex": 50.0, "chain_stretch": 1.0},
+        alike={"frame_flex": frozenset({"chain_plane"}), "chain_stretch": frozenset({"tape"})},
+    )
+    assert truth.is_held_by(named) is holds
+    assert (truth.is_held_by(named) and named <= truth.allowed) is exact
+    # A look-alike of what marks cannot show may not be named, and what they cannot show need not.
+    assert "tape" not in truth.allowed
+    assert replace(truth, gains={"frame_flex": 1.0, "chain_stretch": 1.0}).is_held_by(set())
+
+
+def test_every_effect_of_the_library_is_hidden_somewhere():
+    assert {cause.effect for cause in CAUSES} == set(effect_names())
+
+
+@pytest.mark.parametrize("shape", sorted(OUTSIDE))
+def test_unknown_fields_have_their_stated_size(shape):
+    with_it, without = (
+        cut(hidden, plan(5, 5), seed=3, noise=0.0).measurements.measured
+        for hidden in (Hidden(outside=shape, outside_mm=2.0), Hidden())
+    )
+    assert np.sqrt(np.mean(lengths_of(with_it - without) ** 2)) == pytest.approx(2.0, rel=0.02)
+
+
+@pytest.mark.parametrize(("where", "is_repeated"), [("once", False), ("repeated", True)])
+def test_a_slip_moves_one_reading_of_the_right_marks(where, is_repeated):
+    board = cut(Hidden(), plan(5, 5, repeats=True), seed=1)
+    names = [mark.name for mark in board.measurements.marks]
+    for seed in range(8):
+        wrong, slipped = slip(board, PenSlip(9.0, where), np.random.default_rng(seed))
+        apart = lengths_of(wrong.measurements.measured - board.measurements.measured)
+        assert np.count_nonzero(apart) == 1 and apart.max() == pytest.approx(9.0)
+        assert (names.count(slipped) > 1) == is_repeated
+
+
+def test_noise_from_few_repeats_invents_nothing():
+    # Two readings more give 6 degrees of freedom: as if sigma were known, each of these is named.
+    layout = replace(plan(3, 3), again=(0, 4, 8))
+    boards = [cut(Hidden(), layout, seed=seed, tape_sigma=None).measurements for seed in FEW]
+    diagnoses = [diagnose(Inputs(MAKER, measured)) for measured in boards]
+    named = [each for each in diagnoses if each.verdict != "nothing_provable"]
+    # On the worst board it is as likely as any cause, and stands first.
+    assert len(named) <= 1 and all(each.explanations[0].effects == () for each in named)

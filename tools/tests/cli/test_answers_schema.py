@@ -2,10 +2,10 @@
 
 import json
 from importlib import resources
-from pathlib import Path
 
 import plumb.cli.read as read_command
 import pytest
+from example_machine import EXAMPLE, INI, TOML
 from jsonschema import Draft202012Validator as Validator
 from numbers_machine import NumbersMachine
 from plumb.cli.main import COMMANDS, build_parser, main
@@ -13,9 +13,7 @@ from plumb.marks.form import marks_toml
 from plumb.marks.read import Distance, Mark, Measurements
 from plumb.vm.practice import Secret
 
-EXAMPLE = Path(__file__).resolve().parents[3] / "docs/example"
 SCHEMA = json.loads(resources.files("plumb.cli").joinpath("answers.schema.json").read_text("utf-8"))
-INI, TOML = EXAMPLE / "groundcontrol.ini", EXAMPLE / "machine.toml"
 BOARD = (INI, EXAMPLE / "marks.toml")
 SLIPPED = (INI, "slipped.toml")  # a reading of BOARD is wrong by 40 mm
 SPANS = (INI, "spans.toml")
@@ -58,22 +56,21 @@ class Board(NumbersMachine):
 
 
 @pytest.fixture(autouse=True)
-def folder(tmp_path, monkeypatch):
+def folder(here, monkeypatch):
     """A folder with the files of the questions, and a machine on its line."""
     good = BOARD[1].read_text()
     reading = next(line for line in good.splitlines() if line.startswith("measured"))
     first = reading.split("[")[1].split(",")[0]
     wrong = reading.replace(first, str(float(first) + 40))
-    (tmp_path / "slipped.toml").write_text(good.replace(reading, wrong, 1))
+    (here / "slipped.toml").write_text(good.replace(reading, wrong, 1))
     ends = Mark("a", (0.0, 0.0)), Mark("b", (500.0, 0.0))
     spans = Measurements(ends, (Distance(("a", "b"), 501.5),))
-    (tmp_path / "spans.toml").write_text(marks_toml(spans))
-    (tmp_path / "practice.json").write_text(Secret(3).text)
-    (tmp_path / "kept.toml").write_text(TOML.read_text())
-    (tmp_path / "home.toml").write_text(HOME)
+    (here / "spans.toml").write_text(marks_toml(spans))
+    (here / "practice.json").write_text(Secret(3).text)
+    (here / "kept.toml").write_text(TOML.read_text())
+    (here / "home.toml").write_text(HOME)
     monkeypatch.setattr(read_command, "port_for", str)
     monkeypatch.setattr(read_command, "SerialPort", Board)
-    monkeypatch.chdir(tmp_path)
 
 
 def test_plumb_read_says_which_chain_may_have_slipped(monkeypatch, capsys):
@@ -100,9 +97,8 @@ def test_the_schema_leaves_no_key_and_no_type_open():
     for each in objects:
         assert each["additionalProperties"] is False
         assert {*each["properties"]} - {*each["required"]} <= {"auto"}
-        assert all(
-            {"type", "$ref", "anyOf", "const", "enum"} & {*v} for v in each["properties"].values()
-        )
+        shown = {"type", "$ref", "anyOf", "const", "enum"}
+        assert all(shown & {*value} for value in each["properties"].values())
 
 
 ASKED_ELSEWHERE = {"bench", "calibrate", "check", "diagnose", "forward", "inverse"}

@@ -17,12 +17,7 @@ from plumb.settings.toml import write_machine_toml
 
 DATA = Path(__file__).resolve().parents[1] / "data"
 QUICK = {"compare": (), "diagnose": (), "add": ("--effect", "auto")}
-COMMANDS = {
-    **QUICK,
-    "next": (),
-    "calibrate": ("-o", "fitted.toml"),
-    "report": ("-o", "report.html"),
-}
+COMMANDS = {**QUICK, "next": (), "calibrate": ("-o", "new.toml"), "report": ("-o", "r.html")}
 # A row, a column and a square of marks settle little; so do three marks.
 GRIDS = ((5, 3), (3, 3), (5, 5), (3, 1), (1, 4), (2, 2), (7, 3), (4, 2))
 KNOWN = (MAKER, PUBLISHED)
@@ -86,8 +81,7 @@ ROW = re.compile(r"^2\. the frame alone +1 to \d+ +0\.\d\d mm +0\.\d\d mm$", re.
 
 
 @pytest.mark.parametrize("marks", ["frame_or_chain_zero.toml", "frame_or_runout.toml"])
-def test_marks_that_the_frame_alone_may_explain_are_answered(marks, run, tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
+def test_marks_that_the_frame_alone_may_explain_are_answered(marks, run, here):
     for command, options in COMMANDS.items():
         more = ["--details"] if command in ("diagnose", "calibrate") else []
         code, said, _ = run(command, DATA / "stock_bottom.ini", DATA / marks, *options, *more)

@@ -11,24 +11,22 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from example_machine import TRUE_NUMBERS, checked
+from example_machine import EXAMPLE, TRUE_NUMBERS, checked
 from plumb.cli.main import build_parser
 from plumb.settings.files import read_settings
 from plumb.settings.toml import write_machine_toml
 from synthetic import BELIEVED, EFFECTS, TRUE, csv_of, grid, marks_on
 from systems import widest, words_of
 
-EXAMPLE = Path(__file__).resolve().parents[3] / "docs/example"
 INI = "groundcontrol.ini"
 COMMAND = re.compile(r"^  plumb (?:.*\\\n)*.*", re.MULTILINE)
 
 
 @pytest.fixture(autouse=True)
-def _shop(tmp_path, monkeypatch):
+def _shop(here):
     """A folder with the example's files."""
     for name in (INI, "marks.toml"):
-        shutil.copy(EXAMPLE / name, tmp_path)
-    monkeypatch.chdir(tmp_path)
+        shutil.copy(EXAMPLE / name, here)
 
 
 def printed(said):

@@ -1,14 +1,12 @@
 """The command line refuses what cannot be used: one clear line, exit 2, nothing written."""
 
-from pathlib import Path
-
 import pytest
+from example_machine import POCKET as JOB
 from plumb.settings.toml import write_machine_toml
 from published_marks import MARKS, SETTINGS
 from synthetic import BELIEVED
 
 BOARD = [str(SETTINGS), str(MARKS)]
-JOB = Path(__file__).resolve().parents[3] / "docs/example/pocket.nc"
 EFFECTS = ["--effect", "chain_pitch", "chain_sag"]
 BAD = [
     ("no marks", ["compare", SETTINGS], "MARKS"),
@@ -31,21 +29,32 @@ BAD = [
     ("unknown prior", ["add", *BOARD, *EFFECTS, "--prior", "gap=1"], "unknown name 'gap'"),
     ("no reading error", ["add", *BOARD, *EFFECTS, "--sigma", "0"], "--sigma"),
     ("picture of no form", ["compare", *BOARD, "--picture", "errors.gif"], ".png"),
-    ("grid too narrow", ["grid", "--margin", "700"], "--margin is 700"),
+    ("no place", ["inverse", SETTINGS], "X,Y"),
+    ("a place of one", ["inverse", SETTINGS, "1;2"], "'1;2' is not X,Y"),
+    ("chains of one", ["forward", SETTINGS, "1,"], "'1,' is not X,Y"),
+    (
+        "our board",
+        ["inverse", SETTINGS, "0,0", "--float32", "--controller", "stock"],
+        "--float32 is",
+    ),
+    ("a place off", ["grid", "--places=0,0 0,700"], "mark 2 at x 0.0 y 660.0 is outside the sheet"),
+    (
+        "margin of places",
+        ["grid", "--places=0,0", "--margin", "3"],
+        "--margin is of marks in columns",
+    ),
     ("grid of text", ["grid", "--margin", "wide"], "--margin"),
-    ("grid of another size", ["grid", "--columns", "4"], "--columns"),
 ]
 
 
 @pytest.mark.parametrize(("arguments", "hint"), [pytest.param(*b[1:], id=b[0]) for b in BAD])
-def test_unusable_input_is_refused_in_one_line(arguments, hint, run, tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
+def test_unusable_input_is_refused_in_one_line(arguments, hint, run, here):
     extra = ["-o", "new.toml", "--client", "groundcontrol"] if arguments[:1] == ["add"] else []
     code, said, complaint = run(*arguments, *extra)
     assert code == 2 and said == ""
     assert complaint.startswith("plumb: ") and complaint.count("\n") == 1
     assert hint in complaint
-    assert list(tmp_path.iterdir()) == []
+    assert list(here.iterdir()) == []
 
 
 @pytest.mark.parametrize(
@@ -62,12 +71,11 @@ def test_unusable_input_is_refused_in_one_line(arguments, hint, run, tmp_path, m
         ("-o", "new.toml", "--picture", str(MARKS)),
     ],
 )
-def test_if_one_result_cannot_be_written_none_is_written(outputs, run, tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
+def test_if_one_result_cannot_be_written_none_is_written(outputs, run, here):
     before = SETTINGS.read_bytes(), MARKS.read_bytes()
     code, said, complaint = run("add", *BOARD, "--effect", "none", *outputs)
     assert code == 2 and said == "" and complaint.count("\n") == 1
-    assert list(tmp_path.iterdir()) == []
+    assert list(here.iterdir()) == []
     assert (SETTINGS.read_bytes(), MARKS.read_bytes()) == before
 
 

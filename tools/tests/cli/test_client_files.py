@@ -10,14 +10,13 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from example_machine import EXAMPLE
 from plumb import _core
 from plumb.firmware.settings import every_setting, machine_of
 from plumb.model.predict import chain_lengths, lengths
 from plumb.settings.files import read_settings
 from synthetic import grid
 
-ROOT = Path(__file__).resolve().parents[3]
-EXAMPLE = ROOT / "docs/example"
 OLD, MARKS = EXAMPLE / "groundcontrol.ini", EXAMPLE / "marks.toml"
 ADD = ("add", OLD, MARKS, "--effect", "chain_pitch")
 WORDS = {"Triangular": 2, "Top": 1, "Bottom": 2, "None": 0, "490Hz": 3}
@@ -70,10 +69,7 @@ def test_files_for_two_firmwares_would_double_and_the_check_sees_it(run, tmp_pat
     assert run(*ADD, "-o", ours, "--client", "groundcontrol")[0] == 0
     options = ("--client", "groundcontrol", "--firmware", "published")
     assert run(*ADD, "-o", published, *options)[0] == 0
-    mixed = {
-        **lines_of(tmp_path / "ours.nc"),
-        **dump_of(tmp_path / "published-groundcontrol.ini"),
-    }
+    mixed = {**lines_of(tmp_path / "ours.nc"), **dump_of(tmp_path / "published-groundcontrol.ini")}
     assert _core.carried_twice(mixed) == [(37, 160), (40, 180), (41, 181)]
     assert apart(read_settings(ours), mixed) > 3
 
@@ -151,10 +147,8 @@ def test_the_published_firmware_gets_all_numbers_through_its_client(run, tmp_pat
     options = ("--client", "groundcontrol", "--firmware", "published")
     code, said, _ = run(*ADD, "-o", machine, *options)
     assert code == 0 and not lines.exists() and "cannot do" in said
-    written, client = (
-        read_settings(machine),
-        read_settings(tmp_path / "machine-groundcontrol.ini"),
-    )
+    written = read_settings(machine)
+    client = read_settings(tmp_path / "machine-groundcontrol.ini")
     paid_out = chain_lengths(written, grid(13, 9))
     assert np.abs(paid_out - chain_lengths(client, grid(13, 9))).max() < 0.001
     # The next board is cut with these numbers, so this file is what it was cut with.

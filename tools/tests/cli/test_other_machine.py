@@ -7,6 +7,7 @@ from pathlib import Path
 
 import plumb.cli.send as send_command
 import pytest
+from example_machine import EXAMPLE
 from numbers_machine import NumbersMachine
 from plumb import api
 from plumb.cure.machine_file import record_of, toml_of
@@ -16,16 +17,13 @@ from plumb.settings.files import read_settings
 from plumb.settings.toml import write_machine_toml
 from synthetic import BELIEVED, TRUE, csv_of, grid, marks_on
 
-ROOT = Path(__file__).resolve().parents[3]
-EXAMPLE = ROOT / "docs/example"
 OTHER = replace(BELIEVED, motor_gap=BELIEVED.motor_gap + 30)
 BOTH = "motor_gap ($2) is 3008.4 in other.toml and 2978.4 in the machine"
 
 
 @pytest.fixture(autouse=True)
-def board(tmp_path, monkeypatch):
+def board(here, monkeypatch):
     """A board that holds the numbers of machine.toml, in a folder with other.toml."""
-    monkeypatch.chdir(tmp_path)
     write_machine_toml("machine.toml", BELIEVED)
     write_machine_toml("other.toml", OTHER)
     board = NumbersMachine()

@@ -7,11 +7,10 @@ import tomllib
 from pathlib import Path
 
 import pytest
+from example_machine import EXAMPLE
 from plumb.cli.main import main
 from systems import ON_POSIX
 
-ROOT = Path(__file__).resolve().parents[3]
-EXAMPLE = ROOT / "docs/example"
 SETTINGS, MARKS, MACHINE = (
     str(EXAMPLE / name) for name in ("groundcontrol.ini", "marks.toml", "machine.toml")
 )
@@ -27,10 +26,7 @@ WRITERS = [
 ]
 
 
-@pytest.fixture(autouse=True)
-def in_a_folder(tmp_path, monkeypatch):
-    """Every test has a folder for itself."""
-    monkeypatch.chdir(tmp_path)
+pytestmark = pytest.mark.usefixtures("here")
 
 
 @pytest.mark.parametrize(("command", "name"), WRITERS)

@@ -4,27 +4,26 @@ import shutil
 from pathlib import Path
 
 import pytest
+from example_machine import EXAMPLE
 from plumb.diary.file import read_diary
+from plumb.marks.form import marks_toml
+from plumb.marks.read import Mark, Measurements
 
-EXAMPLE = Path(__file__).resolve().parents[3] / "docs/example"
 NEAR = {(-900, 250): (-900.4, 250.3), (900, -250): (900.6, -249.8)}
 FAR = {(-900, 250): (-897.8, 243.7), (900, -250): (905.8, -252.6)}
 
 
 @pytest.fixture
-def checked(tmp_path, monkeypatch, run):
+def checked(here, run):
     """Calibrates a fitted machine with marks by their targets."""
     for name in ("groundcontrol.ini", "marks.toml"):
-        shutil.copy(EXAMPLE / name, tmp_path)
-    monkeypatch.chdir(tmp_path)
+        shutil.copy(EXAMPLE / name, here)
     run("add", "groundcontrol.ini", "marks.toml", "--effect", "chain_pitch", "-o", "machine.toml")
 
     def calibrate(marks, by=run, cut_with="machine.toml"):
-        lines = ['frame = "machine"', f'cut_with = "{cut_with}"']
-        for name, (target, measured) in enumerate(marks.items(), 1):
-            lines += ["[[mark]]", f'name = "{name}"', f"target = {[*target]}"]
-            lines += [f"measured = {[*measured]}"]
-        Path("check.toml").write_text("\n".join(lines))
+        read = (Mark(str(i), *mark) for i, mark in enumerate(marks.items(), 1))
+        form = marks_toml(Measurements(tuple(read)))
+        Path("check.toml").write_text(f'cut_with = "{cut_with}"\n{form}')
         return by("calibrate", "machine.toml", "check.toml")
 
     return calibrate
@@ -40,10 +39,8 @@ def test_a_machine_is_as_it_was_fitted_or_what_changed_is_named(checked, ask):
     assert code == 0 and "The machine is as it was fitted: by the fit of" in said
     assert "Nothing was written." in said and "a single change" not in said
     rows = [line.split() for line in said.splitlines() if line.startswith(("1 ", "2 "))]
-    assert [row[:4] for row in rows] == [
-        ["1", "-900.4,", "250.3", "-0.40,"],
-        ["2", "900.6,", "-249.8", "+0.60,"],
-    ]
+    assert rows[0][:4] == ["1", "-900.4,", "250.3", "-0.40,"]
+    assert rows[1][:4] == ["2", "900.6,", "-249.8", "+0.60,"]
     code, answer = checked(FAR, ask)
     assert code == 1 and not answer["holds"] and "Something changed since" in answer["sentence"]
     assert answer["changes"][0]["name"] == "left chain"
@@ -66,9 +63,7 @@ def test_a_machine_that_no_longer_holds_is_fitted_again_where_the_marks_are_enou
     assert code == 0 and "The machine is as it was fitted" in said
 
 
-@pytest.mark.parametrize(
-    "unlike", ["other settings", "no diary", "one place"], ids=lambda unlike: unlike
-)
+@pytest.mark.parametrize("unlike", ["other settings", "no diary", "one place"])
 def test_two_marks_that_no_fit_can_judge_are_too_few(checked, unlike):
     marks = {(0, 0): (0, 0), (30, 39): (30, 39)} if unlike == "one place" else NEAR
     if unlike == "no diary":

@@ -1,23 +1,26 @@
-"""`plumb recover`: home marks, slipped chains, the repair that it writes, and what it refuses."""
+"""`plumb recover`: home marks, slipped chains, repairs, refusals; `plumb read` of a lost place."""
 
+import json
+import re
 import subprocess
 import sys
 import tomllib
-from pathlib import Path
 
+import plumb.cli.read as read_command
 import pytest
+from example_machine import EXAMPLE
+from numbers_machine import NumbersMachine
+from plumb.cli.main import main
 from plumb.diary.file import append, read_diary
 from systems import words_of
 
-EXAMPLE = Path(__file__).resolve().parents[3] / "docs/example"
 SLIPPED = ("--touch=-900,250:-902.4,256.1", "--touch=900,-250:894.5,-247.1")
 
 
 @pytest.fixture(autouse=True)
-def folder(tmp_path, monkeypatch):
-    (tmp_path / "machine.toml").write_text((EXAMPLE / "machine.toml").read_text())
-    monkeypatch.chdir(tmp_path)
-    return tmp_path
+def folder(here):
+    (here / "machine.toml").write_text((EXAMPLE / "machine.toml").read_text())
+    return here
 
 
 def test_a_slip_is_named_and_its_repair_written(run, folder):
@@ -146,7 +149,10 @@ def test_a_second_mark_fits_or_not(run, shown, code):
     run("recover", "machine.toml", "--keep=left=-900,250")
     run("recover", "machine.toml", "--keep=right=900,-250")
     done, said, _ = run("recover", "machine.toml", "--at", "left", f"--touch=right:{shown}")
+    said = " ".join(said.split())
     assert done == code and ("does not fit" in said) is bool(code)
+    # A bit to the right needs more of the left chain and less of the right.
+    assert not code or re.search(r"are -[\d.]+ \(left\) and \+", said)
 
 
 def test_actions_go_into_an_existing_diary(run, folder):
@@ -177,3 +183,58 @@ def test_impossible_values_are_refused(run, folder, words, why):
     code, _, error = run(*words)
     assert code == 2 and why in error and error.count("\n") == 1
     assert not (folder / "home.toml").exists()
+
+
+CUT_OFF = (
+    "ALARM: Position Lost. Power was lost before the position was kept. Last known chain lengths: "
+    "1650.12, 1651.98 mm. Set them (B06 L R), or set the chains to their marks (B08)."
+)
+UNSET = "Chain lengths are not known yet: send your settings, then set the chains."
+NOWHERE = "Message: Unable to find valid machine position for chain lengths 0.00, 0.00 . Please set"
+FOUND = ["Plumb v1.0.0", "position loaded at:", "0.00", "0.00"]
+
+
+class Greeting(NumbersMachine):
+    """A machine that says something at its start, and has no telemetry."""
+
+    def __init__(self, *said):
+        super().__init__()
+        self.begins = "".join(line + "\r\n" for line in said).encode()
+
+    def read(self):
+        said, self.begins = self.begins + super().read(), b""
+        return said
+
+    def answer(self, line):
+        return [] if line == "B30" else super().answer(line)
+
+
+@pytest.fixture
+def asked(monkeypatch, capsys):
+    """The output of `plumb read` for a machine with a greeting."""
+
+    def ask(*greeting, options=()):
+        monkeypatch.setattr(read_command, "port_for", str)
+        monkeypatch.setattr(read_command, "SerialPort", lambda path: Greeting(*greeting))
+        assert main(["read", *options]) == 0
+        return capsys.readouterr().out
+
+    return ask
+
+
+@pytest.mark.parametrize("lost", [CUT_OFF, UNSET, NOWHERE])
+def test_a_lost_place_is_reported_in_the_machines_words(asked, lost):
+    said = " ".join(asked("Plumb v1.0.0", lost, "ready").split())
+    assert f"The machine does not know where its sled is. It says: {lost}" in said
+    assert "plumb recover --at" in said and "B06 or B08" in said and "G10 Z0" in said
+    assert "The sled is at" not in said
+    answer = json.loads(asked("Plumb v1.0.0", lost, options=["--json"]))
+    assert answer["place"] is None and answer["lost"] == lost
+
+
+def test_a_machine_that_knows_its_place_shows_it(asked):
+    said = asked(*FOUND)
+    assert "The sled is at x 0.00, y 0.00, the bit at z 0.00 mm." in said
+    assert "does not know" not in said
+    answer = json.loads(asked(*FOUND, options=["--json"]))
+    assert answer["place"] == [0, 0, 0] and answer["lost"] is None

@@ -1,15 +1,15 @@
-"""Output fits into 80 columns, loses nothing, and has colour only on a screen."""
+"""Output fits into 80 columns, has colour only on a screen, and shows how far long work is."""
 
 import re
-from pathlib import Path
 
+import numpy as np
 import pytest
-from plumb.cli import screen
-from plumb.cli.screen import BAD, GOOD, OPEN, Bar, headline, table
+from example_machine import EXAMPLE, INI, MARKS
+from plumb.cli import followed, screen
+from plumb.cli.screen import Bar, table
+from plumb.job.time_left import TimeLeft, Timetable
 from systems import widest
 
-EXAMPLE = Path(__file__).resolve().parents[3] / "docs/example"
-INI, MARKS = EXAMPLE / "groundcontrol.ini", EXAMPLE / "marks.toml"
 COLOUR = re.compile(r"\x1b\[[0-9;]*3[0-9]")
 LONG = "a sentence of words that go on and on " * 4
 
@@ -25,10 +25,8 @@ def _no_screen(monkeypatch):
     [
         ("grid", "--settings", INI, "--details"),
         ("add", INI, MARKS, "--effect", "auto", "--patch"),
-        ("add", INI, MARKS, "--effect", "sprocket_runout", "frame_flex"),
         ("effects",),
         ("bench", "--kinds", "one", "--marks", "9", "--boards", "1"),
-        ("settings", EXAMPLE / "machine.toml"),
         ("reach", EXAMPLE / "machine.toml"),
     ],
     ids=lambda command: command[0],
@@ -48,23 +46,11 @@ def test_columns_of_words_wrap_and_numbers_stay_whole():
     assert " ".join(" ".join(lines).split()).count("on and on") == 4
 
 
-@pytest.mark.parametrize(
-    ("variables", "coloured"),
-    [({}, False), ({"FORCE_COLOR": "1"}, True), ({"FORCE_COLOR": "1", "NO_COLOR": "1"}, False)],
-)
-def test_colour_only_where_it_is_wanted(variables, coloured, monkeypatch):
+def test_a_number_that_cannot_be_is_coloured(monkeypatch):
+    monkeypatch.setenv("FORCE_COLOR", "1")
     monkeypatch.setenv("TERM", "xterm")
-    for name, value in variables.items():
-        monkeypatch.setenv(name, value)
     said = table(["number", ""], [["a", "impossible: b"], ["c", "d"]], words=[-1])
-    assert bool(COLOUR.search(said)) == coloured
-    assert len(COLOUR.findall(said)) in (0, 1)
-    assert ("\x1b" in headline("All is well.")) == bool(variables)
-    for kind, colour in ((GOOD, ";32m"), (OPEN, ";33m"), (BAD, ";31m"), ("", "")):
-        said = headline("All is well.", kind)
-        # With NO_COLOR a verdict is bold.
-        shown = [each for each in (";31m", ";32m", ";33m") if each in said]
-        assert shown == ([colour] if colour and coloured else [])
+    assert len(COLOUR.findall(said)) == 1
 
 
 class Terminal:
@@ -95,3 +81,47 @@ def test_a_bar_is_shown_on_a_terminal_if_the_work_takes_long(watched, patience, 
     bar.show(1.0)
     assert ("half of them" in terminal.said) == shown
     assert bool(terminal.said) == shown
+
+
+TEXT = ["(a job)", "G0 X1", "", *(f"G1 X{x} F100" for x in range(8000))]
+WHOLE = 2.0 * len(TEXT)
+
+
+@pytest.fixture
+def clock(monkeypatch):
+    now = [1000.0]
+    monkeypatch.setattr(followed, "monotonic", lambda: now[0])
+    return now
+
+
+def follow(clock, *, seconds, step=0.25, pauses=False):
+    """A job whose lines take 2 s each, followed for a while."""
+    job = followed.Followed(TEXT, TimeLeft(Timetable(np.arange(len(TEXT) + 1) * 2.0), ahead=1.0))
+    every = int(2 / step)
+    for tick in range(int(seconds / step)):
+        clock[0] += step
+        if tick % every == every - 1:
+            job.answered(tick // every + 1)
+        job.look(pauses=pauses)
+    job.clear()
+
+
+def test_without_a_terminal_a_line_is_printed_each_minute(clock, monkeypatch):
+    screen = Terminal(watched=False)
+    monkeypatch.setattr(followed.sys, "stderr", screen)
+    follow(clock, seconds=185)
+    lines = screen.said.splitlines()
+    assert len(lines) == 3
+    assert lines[0] == "line 32 of 8003, 4 h 15 min left, 0 % done"
+
+
+def test_a_terminal_has_a_line_that_fits(clock, monkeypatch):
+    shown = []
+    monkeypatch.setattr(followed.sys, "stderr", Terminal(watched=True))
+    monkeypatch.setattr(followed.Bar, "show", lambda self, share, what: shown.append((share, what)))
+    follow(clock, seconds=4000, step=0.5)
+    assert len(shown) > 7000
+    shares = [share for share, _ in shown]
+    assert np.diff(shares).min() > -1e-4 and shares[-1] == pytest.approx(4000 / WHOLE, rel=0.01)
+    # Behind the words stand a bar of 20 and a percent of 4, a space before each.
+    assert max(len(what) for _, what in shown) + 26 <= 80

@@ -1,4 +1,4 @@
-"""Places and errors are shown as they were typed, or in the unit that is asked for."""
+"""Lengths are taken and shown as they were typed, or in the unit that is asked for."""
 
 import json
 import math
@@ -6,11 +6,12 @@ import re
 from pathlib import Path
 
 import pytest
+from example_machine import INI, MARKS
+from plumb.cli.arguments import length, place
+from plumb.cli.recover import touch
 from plumb.marks.read import read_marks
+from synthetic import SHEET
 
-EXAMPLE = Path(__file__).resolve().parents[3] / "docs/example"
-INI, MARKS = EXAMPLE / "groundcontrol.ini", EXAMPLE / "marks.toml"
-SHEET = (2438.4, 1219.2)
 INCHES = ("--units", "inch")
 
 
@@ -101,8 +102,7 @@ def test_a_number_that_moved_too_far_is_shown_in_the_chosen_unit(run, tmp_path):
 
 
 @pytest.mark.parametrize("preset", ["nine", "distances"])
-def test_a_form_in_inches_is_filled_in_inches_and_read(preset, run, ask, tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
+def test_a_form_in_inches_is_filled_in_inches_and_read(preset, run, ask, here):
     words = ("grid", "--settings", INI, "--preset", preset, *INCHES, "--output", "grid.nc")
     assert run(*words, "--marks", "marks.toml", "--paper", "paper.pdf")[0] == 0
     text = Path("marks.toml").read_text()
@@ -120,3 +120,20 @@ def test_a_form_in_inches_is_filled_in_inches_and_read(preset, run, ask, tmp_pat
     assert first.target == pytest.approx((100 - 1219.2, 609.6 - 100), abs=0.002)
     assert first.measured == pytest.approx((3.875 * 25.4 - 1219.2, 609.6 - 4.1875 * 25.4))
     assert len(read.distances) == (0 if preset == "nine" else 12) and read.typed.unit == "inch"
+
+
+def test_a_grid_is_the_same_in_inches(run):
+    inches = ("--margin=5in", '--depth=1/8"', "--safe-height=1/4in")
+    said = run("grid", *inches)
+    assert said[0] == 0 and said == run(
+        "grid", "--margin=127", "--depth=3.175", "--safe-height=6.35"
+    )
+    cut = run("grid", "--places=-30-1/2in,4in 0,100")[1]
+    assert "G1 X-774.7 Y101.6 F700" in cut and "G1 X0 Y100 F700" in cut
+
+
+def test_places_and_lengths_of_a_command_are_the_same_in_inches():
+    assert place("4in,-2 1/2in") == pytest.approx((101.6, -63.5))
+    assert length('1/32"') == pytest.approx(0.79375)
+    hole, shown = touch("-36in,10in:-35 7/8in,254")
+    assert hole == pytest.approx((-914.4, 254)) and shown == pytest.approx((-911.225, 254))

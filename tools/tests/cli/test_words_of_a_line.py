@@ -1,15 +1,17 @@
-"""Words of a command line: what is no option, no number, no program."""
+"""Words of a command line: no option, no number, no program; places and chain lengths."""
 
 import codecs
 import re
-from pathlib import Path
 
+import numpy as np
 import pytest
+from example_machine import EXAMPLE, INI
 from plumb.cli.main import COMMANDS, GONE
 from plumb.settings.files import read_settings
+from plumb.settings.toml import write_machine_toml
 from plumb.text.files import read_text
+from synthetic import TRUE
 
-EXAMPLE = Path(__file__).resolve().parents[3] / "docs/example"
 JOB, SETTINGS, MARKS = (EXAMPLE / name for name in ("pocket.nc", "groundcontrol.ini", "marks.toml"))
 
 
@@ -18,10 +20,7 @@ JOB, SETTINGS, MARKS = (EXAMPLE / name for name in ("pocket.nc", "groundcontrol.
     [
         (["--lnie", "check"], "there is no option --lnie here; see plumb --help"),
         (["resume", JOB, SETTINGS, "--line", "0"], "--line: '0' is not a whole number from 1 on"),
-        (
-            ["resume", JOB, SETTINGS, "--line", "two"],
-            "'two' is not a whole number from 1 on, like 100",
-        ),
+        (["resume", JOB, SETTINGS, "--line", "two"], "'two' is not a whole number from 1 on"),
         (["check", JOB, SETTINGS, "--start", "1;2"], "'1;2' is not X,Y"),
         (["lab", "--share", "garage"], "name the folder first: plumb lab garage --share"),
     ],
@@ -82,3 +81,26 @@ def test_a_bare_plumb_shows_its_help(run, capsys):
     with pytest.raises(SystemExit) as end:
         run()
     assert end.value.code == 0 and "usage: plumb" in capsys.readouterr().out
+
+
+def test_inverse_and_forward_of_our_model_undo_each_other(ask, tmp_path):
+    machine = tmp_path / "machine.toml"
+    write_machine_toml(machine, TRUE)
+    code, answer = ask("inverse", machine, "0,0", "1150,-550", "-900,400")
+    assert code == 0 and answer["controller"] == "plumb"
+    pairs = [f"{left!r},{right!r}" for left, right in answer["lengths"]]
+    code, back = ask("forward", machine, *pairs)
+    assert code == 0 and back["found"] == ["yes"] * 3
+    places = np.array([[0, 0], [1150, -550], [-900, 400]])
+    assert np.array(back["places"]) == pytest.approx(places, abs=1e-4)
+    _, board = ask("inverse", machine, "0,0", "1150,-550", "-900,400", "--float32")
+    away = np.abs(np.array(board["lengths"]) - answer["lengths"])
+    assert 0 < away.max() < 0.002  # as the board computes, in float
+
+
+def test_a_place_out_of_reach_is_null_and_bad_news(ask, run):
+    words = ("inverse", INI, "0,0", "0,5e3", "--controller", "plumb")
+    code, answer = ask(*words)
+    assert code == 1 and answer["lengths"][1] is None and answer["found"] == ["yes", "out of reach"]
+    code, said, _ = run(*words)
+    assert code == 1 and said.startswith("1 of 2 places found") and "out of reach" in said

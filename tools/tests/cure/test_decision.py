@@ -1,14 +1,18 @@
-"""add --effect auto: what the judge's boards prove is added, and nothing else."""
+"""add --effect auto adds what boards prove and nothing else; a board at hand gives its numbers."""
 
 from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
 import pytest
+from example_machine import EXAMPLE
 from hidden_boards import HIDDEN, board, size_for
+from plumb import api
 from plumb.bench.boards import plan
 from plumb.bench.causes import BARE, MAKER, PUBLISHED
+from plumb.cure.add import add
 from plumb.cure.decision import decide
+from plumb.cure.live_board import Chosen, LiveBoard
 from plumb.diagnosis import diagnose
 from plumb.fit.inputs import Inputs
 from plumb.marks.read import read_marks, without_marks
@@ -19,7 +23,6 @@ from published_marks import MARKS, SETTINGS
 from synthetic import read_elsewhere
 
 WIDE = plan(5, 5)
-EXAMPLE = Path(__file__).resolve().parents[3] / "docs/example"
 NEGATIVE_STRETCH = Path(__file__).with_name("negative_stretch.toml")
 
 
@@ -28,9 +31,8 @@ def test_one_hidden_effect_is_added_and_the_error_falls_to_the_noise():
     result = decide(Inputs(MAKER, board({"chain_plane": size}, WIDE, seed=4)))
     assert result.chosen == ("chain_plane",) and result.done
     addition = result.addition
-    assert addition.settings.effect("chain_plane", "gap_squared") == pytest.approx(
-        1600 * size, rel=0.2
-    )
+    gap_squared = addition.settings.effect("chain_plane", "gap_squared")
+    assert gap_squared == pytest.approx(1600 * size, rel=0.2)
     assert addition.before.left_out_rms > 1.2 * addition.after.left_out_rms
     assert (
         addition.after.fit_rms < 0.85
@@ -117,9 +119,8 @@ def test_a_known_effect_is_not_left_out_because_another_is_unknown():
 
 
 def test_a_tape_that_reads_long_is_fitted_and_its_remedy_named():
-    result = decide(
-        Inputs(MAKER, board({"tape_scale": 8.0}, WIDE, seed=9, noise=0.2, tape_sigma=0.2))
-    )
+    measured = board({"tape_scale": 8.0}, WIDE, seed=9, noise=0.2, tape_sigma=0.2)
+    result = decide(Inputs(MAKER, measured))
     assert "tape_scale" in {*result.chosen, *(name for rival in result.rivals for name in rival)}
     if "tape_scale" in result.chosen:
         assert "tape_scale" not in result.addition.settings.effects
@@ -141,3 +142,23 @@ def test_a_stretch_below_nothing_is_added_as_nothing():
     assert all(parameter.possible for parameter in result.addition.parameters)
     stretch = result.addition.settings.effect("chain_stretch", "compliance")
     assert stretch == pytest.approx(0.0, abs=1e-8)
+
+
+@pytest.fixture(scope="module")
+def inputs():
+    return api.read(SETTINGS, MARKS)
+
+
+def sizes(fitted):
+    return {estimate.name: estimate.value for estimate in fitted.estimates}
+
+
+def test_refits_one_after_the_other_end_where_add_begins_afresh(inputs):
+    board = LiveBoard(inputs)
+    way = [("chain_pitch",), ("tape_scale", "chain_pitch"), ("chain_sag", "chain_stretch"), ()]
+    for effects in [*way, ("chain_pitch", "sheet_skew")]:
+        live, added = board.fit(Chosen(effects)), add(inputs, effects=effects).after_fit
+        assert sizes(live) == pytest.approx(sizes(added), rel=1e-4, abs=1e-7)
+        np.testing.assert_allclose(live.errors, added.errors, atol=2e-5)
+        assert live.left_out_rms == pytest.approx(added.left_out_rms, rel=2e-5)
+        assert live.corrected_rms == pytest.approx(added.corrected_rms, rel=2e-5)

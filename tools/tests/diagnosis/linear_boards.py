@@ -38,9 +38,8 @@ def made_up(
 
 def covariance_of(board, sigma, other=None, *, pitch=False):
     """Of all readings, by noise, frame, something else and drifting chains."""
-    covariance = np.diag(
-        np.r_[np.full(board.measured, sigma**2), np.ones(len(board.read) - board.measured)]
-    )
+    beyond = len(board.read) - board.measured
+    covariance = np.diag(np.r_[np.full(board.measured, sigma**2), np.ones(beyond)])
     covariance += board.frame @ board.frame.T
     if other is not None:
         inside = slice(0, board.measured)

@@ -72,9 +72,8 @@ def test_motors_out_of_level_are_not_told_from_a_turned_sheet():
 
 def test_friction_needs_approaches():
     layout = plan(5, 3)
-    diagnosis = diagnose(
-        Inputs(MAKER, board({"sled_friction": 1.0}, layout, seed=1, noise=0.2), sigma=0.3)
-    )
+    rubbing = board({"sled_friction": 1.0}, layout, seed=1, noise=0.2)
+    diagnosis = diagnose(Inputs(MAKER, rubbing, sigma=0.3))
     assert diagnosis.suspects[:1] == ("sled_friction",)
     blind = diagnose(Inputs(MAKER, board({}, plan(5, 3, approached=False), seed=1)))
     room = next(hidden for hidden in blind.could_hide if hidden.effect == "sled_friction")

@@ -2,6 +2,8 @@
 
 import numpy as np
 import pytest
+from chain_views import chain_view
+from plumb.diagnosis.drawn import drawn_by
 from plumb.diagnosis.explanation import Board, explain
 from plumb.diagnosis.noise import KNOWN, Noise
 from plumb.diagnosis.sizes import hidden_share, sizes_of
@@ -16,10 +18,8 @@ STATED = Noise(0.5, KNOWN, "stated")
 
 
 def rows_of(*, noise=0.5, seed=1, columns=5, rows=3, true=TRUE):
-    return observe(
-        BELIEVED,
-        Measurements(marks_on(true, BELIEVED, grid(columns, rows), noise=noise, seed=seed)),
-    )
+    marks = marks_on(true, BELIEVED, grid(columns, rows), noise=noise, seed=seed)
+    return observe(BELIEVED, Measurements(marks))
 
 
 def board_of(**options):
@@ -51,3 +51,29 @@ def test_the_frame_swallows_what_it_can():
     assert shares["sled_friction"] is None  # no mark has an approach
     assert shares["sprocket_runout"] < 0.2 < shares["motor_level"]
     assert shares["frame_flex"] > 0.8 and shares["chain_stretch"] > 0.5
+
+
+def board_made_by(true, *, marks=None, **how):
+    made = marks or marks_on(true, BELIEVED, grid(7, 5), **how)
+    return Board.of(BELIEVED, observe(BELIEVED, Measurements(tuple(made))), sigma=0.5)
+
+
+@pytest.fixture(scope="module")
+def stretched():
+    """A board of a machine with three effects, its frame fitted, and two of them with it."""
+    board = board_made_by(TRUE, rotation=0.001, noise=0.2)
+    frame = explain(board)
+    return frame, explain(board, ("chain_pitch", "chain_stretch"), start=frame)
+
+
+def test_the_suspects_share_and_the_rest_add_up_to_what_the_frame_leaves(stretched):
+    frame, both = stretched
+    rows = frame.board.rows
+    added = drawn_by(frame, both, rows).chains
+    assert np.abs(added).max() > 0.5
+    alone, less = (
+        chain_view(*problem.values(each.unknowns), rows, problem.settings).chains
+        for each in (frame, both)
+        for problem in (each.board.problem,)
+    )
+    assert alone == pytest.approx(added + less, abs=0.02)

@@ -6,23 +6,13 @@ import numpy as np
 import pytest
 import scipy.special
 import scipy.stats
+from linear_boards import covariance_of
 from plumb.bench.boards import cut, plan
 from plumb.bench.causes import PUBLISHED, Hidden, causes_of
-from plumb.diagnosis.evidence import (
-    UNLIKELY,
-    Noises,
-    accounts_of,
-    fitted,
-    outlier_weights,
-)
+from plumb.diagnosis.evidence import UNLIKELY, Noises, accounts_of, fitted, outlier_weights
 from plumb.diagnosis.explanation import explain, measured_board
 from plumb.diagnosis.linear import LinearBoard, Metric, smooth_fields
-from plumb.diagnosis.priors import (
-    OUTLIER_SPREADS,
-    PITCH_CORRELATION,
-    PITCH_SPREAD,
-    size_priors,
-)
+from plumb.diagnosis.priors import OUTLIER_SPREADS, PITCH_CORRELATION, PITCH_SPREAD, size_priors
 from plumb.diagnosis.refit import felt_effects
 from plumb.fit.inputs import Inputs
 
@@ -42,17 +32,9 @@ READ = BOARD.read[:, 0]
 FIELD = smooth_fields(FRAME, SIGMA)[4]
 
 
-def covariance(*, other=None, pitch=False, off=(), spread=0.0):
+def covariance(*, off=(), spread=0.0, **more):
     """Of the readings with noise, frame and one other thing."""
-    beyond = len(READ) - BOARD.measured
-    whole = np.diag(np.r_[np.full(BOARD.measured, SIGMA**2), np.ones(beyond)])
-    whole += BOARD.frame @ BOARD.frame.T
-    if pitch:
-        columns = BOARD.effects * BOARD.sizes.pitch
-        whole += columns @ columns.T
-    if other is not None:
-        inside = (other.axes * other.variances) @ other.axes.T
-        whole[: BOARD.measured, : BOARD.measured] += inside
+    whole = covariance_of(BOARD, SIGMA, **more)
     for row in off:
         whole[row, row] += spread**2
     return whole

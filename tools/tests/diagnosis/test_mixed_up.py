@@ -21,10 +21,8 @@ def board(marks):
 
 def exchanged(marks, i, j):
     marks = list(marks)
-    marks[i], marks[j] = (
-        replace(marks[i], measured=marks[j].measured),
-        replace(marks[j], measured=marks[i].measured),
-    )
+    first, second = marks[i].measured, marks[j].measured
+    marks[i], marks[j] = replace(marks[i], measured=second), replace(marks[j], measured=first)
     return marks
 
 
@@ -68,10 +66,8 @@ def test_a_misread_repeat_is_not_taken_for_two_exchanged_readings(index, off):
 def test_two_exchanged_distances_are_both_named():
     known = distances_between(marks_on(PITCH, BELIEVED, grid(3, 3), noise=0.2, seed=1))
     spans = list(known.distances)
-    spans[3], spans[11] = (
-        replace(spans[3], length=spans[11].length),
-        replace(spans[11], length=spans[3].length),
-    )
+    first, second = spans[3].length, spans[11].length
+    spans[3], spans[11] = replace(spans[3], length=second), replace(spans[11], length=first)
     diagnosis = diagnose(Inputs(BELIEVED, replace(known, distances=tuple(spans)), sigma=0.3))
     named = {" - ".join(spans[i].between) for i in (3, 11)}
     assert diagnosis.verdict == "slip" and {slip.name for slip in diagnosis.outliers} == named

@@ -1,27 +1,21 @@
-"""The noise of a reading: what is stated, repeats and scatter say of it together."""
+"""The noise of a reading, and one posterior whose listed accounts hold most."""
 
 from dataclasses import replace
 
 import numpy as np
 import pytest
-from hidden_boards import board_cut
-from plumb.bench.boards import plan
-from plumb.bench.causes import MAKER
+from hidden_boards import board, board_cut, size_for
+from plumb.bench.boards import cut, plan
+from plumb.bench.causes import BARE, MAKER, Hidden
 from plumb.diagnosis import diagnose
-from plumb.diagnosis.explanation import Board, explain
-from plumb.diagnosis.noise import (
-    KNOWN,
-    SURPRISING,
-    Noise,
-    left_by_noise,
-    misfit_chance,
-    noise_by,
-)
-from plumb.diagnosis.posterior import posterior_of
+from plumb.diagnosis.explanation import Board, explain, measured_board
+from plumb.diagnosis.noise import KNOWN, SURPRISING, Noise, left_by_noise, misfit_chance, noise_by
+from plumb.diagnosis.posterior import LISTED, MOST_LISTED, listing, posterior_of
 from plumb.diagnosis.priors import STATED_SPREAD
 from plumb.fit.inputs import Inputs, Stated
 from plumb.fit.observations import observe
 from plumb.marks.read import Measurements
+from plumb.model.catalogue import EVERY_MACHINE
 from plumb.text.values import MM
 from scipy import stats
 from synthetic import BELIEVED, TRUE, grid, marks_on
@@ -115,3 +109,52 @@ def test_a_field_does_not_count_as_noise():
     assert diagnosis.noise.sigma == pytest.approx(0.5, rel=0.3)
     # The accounts without a field keep theirs.
     assert posterior.noises.sigmas.max() > 1.5 * diagnosis.noise.sigma
+
+
+NINE = plan(3, 3)
+
+
+def listed(shares):
+    """The accounts that are listed, by the shares of all."""
+    several, weights = [*shares], np.log([*shares.values()]) + 7.0
+    return [(several[place], share) for place, share in listing(several, weights)]
+
+
+def test_the_fewest_accounts_that_hold_nearly_all_are_listed():
+    shares = {("a",): 0.6, ("b",): 0.3, ("c",): 0.06, ("d",): 0.04}
+    assert [each for each, _ in listed(shares)] == [("a",), ("b",), ("c",)]
+    assert [share for _, share in listed(shares)] == pytest.approx([0.6, 0.3, 0.06])
+    assert listed({("a",): LISTED + 0.001, ("b",): 0.049}) == [(("a",), pytest.approx(0.951))]
+    assert [each for each, _ in listed({("a",): LISTED - 0.001, ("b",): 0.051})] == [("a",), ("b",)]
+    many = {(str(i),): 0.05 for i in range(20)}
+    assert len(listed(many)) == MOST_LISTED
+
+
+def test_an_account_that_only_adds_to_a_likelier_one_counts_with_it():
+    shares = {("a",): 0.6, ("a", "b"): 0.2, ("b", "c"): 0.15, ("d",): 0.05}
+    assert listed(shares) == [(("a",), pytest.approx(0.8)), (("b", "c"), pytest.approx(0.15))]
+    # One that is likelier with more stays, and what is in it stays beside it.
+    assert [each for each, _ in listed({("a", "b"): 0.6, ("a",): 0.4})] == [("a", "b"), ("a",)]
+
+
+def bare_posterior(layout, noise):
+    """Of a machine as every machine is, cut with settings that know of no sag and no stretch."""
+    made = cut(Hidden(), layout, seed=3, noise=noise, settings=BARE).measurements
+    return posterior_of(measured_board(Inputs(BARE, made)), Stated(noise, is_final=True))
+
+
+def test_usual_effects_are_not_suspects_where_marks_do_not_show_them():
+    # Settings without sag or stretch, and marks that are read too badly to tell.
+    posterior = bare_posterior(NINE, 4.0)
+    assert all(not {*each.account.effects} & {*EVERY_MACHINE} for each in posterior.listed())
+    # Read well, they tell that the chain sags.
+    assert "chain_sag" in bare_posterior(plan(5, 5), 0.1).accounts[0].effects
+
+
+def test_sizes_that_no_machine_has_are_unlikely_by_themselves():
+    # A leaning frame draws the same arrows as sag, but would have to lean by 58 degrees.
+    size = size_for("chain_sag", NINE, 3.0)
+    measured = board({"chain_sag": size}, NINE, seed=101)
+    posterior = posterior_of(measured_board(Inputs(MAKER, measured)), FINAL)
+    assert posterior.listed()[0].account.effects == ("chain_sag",)
+    assert not any(each.account.effects == ("frame_lean",) for each in posterior.listed())

@@ -16,12 +16,7 @@ def judged(shares, monkeypatch, *, field=TINY, moved=TINY, misfit=0.5, outliers=
     """The verdict on accounts with these shares of what is clean; field and moved of the whole."""
     unknown = field + moved
     accounts = tuple(
-        Account(
-            effects,
-            effects,
-            clean=np.log(share * (1 - unknown)),
-            field=np.log(field / len(shares)),
-        )
+        Account(effects, effects, np.log(share * (1 - unknown)), np.log(field / len(shares)))
         for effects, share in sorted(shares.items(), key=lambda each: -each[1])
     )
     posterior = Posterior(

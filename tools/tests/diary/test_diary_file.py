@@ -1,11 +1,14 @@
-"""The diary's file: entries are only added, a cut line is noticed, and writers wait."""
+"""The diary's file: entries are only added, writers wait, and numbers written leave a way back."""
 
 import subprocess
 import sys
 from datetime import UTC, datetime
 
 import pytest
-from plumb.diary.file import NAME, append, read_diary
+from numbers_machine import NumbersMachine
+from plumb.diary.file import NAME, append, read_diary, write_and_keep
+from plumb.line.memory import kept_before
+from plumb.line.sender import Sender
 from plumb.text.errors import InputError
 from systems import ON_POSIX
 
@@ -97,10 +100,28 @@ def test_two_writers_lose_nothing(tmp_path):
 
 
 def test_a_folder_that_takes_no_file_is_named(tmp_path):
-    with pytest.raises(
-        InputError, match=r"diary\.jsonl: cannot be written \(.*\); check the rights"
-    ):
+    why = r"diary\.jsonl: cannot be written \(.*\); check the rights"
+    with pytest.raises(InputError, match=why):
         append(tmp_path / "none", "fit", {})
     (tmp_path / NAME).mkdir()
     with pytest.raises(InputError, match=r"diary\.jsonl: cannot be read"):
         read_diary(tmp_path)
+
+
+def written(tmp_path, machine, *lines, back=False):
+    path = tmp_path / "machine.toml"
+    return write_and_keep(Sender(machine), path, list(lines), back=back)
+
+
+def test_a_machine_that_took_only_some_numbers_can_have_the_old_back(tmp_path):
+    machine = NumbersMachine(forgets=(38,))
+    (tmp_path / "machine.toml").touch()
+    with pytest.raises(InputError, match=r"holds \$38=0\.0 .*The old numbers are in .*before"):
+        written(tmp_path, machine, "$12=2970", "$38=15.5")
+    assert machine.numbers[12] == 2970
+    lines = kept_before(tmp_path / "machine.toml")
+    written(tmp_path, machine, *lines, back=True)
+    assert machine.numbers[12] == 2978.4
+    noted = read_diary(tmp_path).entries[-1].content
+    assert noted["changed"]["$12"] == [2970, 2978.4] and noted["lines"] == lines
+    assert kept_before(tmp_path / "machine.toml") == lines

@@ -6,14 +6,13 @@ motors, chains and sled.
 
 import sys
 from concurrent.futures import Future, ThreadPoolExecutor
-from pathlib import Path
 
 import pytest
+from example_machine import ROOT
 
-ROOT = Path(__file__).resolve().parents[3]
 sys.path.insert(0, str(ROOT / "tools/bench"))
-import played as plays  # noqa: E402
-from played import played  # noqa: E402
+import played as plays
+from played import played
 
 DIALOGUES = ROOT / "test/dialogues"
 NAMES = sorted(path.name for path in DIALOGUES.glob("*.nc"))

@@ -6,12 +6,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from example_machine import ROOT
 from plumb import _core
 
-ROOT = Path(__file__).resolve().parents[3]
 sys.path.insert(0, str(ROOT / "tools/bench"))
-import played as plays  # noqa: E402
-from played import check_board, play, played, ran  # noqa: E402
+import played as plays
+from played import check_board, play, played, ran
 
 VM = ROOT / "test/vm"
 DIALOGUES = VM / "dialogues"

@@ -52,11 +52,7 @@ def test_the_bound_of_a_tick_follows_the_rate():
             "Look at the left chain: a motor's load fell away for a moment, once since power-on, "
             "the last time on the left near x -312, y 120 mm, 5 minutes ago.",
         ),
-        (
-            "0,2",
-            "right,5,-6,59",
-            "Look at the right chain: a motor's load fell away for a moment, 2",
-        ),
+        ("0,2", "right,5,-6,59", "Look at the right chain: a motor's load fell away for a moment"),
         ("1,2", "left,5,-6,59", "Look at both chains"),
         ("0,2", "right,5,-6,59", "near x 5, y -6 mm, 59 s ago"),
         ("0,2", "right,5,-6,60", "1 minute ago"),

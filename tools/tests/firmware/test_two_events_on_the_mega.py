@@ -11,13 +11,13 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import pytest
+from example_machine import ROOT
 
-ROOT = Path(__file__).resolve().parents[3]
 sys.path.insert(0, str(ROOT / "tools/bench"))
-from board import FIRMWARE, built_firmware  # noqa: E402
-from commands import output  # noqa: E402
-from kept import kept  # noqa: E402
-from played import BUILD, libraries, player_program  # noqa: E402
+from board import FIRMWARE, built_firmware
+from commands import output
+from kept import kept
+from played import BUILD, libraries, player_program
 
 EVENTS = 12
 

@@ -1,12 +1,15 @@
-"""Numbers that were measured directly, and numbers that are held: what they do to a fit."""
+"""Numbers that were measured directly or are held: what they do to a fit; absurd ones."""
 
 from dataclasses import replace
 
 import pytest
+from plumb.bench.causes import MAKER
+from plumb.fit.expected import refuse_absurd
 from plumb.fit.fit import fit
 from plumb.fit.observations import observe
 from plumb.fit.problem import PRIORS, Checked
 from plumb.marks.read import Measurements
+from plumb.text.errors import InputError
 from synthetic import BELIEVED, TRUE, grid, marks_on
 
 ROWS = observe(BELIEVED, Measurements(marks_on(TRUE, BELIEVED, grid(4, 3), noise=0.3)))
@@ -71,3 +74,42 @@ def test_a_search_from_another_fit_finds_the_same_minimum():
     gone = tuple(replace(each, value=1e5) for each in elsewhere.estimates)
     lost = fitted(effects=["chain_pitch"], near=replace(elsewhere, estimates=gone))
     assert lost.settings.motor_gap == pytest.approx(cold.settings.motor_gap, abs=1e-4)
+
+
+MACHINE = replace(MAKER, motor_gap=3000.0, motor_center_x=0.0, sled_weight=110.0)
+POSSIBLE = [
+    ("tape_scale.strain", 0.0089, 1e-5),
+    ("tape_scale.strain", -0.0089, 1e-5),
+    ("tape_scale.strain", 0.1, 0.05),  # says hardly anything
+    ("frame_flex.inward", -0.01, 0.001),  # noise
+    ("motor_gap", 3290.0, 1.0),
+    ("motor_gap", 2710.0, 1.0),
+    ("motor_gap", 3500.0, 100.0),
+    ("motor_center_x", -190.0, 1.0),
+    ("sled_weight", 38.0, 1.0),  # of 110 N
+    ("sled_weight", 255.0, 1.0),
+    ("sled_weight", 9.8, 14.0),
+]
+ABSURD = [
+    ("tape_scale.strain", 0.0091, 1e-5),
+    ("tape_scale.strain", -0.0091, 1e-5),
+    ("tape_scale.strain", 0.1, 0.045),
+    ("motor_gap", 3310.0, 1.0),
+    ("motor_gap", 2690.0, 1.0),
+    ("motor_gap", 3500.0, 95.0),
+    ("motor_center_x", -210.0, 1.0),
+    ("sled_weight", 9.8, 2.0),  # a kilogram
+    ("sled_weight", 32.0, 1.0),
+    ("sled_weight", 265.0, 1.0),
+]
+
+
+@pytest.mark.parametrize("check", POSSIBLE)
+def test_odd_but_possible_values_are_accepted(check):
+    refuse_absurd([Checked(*check)], MACHINE)
+
+
+@pytest.mark.parametrize("check", ABSURD)
+def test_values_that_no_machine_has_are_refused(check):
+    with pytest.raises(InputError, match=f"--checked {check[0]}="):
+        refuse_absurd([Checked(*POSSIBLE[0]), Checked(*check)], MACHINE)

@@ -21,11 +21,8 @@ from plumb.text.answers import json_of
 from plumb.text.errors import InputError
 from synthetic import BELIEVED, EFFECTS, TRUE, grid, marks_on
 
-HIDDEN = {
-    "sled_friction": {"drag": 7.0},
-    "sheet_skew": {"angle": -0.0012},
-    "tape_scale": {"strain": 0.0004},
-}
+HIDDEN = {"sled_friction": {"drag": 7.0}, "tape_scale": {"strain": 0.0004}}
+HIDDEN["sheet_skew"] = {"angle": -0.0012}
 WIDE = {"motor_gap": 1e3, "motor_height": 1e3, "motor_center_x": 1e3, "sheet_rotation": 1.0}
 SIDES = ((40.0, 0.0), (-40.0, 0.0), (0.0, 40.0), (0.0, -40.0))
 
@@ -44,17 +41,14 @@ def marks(hidden, *, noise=0.0, columns=7, approaches=SIDES):
     assert (sighting.outcome == FOUND).all()
     where = sighting.read.where
     where = where + noise * np.random.default_rng(3).standard_normal(where.shape)
-    return tuple(
-        replace(mark, measured=tuple(place))
-        for mark, place in zip(sent, where.tolist(), strict=True)
-    )
+    read = zip(sent, where.tolist(), strict=True)
+    return tuple(replace(mark, measured=tuple(place)) for mark, place in read)
 
 
 def test_all_are_found_at_once_beside_those_of_the_machine():
     board = Measurements(marks(HIDDEN, columns=9))
-    fitted = fit(
-        BELIEVED, observe(BELIEVED, board), effects=[*EFFECTS, *HIDDEN], priors=WIDE, sigma=0.01
-    )
+    rows = observe(BELIEVED, board)
+    fitted = fit(BELIEVED, rows, effects=[*EFFECTS, *HIDDEN], priors=WIDE, sigma=0.01)
     assert fitted.settled and fitted.rms < 1e-4
     for name, parameters in HIDDEN.items():
         for parameter, value in parameters.items():
@@ -77,9 +71,7 @@ def test_a_lab_effect_is_named_with_its_cure_and_pays():
         assert "a length that you trust" in said
     answer = json_of(result)
     assert set(answer["lab_effects"]) == {"tape_scale"} and "tape_scale" not in answer["effects"]
-    strain = next(
-        parameter for parameter in result.parameters if parameter.name == "tape_scale.strain"
-    )
+    (strain,) = [each for each in result.parameters if each.name == "tape_scale.strain"]
     assert strain.low < 0.001 < strain.high and strain.unit == "1" and strain.plausible
 
 
@@ -109,8 +101,6 @@ def test_one_side_only_hides_friction_behind_sag_and_two_sides_show_it():
     for approaches in (((40.0, 0.0),), ((40.0, 0.0), (-40.0, 0.0))):
         rows = observe(BELIEVED, Measurements(marks({}, approaches=approaches)))
         fitted = fit(BELIEVED, rows, effects=[*EFFECTS, "sled_friction"], sigma=0.5)
-        drag = next(
-            estimate for estimate in fitted.estimates if estimate.name == "sled_friction.drag"
-        )
+        (drag,) = [each for each in fitted.estimates if each.name == "sled_friction.drag"]
         widths.append(drag.high - drag.low)
     assert widths[1] < widths[0]

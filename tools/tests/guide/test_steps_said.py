@@ -1,12 +1,24 @@
-"""Tests of a step of the guide: its lines, answers, alarms, and places that are off."""
+"""Tests of steps of the guide: lines, answers, alarms, what it accepts, keeps and calls normal."""
 
 from types import SimpleNamespace
 
 import pytest
+from plumb.fit.expected import expected_anywhere, expected_priors, expected_sentence
 from plumb.guide import steps
-from plumb.guide.steps import GuideVisit, check_wires, first_mark, set_chains, tell_numbers
-from plumb.guide.talk import GuideProgress
+from plumb.guide.steps import (
+    GuideVisit,
+    _judge_mark,
+    check_wires,
+    first_mark,
+    keep_other,
+    set_chains,
+    show_reach,
+    tell_numbers,
+)
+from plumb.guide.talk import GuideProgress, progress_in
 from plumb.settings.toml import machine_toml
+from plumb.text.errors import InputError
+from plumb.text.values import MM
 from prepared_owner import PreparedOwner
 from synthetic import BELIEVED
 
@@ -109,3 +121,61 @@ def test_z_is_jogged_only_where_it_has_a_motor(tmp_path, numbers, attached, axes
     assert len(jogs) == 2 * len(axes) and len(visit.sent) == 6 * len(axes)
     assert ("G0 Z1" in visit.sent) is ("G0 Z-1" in visit.sent) is (attached > 0)
     assert ("B09 L-20 F300" in visit.sent) and ("B09 R20 F300" in visit.sent)
+
+
+def owner_of(*answers):
+    left = list(answers)
+    return PreparedOwner(lambda question: left.pop(0))
+
+
+def test_a_damaged_file_is_refused(tmp_path):
+    (tmp_path / "guide.json").write_text('{"done": 3}')
+    with pytest.raises(InputError, match="damaged"):
+        progress_in(tmp_path)
+
+
+# How well a careful owner knows the frame [mm]: little but the height is open.
+SIGMAS = {"motor_height": 10.0, "motor_center_x": 0.1, "motor_gap": 0.1, "rotation_radius": 0.1}
+
+
+@pytest.mark.parametrize(("off", "is_normal"), [(19.0, True), (21.0, False)])
+def test_a_first_mark_twice_as_far_as_expected_is_still_normal(tmp_path, off, is_normal):
+    width, height = BELIEVED.sheet
+    owner = owner_of(str(width / 2), str(height / 2 + off))
+    visit = GuideVisit(None, owner, GuideProgress(tmp_path, [], SIGMAS))
+    assert _judge_mark(visit, BELIEVED) is is_normal
+    assert ("is normal" in owner.said[-1]) is is_normal
+
+
+def test_the_guide_calls_normal_what_plumb_reach_does(tmp_path):
+    owner = owner_of()
+    (tmp_path / "machine.toml").write_text(machine_toml(BELIEVED))
+    assert show_reach(GuideVisit(None, owner, GuideProgress(tmp_path, [], SIGMAS)))
+    expected = expected_anywhere(BELIEVED, expected_priors(SIGMAS))
+    assert owner.said[-1].endswith(expected_sentence(expected, MM))
+
+
+@pytest.fixture
+def path(tmp_path):
+    path = tmp_path / "machine.toml"
+    path.write_bytes(b"first")
+    return path
+
+
+def names(path):
+    return sorted(each.name for each in path.parent.iterdir())
+
+
+def test_a_replaced_file_is_kept_once(path):
+    keep_other(path, b"second")
+    keep_other(path, b"second")
+    assert names(path) == ["machine-old.toml", "machine.toml"]
+    assert path.with_name("machine-old.toml").read_bytes() == b"first" == path.read_bytes()
+
+
+def test_another_file_that_is_replaced_gets_a_further_name(path):
+    keep_other(path, b"second")
+    path.write_bytes(b"second")
+    keep_other(path, b"third")
+    assert path.with_name("machine-old-2.toml").read_bytes() == b"second"
+    assert path.with_name("machine-old.toml").read_bytes() == b"first"

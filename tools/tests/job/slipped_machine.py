@@ -18,6 +18,14 @@ HOLES = np.array([(-900.0, 250.0), (900.0, -250.0)])  # [mm] that the machine ma
 HAND = 0.3  # [mm] of a coordinate: how well a bit sits in its hole
 
 
+def record_of(left_out, turn=0.0):
+    """The record of a fit, of which the error of marks that were left out [mm] and the sheet's
+    turn [rad] matter."""
+    return FitRecord(
+        start_rms=5.0, rms=1.0, priced_rms=1.1, left_out_rms=left_out, sheet_rotation=turn
+    )
+
+
 @cache
 def fitted_machine(number):
     """The judge's machine of this number and its settings, after a calibration on 15 marks."""
@@ -25,13 +33,7 @@ def fitted_machine(number):
     board = cut(as_bought(usual_machine(source, number, sites), source), sites, seed=source)
     model, rows = Inputs(MAKER, board.measurements).model_and_observations()
     done = fit(model, rows, effects=("chain_pitch", "chain_stretch"), sigma=0.5)
-    record = FitRecord(
-        start_rms=0.0,
-        rms=done.rms,
-        priced_rms=done.corrected_rms,
-        left_out_rms=done.left_out_rms,
-        sheet_rotation=done.sheet_rotation,
-    )
+    record = record_of(done.left_out_rms, done.sheet_rotation)
     return board.machine, replace(done.settings, fitted=record)
 
 

@@ -1,13 +1,14 @@
-"""plumb check: what is wrong with a program, its times, its parts and their errors."""
+"""plumb check: what is wrong with a program, its times, its parts, their errors, its picture."""
 
 import re
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
+from example_machine import EXAMPLE
 from plumb import _judge
 from plumb.bench.causes import MAKER
+from plumb.cli.check import WRONG, _picture, near_view, sheet_of
 from plumb.fit.inputs import Inputs
 from plumb.job.check import Believed, Part, check_job, with_errors
 from plumb.job.dry_run import hull_of, outline_of
@@ -17,7 +18,6 @@ from plumb.model.predict import judged, lengths
 from plumb.settings.files import read_settings
 from workshop import NAMES, PROGRAMS, lines_of
 
-EXAMPLE = Path(__file__).resolve().parents[3] / "docs/example"
 SETTINGS, POCKET, MARKS = (
     EXAMPLE / name for name in ("groundcontrol.ini", "pocket.nc", "marks.toml")
 )
@@ -28,13 +28,8 @@ OTHER = EXAMPLE.parents[1] / "tools/plumb/examples/madgrizzle-2018-09-04"
 def square(x, y, size, depth=1.0):
     """Lines that cut a square with its lower left corner there."""
     corners = [(x + size, y), (x + size, y + size), (x, y + size), (x, y)]
-    return [
-        "G0 Z3",
-        f"G0 X{x} Y{y}",
-        f"G1 Z{-depth} F60",
-        *(f"G1 X{x} Y{y} F600" for x, y in corners),
-        "G0 Z3",
-    ]
+    sides = [f"G1 X{x} Y{y} F600" for x, y in corners]
+    return ["G0 Z3", f"G0 X{x} Y{y}", f"G1 Z{-depth} F60", *sides, "G0 Z3"]
 
 
 def lines_and_kinds(lines):
@@ -110,16 +105,8 @@ def test_a_limit_that_slows_the_sled_is_named(lines, cause, asked, feed):
 
 
 def test_times_are_given_for_the_programmed_feeds_and_the_limit():
-    lines = [
-        "G0 Z3",
-        "G0 X0 Y0",
-        "G1 X100 F1800",
-        "G1 X190 F600",
-        "G93",
-        "G1 X90 F30",
-        "G1 X90 F30",
-        "G94",
-    ]
+    lines = ["G0 Z3", "G0 X0 Y0", "G1 X100 F1800", "G1 X190 F600"]
+    lines += ["G93", "G1 X90 F30", "G1 X90 F30", "G94"]
     times = check_job(MAKER, lines, numbers={15: 900}).times
     assert times.asked == pytest.approx(100 / 30 + 9 + 2, abs=0.02)
     assert times.capped == pytest.approx(100 / 15 + 9 + 100 / 15, abs=0.02)
@@ -174,11 +161,8 @@ def test_a_part_comes_out_as_expected(file, corner):
     true = true_errors(settings, places)
     design = np.column_stack([np.ones(len(places)), places - places.mean(axis=0)])
     stretch = np.linalg.lstsq(design, true, rcond=None)[0][1:]
-    wanted = (
-        size[0] * stretch[0, 0],
-        size[1] * stretch[1, 1],
-        size[1] * (stretch[0, 1] + stretch[1, 0]),
-    )
+    across, up, skew = stretch[0, 0], stretch[1, 1], stretch[0, 1] + stretch[1, 0]
+    wanted = size[0] * across, size[1] * up, size[1] * skew
     for error, truth in zip((part.width_error, part.height_error, part.skew), wanted, strict=True):
         assert abs(error.mm - truth) < error.within < 1.5
     if file == "groundcontrol.ini":
@@ -221,9 +205,8 @@ def test_checking_a_program_in_pieces_gives_the_same_answers(ask, monkeypatch):
 
 def test_the_command_prints_all_findings(ask, run, tmp_path):
     picture, outline = tmp_path / "job.svg", tmp_path / "outline.nc"
-    code, answer = ask(
-        "check", POCKET, SETTINGS, "--marks", MARKS, "--picture", picture, "--outline", outline
-    )
+    drawn = ("--picture", picture, "--outline", outline)
+    code, answer = ask("check", POCKET, SETTINGS, "--marks", MARKS, *drawn)
     assert code == 0 and answer["good"] and answer["written"] == [str(picture), str(outline)]
     assert answer["parts"][0]["width_error"]["within"] > 0
     assert b"pocket.nc: nothing is wrong" in picture.read_bytes()
@@ -271,3 +254,46 @@ def test_the_command_ends_with_1_where_something_is_wrong(ask, run, tmp_path):
 def test_bad_words_are_refused(run, words, says):
     code, _, complaint = run("check", PROGRAMS / "easel_tabs.nc", SETTINGS, *words)
     assert code == 2 and says in complaint
+
+
+def drawn(*lines):
+    """The sheet of a program, and the program as it was checked."""
+    checked = check_job(MAKER, lines)
+    return sheet_of(checked, MAKER, "folder/job.nc"), checked
+
+
+def ends(ways):
+    """The last place of each way [mm]."""
+    return [tuple(np.round(way[-1], 3).tolist()) for way in ways.lines]
+
+
+def test_the_piece_is_shaded_by_its_depth_and_seen_whole():
+    sheet, checked = drawn(*SLOT)
+    picture = _picture(checked, MAKER, "job.nc", form="svg")
+    assert picture.count(b"<image") == 2  # on the sheet, and from near
+    assert b"cut up to 1.00 mm deep" in picture
+    low, high = near_view(checked)
+    assert low[0] < 100 - 6.35 / 2 and high[0] > 140 + 6.35 / 2
+    (left, _), (right, _) = sheet.shaded
+    assert left < 100 and right > 140 and (sheet.shades[..., 3] > 0).any()
+    nothing, checked = drawn("G0 Z3", "G0 X9")
+    assert nothing.shades is None
+    assert b"<image" not in _picture(checked, MAKER, "job.nc", form="svg")
+
+
+SLOT = ("G0 Z3", "G0 X100 Y50", "G1 Z-1 F60", "G1 X140 F600", "G0 Z3")
+
+
+def test_faults_are_drawn_in_their_colour():
+    sheet, _ = drawn(*SLOT, "G0 Z-1", "G0 X160", "G0 Z3")
+    assert sheet.title == "job.nc: something is wrong" and not sheet.good
+    assert ends(sheet.ways[-1]) == [(160.0, 50.0)] and sheet.ways[-1].colour == WRONG
+
+
+def test_a_cut_where_the_sled_hangs_badly_is_wrong_but_a_move_above_the_sheet_is_not():
+    corner = ("G0 X-1215 Y-600", "G1 Z-1 F60", "G1 X-1200 F600", "G0 Z3")
+    sheet, _ = drawn(*SLOT, *corner)
+    assert not sheet.good and ends(sheet.ways[-1])[-1] == (-1200.0, -600.0)
+    assert ends(sheet.ways[1])[-1] == (140.0, 50.0)
+    above, _ = drawn(*SLOT, "G0 X-1215 Y-600", "G0 X0 Y0")
+    assert above.good and above.ways[-1].lines == []

@@ -3,12 +3,7 @@
 import numpy as np
 import pytest
 from plumb.bench.causes import MAKER, Hidden, causes_of
-from plumb.job.home import (
-    hole_program,
-    home_fit,
-    new_home_mark,
-    read_home_marks,
-)
+from plumb.job.home import hole_program, home_fit, new_home_mark, read_home_marks
 from plumb.job.slip import repair_program
 from plumb.model.predict import lengths
 from plumb.text.errors import InputError

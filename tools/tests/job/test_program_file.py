@@ -4,11 +4,11 @@ from pathlib import Path
 
 import plumb.cli.send as send_command
 import pytest
+from example_machine import EXAMPLE
 from plumb.cli.main import main
 from plumb.job.dry_run import refuse_what_is_no_program
 
 ROOT = Path(__file__).parents[3]
-EXAMPLE = ROOT / "docs/example"
 NUMBERS = "numbers are sent from a machine.toml"
 CODE = "give a program of G-code"
 

@@ -1,10 +1,10 @@
 """plumb resume: after a halt anywhere the cut goes on as if nothing had happened."""
 
 import re
-from pathlib import Path
 
 import numpy as np
 import pytest
+from example_machine import INI
 from plumb.bench.causes import MAKER
 from plumb.job.check import check_job
 from plumb.job.dry_run import IN_WOOD
@@ -15,7 +15,6 @@ from scipy.spatial import cKDTree
 from workshop import NAMES, PROGRAMS, Workshop, lines_of, run_dry
 
 MACHINE = JobMachine(MAKER, (0.0, 0.0, 0.0), {})
-SETTINGS = Path(__file__).resolve().parents[3] / "docs/example/groundcontrol.ini"
 LINES = 8  # of each program that are tried
 APART = 0.5  # [mm] at most between the cut after a halt and the cut without
 NUMBERS = ("from_x", "from_y", "to_x", "to_y", "z_from", "z_to", "length", "sweep")
@@ -23,8 +22,7 @@ NUMBERS = ("from_x", "from_y", "to_x", "to_y", "z_from", "z_to", "length", "swee
 
 def same_moves(after, moves):
     """Whether the last moves of a resumed program are these, at the same feeds."""
-    tail = after.rows[len(after) - len(moves) :]
-    assert len(tail) == len(moves)
+    assert len(after) >= len(moves)
     tail = after.only(np.arange(len(after) - len(moves), len(after)))
     for name in NUMBERS:
         assert tail[name] == pytest.approx(moves[name], abs=0.02), name
@@ -98,9 +96,8 @@ def test_the_cut_after_a_halt_is_the_cut_without(name):
 
 def test_a_cycle_is_drilled_from_its_beginning():
     lines = ["G0 Z4", "G81 X9 Z-3 R1 F60", "X20", "(c)", "X30", "G80", "G0 X0"]
-    assert [resume_at_line(MACHINE, lines, line).first for line in range(1, 8)] == [
-        *(1, 2, 2, 2, 2, 2, 7)
-    ]
+    begins = [resume_at_line(MACHINE, lines, line).first for line in range(1, 8)]
+    assert begins == [1, 2, 2, 2, 2, 2, 7]
     in_force = cycles_after(["G82 Z-1", "G4 P1", "G1 X4", "G83 X5", "M2"])
     assert in_force == [True, True, False, True, False]
     resumed = resume_at_place(MACHINE, lines, (20, 0))
@@ -215,19 +212,19 @@ def test_impossible_values_are_refused():
 def test_the_command_writes_the_program(run, ask, tmp_path):
     output = tmp_path / "rest.nc"
     job = PROGRAMS / "kirimoto_outline.nc"
-    code, said, _ = run("resume", job, SETTINGS, "--line", "18", "-o", output)
+    code, said, _ = run("resume", job, INI, "--line", "18", "-o", output)
     assert code == 0 and "goes on with line 11" in said
     assert output.read_text().startswith("(plumb: kirimoto_outline.nc from line 11 on)\nG21")
     assert "Look at it before you send it:" in said and f"{output}" in said
-    code, answer = ask("resume", job, SETTINGS, "--line", "18", "-o", output)
+    code, answer = ask("resume", job, INI, "--line", "18", "-o", output)
     assert code == 0 and answer["written"] == [str(output)] and answer["passes"] == []
     assert (answer["line"], len(answer["begins_mm"])) == (11, 3)
-    code, answer = ask("resume", job, SETTINGS, "--at=-60,65", "-o", output)
+    code, answer = ask("resume", job, INI, "--at=-60,65", "-o", output)
     assert (answer["line"], answer["passes"]) == (13, [13, 20]) and answer["begins_mm"][2] < 0
-    code, said, report = run("resume", job, SETTINGS, "--at=-60,65")
+    code, said, report = run("resume", job, INI, "--at=-60,65")
     assert "Look at it" not in said + report
     assert code == 0 and "G1 Z-1.0000 F150\n" in said
     assert re.search(r"line 13, at X-60.\d\d Y65.\d\d, 1.00 mm deep", report.replace("\n", " "))
     assert "It cuts there again at line 20" in report
-    code, _, complaint = run("resume", job, SETTINGS)
+    code, _, complaint = run("resume", job, INI)
     assert code == 2 and "--line N, --at X,Y" in complaint

@@ -9,6 +9,7 @@ from plumb.job.findings import DEEP, GOUGES, STILL
 
 R = 6.35 / 2  # [mm] of the usual bit
 PLUNGE = "a rapid move drives the bit {} mm down into wood that nothing has cut"
+ARC = "G1 Z-3 F60", "G2 X40 I20 F500"
 ACROSS = "a rapid move crosses wood that nothing has cut, {} mm deep"
 
 
@@ -68,11 +69,8 @@ def test_adaptive_clearing_may_return_through_the_cut():
         (["G1 Z-3 F60", "G0 Z5", "G0 Z-4", "G0 Z5"], [(3, 1, PLUNGE.format("1.00"))]),
         (["G1 Z-3 F60", "G0 Z5", "G0 X1", "G0 Z-3", "G0 Z5"], [(4, 1, PLUNGE.format("3.00"))]),
         (["G1 Z-3 F60", "G1 X40 F500", "G0 Z5", "G0 X21.3", "G0 Z-3", "G1 Z-4"], []),
-        (["G1 Z-3 F60", "G2 X40 I20 F500", "G0 Z5", "G0 X20 Y20", "G0 Z-3", "G0 Z4"], []),
-        (
-            ["G1 Z-3 F60", "G2 X40 I20 F500", "G0 Z5", "G0 X20 Y19", "G0 Z-3", "G0 Z4"],
-            [(5, 1, PLUNGE.format("3.00"))],
-        ),
+        ([*ARC, "G0 Z5", "G0 X20 Y20", "G0 Z-3", "G0 Z4"], []),
+        ([*ARC, "G0 Z5", "G0 X20 Y19", "G0 Z-3", "G0 Z4"], [(5, 1, PLUNGE.format("3.00"))]),
         # The way up gouges nothing, and neither does the way across behind a plunge.
         (["G0 Z-5", "G0 Z-3"], [(1, 1, PLUNGE.format("5.00"))]),
         (["G0 Z5", "G0 Z-5", "G0 X40", "G0 X60 Y9"], [(2, 1, PLUNGE.format("5.00"))]),
@@ -82,10 +80,7 @@ def test_adaptive_clearing_may_return_through_the_cut():
         (["G1 Z-2 F60", "G1 X40 F500", "G0 X0", "G0 X40"], []),
         (["G1 Z-2 F60", "G1 X40 F500", "G0 X-9", "G0 X0"], [(3, 1, ACROSS.format("2.00"))]),
         (["G1 Z-2 F60", "G1 X40 F500", "G1 Z-4 F60", "G0 X9"], [(4, 1, ACROSS.format("2.00"))]),
-        (
-            ["G0 Z2", "G0 Z-1", "G0 Z2", "G0 X30", "G0 Z-3", "G0 Z2"],
-            [(2, 2, PLUNGE.format("3.00"))],
-        ),
+        (["G0 Z2", "G0 Z-1", "G0 Z2", "G0 X9", "G0 Z-3", "G0 Z2"], [(2, 2, PLUNGE.format("3.00"))]),
         (["G0 Z2", "G83 X9 Z-6 R1 Q2 F50", "X20", "G80", "G0 X0"], []),
         (["G0 Z2", "G81 X9 Z-6 R-1 F50", "G80"], [(2, 1, PLUNGE.format("1.00"))]),
     ],
@@ -94,25 +89,11 @@ def test_a_rapid_into_wood_is_reported_once_with_its_cause(lines, wrong):
     assert gouges(*lines) == wrong
 
 
-CARBIDE = [
-    "(STOCK/BLOCK,100.00,100.00,18.00,0.00,0.00,18.00)",
-    "G90",
-    "G21",
-    "(Move to safe Z to avoid workholding)",
-    "G53G0Z-5.000",
-    "M05",
-    "(TOOL/MILL,3.17,0.00,12.00,0.00)",
-    "M6T102",
-    "M03S18000",
-    "(PREPOSITION FOR RAPID PLUNGE)",
-    "G0X40.000Y20.000",
-    "Z0.500",
-    "G1Z-0.762F381.0",
-    "X80.000F1143.0",
-    "G53G0Z-5.000",
-    "M05",
-    "M02",
-]
+CARBIDE = ["(STOCK/BLOCK,100.00,100.00,18.00,0.00,0.00,18.00)", "G90", "G21"]
+CARBIDE += ["(Move to safe Z to avoid workholding)", "G53G0Z-5.000", "M05"]
+CARBIDE += ["(TOOL/MILL,3.17,0.00,12.00,0.00)", "M6T102", "M03S18000"]
+CARBIDE += ["(PREPOSITION FOR RAPID PLUNGE)", "G0X40.000Y20.000", "Z0.500", "G1Z-0.762F381.0"]
+CARBIDE += ["X80.000F1143.0", "G53G0Z-5.000", "M05", "M02"]
 
 
 def test_the_safe_height_of_carbide_create_is_named_with_its_cure():

@@ -1,12 +1,11 @@
 """A virtual machine that cuts programs, and the dry run with the same numbers."""
 
-from pathlib import Path
-
+from example_machine import ROOT
 from plumb.bench.causes import MAKER
 from plumb.job.dry_run import Done, Run
 from usual_machine import declaration, switched_on, usual_machine
 
-PROGRAMS = Path(__file__).resolve().parents[3] / "test/programs"
+PROGRAMS = ROOT / "test/programs"
 NAMES = sorted(path.name for path in PROGRAMS.iterdir() if path.suffix not in (".places", ".md"))
 
 

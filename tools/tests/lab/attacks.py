@@ -35,12 +35,8 @@ class Try:
         """The text with this lab's port and token, and what differs from them by a little."""
         if text is None:
             return None
-        for name, value in (
-            ("PORT", str(lab.port)),
-            ("NEXT", str(lab.port + 1)),
-            ("TOKEN", lab.token),
-        ):
-            text = text.replace(f"<{name}>", value)
+        for name, value in {"PORT": lab.port, "NEXT": lab.port + 1, "TOKEN": lab.token}.items():
+            text = text.replace(f"<{name}>", f"{value}")
         return text
 
 
@@ -49,33 +45,14 @@ def with_header(name, *values, **rest):
     return [Try(headers=((name, value),), **rest) for value in values]
 
 
-FOREIGN_HOSTS = (
-    "evil.example",
-    "evil.example:<PORT>",
-    "127.0.0.1.evil.example:<PORT>",
-    "localhost.evil.example:<PORT>",
-    "127.0.0.1",
-    "127.0.0.1:<NEXT>",
-    "127.0.0.1:<PORT>@evil.example",
-    "[::1]:<PORT>",
-    "0.0.0.0:<PORT>",
-    "127.1:<PORT>",
-    "2130706433:<PORT>",
-    "",
-    None,
-)
-FOREIGN_ORIGINS = (
-    "http://evil.example",
-    "null",
-    "",
-    "http://127.0.0.1:<NEXT>",
-    "https://127.0.0.1:<PORT>",
-    "http://127.0.0.1",
-    "http://localhost.evil.example:<PORT>",
-    "http://127.0.0.1:<PORT>.evil.example",
-    "http://127.0.0.1:<PORT>/",
-    "file://",
-)
+FOREIGN_HOSTS = ("evil.example", "evil.example:<PORT>", "127.0.0.1.evil.example:<PORT>")
+FOREIGN_HOSTS += ("localhost.evil.example:<PORT>", "127.0.0.1", "127.0.0.1:<NEXT>")
+FOREIGN_HOSTS += ("127.0.0.1:<PORT>@evil.example", "[::1]:<PORT>", "0.0.0.0:<PORT>", "127.1:<PORT>")
+FOREIGN_HOSTS += ("2130706433:<PORT>", "", None)
+FOREIGN_ORIGINS = ("http://evil.example", "null", "", "http://127.0.0.1:<NEXT>")
+FOREIGN_ORIGINS += ("https://127.0.0.1:<PORT>", "http://127.0.0.1")
+FOREIGN_ORIGINS += ("http://localhost.evil.example:<PORT>", "http://127.0.0.1:<PORT>.evil.example")
+FOREIGN_ORIGINS += ("http://127.0.0.1:<PORT>/", "file://")
 WRONG_KEYS = (None, "", "x", "<TOKEN>x", "x<TOKEN>", "<TOKEN>, <TOKEN>", "*", "\xff\xfe")
 SIMPLE = ("text/plain", "application/x-www-form-urlencoded", BOUNDARY)
 OUTSIDE = (
@@ -99,21 +76,8 @@ OUTSIDE = (
     "/api/../../guard.py",
     "/api/settings/../../secret.ini",
 )
-NAMES = (
-    "../secret.ini",
-    "..",
-    ".",
-    "/etc/passwd",
-    "a/b.ini",
-    "a\\b.ini",
-    ".lab.token",
-    "~/x.ini",
-    "x.ini\n",
-    "x\0.ini",
-    "C:\\x.ini",
-    "x" * 65,
-    "\u2025/secret.ini",
-)
+NAMES = ("../secret.ini", "..", ".", "/etc/passwd", "a/b.ini", "a\\b.ini", ".lab.token", "~/x.ini")
+NAMES += ("x.ini\n", "x\0.ini", "C:\\x.ini", "x" * 65, "\u2025/secret.ini")
 
 
 def chosen(**choices):

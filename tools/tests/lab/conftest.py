@@ -8,7 +8,7 @@ from asked_again import tried_less  # noqa: F401
 from folder import with_settings
 from served_lab import SharedLab
 
-BUSY_MS = 120_000  # of a busy computer
+BUSY_MS = 300_000  # of a busy computer
 
 
 @pytest.fixture(scope="session")
@@ -89,6 +89,23 @@ def fresh_page(browser):
     with looked_at(context.new_page()) as page:
         yield page
     context.close()
+
+
+@pytest.fixture
+def open_page(browser):
+    """Opens a page of another browser, of some size or scheme."""
+    contexts = []
+
+    def opened(**how):
+        contexts.append(browser.new_context(**how))
+        contexts[-1].set_default_timeout(BUSY_MS)
+        return contexts[-1].new_page()
+
+    yield opened
+    for context in contexts:
+        for each in context.pages:
+            each.unroute_all(behavior="ignoreErrors")
+        context.close()
 
 
 @pytest.fixture

@@ -2,8 +2,8 @@
 
 import time
 from itertools import cycle
-from pathlib import Path
 
+from example_machine import EXAMPLE
 from fastapi.testclient import TestClient
 from plumb.diary.file import FIT, append
 from plumb.fit.compare import compare
@@ -12,8 +12,6 @@ from plumb.lab.guard import Address
 from plumb.lab.project import Project
 from plumb.lab.rounds import inputs_of
 
-ROOT = Path(__file__).resolve().parents[3]
-EXAMPLE = ROOT / "docs" / "example"
 TOKEN = "t" * 32
 ADDRESS = Address("127.0.0.1", 8123)
 PATIENCE = 120  # [s] of a busy computer
@@ -60,6 +58,14 @@ def choose(client, **change):
     project = got(client.get("/api/project"))
     body = {"choices": {**project["choices"], **change}, "read": project["choices_digest"]}
     return got(client.put("/api/choices", json=body))
+
+
+def write_correction(client, status=200):
+    """Write what is accepted of the correction, as the page does."""
+    project = got(client.get("/api/project"))
+    settings = project["files"][project["choices"]["settings"]]
+    body = {"settings": settings, "choices": project["choices_digest"]}
+    return got(client.post("/api/correction", json=body), status)
 
 
 def type_in(client, file, *offsets):

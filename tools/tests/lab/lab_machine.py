@@ -14,7 +14,7 @@ def start_virtual(page, lab, *, speed=1000, number=None):
         page.get_by_text("A certain machine").click()
         page.get_by_label("Its number").fill(str(number))
     page.get_by_role("button", name="Start a virtual machine").click()
-    page.get_by_role("heading", name="This machine is open").wait_for(timeout=PATIENCE)
+    page.get_by_role("heading", name="This machine is open").wait_for()
 
 
 def bar(page):

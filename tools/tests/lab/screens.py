@@ -4,10 +4,9 @@ import json
 from datetime import UTC, datetime, timedelta
 from pathlib import Path
 
+from example_machine import EXAMPLE, ROOT
 from folder import got, note_fit, type_in, until
 
-ROOT = Path(__file__).resolve().parents[3]
-EXAMPLE = ROOT / "docs/example"
 AXE = (ROOT / "tools/page/node_modules/axe-core/axe.min.js").read_text()
 SIZES = {"desktop": (1280, 900), "phone": (375, 740)}
 SMALLEST_TEXT = 13  # CSS pixels; the body has 15, and 16 on a phone; in drawings 12
@@ -72,11 +71,8 @@ def fitted_machine(folder: Path) -> Path:
     folder.mkdir(exist_ok=True)
     for name in ("groundcontrol.ini", "machine.toml", "marks.toml"):
         (folder / name).write_bytes((EXAMPLE / name).read_bytes())
-    choices = {
-        "settings": "machine.toml",
-        "marks": ["marks.toml"],
-        "settings_before": ["groundcontrol.ini"],
-    }
+    choices = {"settings": "machine.toml", "marks": ["marks.toml"]}
+    choices["settings_before"] = ["groundcontrol.ini"]
     (folder / "lab.json").write_text(json.dumps(choices))
     day = datetime(2026, 5, 1, 12, tzinfo=UTC)
     note_fit(folder, day, 0.9, 2978.0)

@@ -67,19 +67,6 @@ def test_the_page_of_the_guard_counts_these_attacks():
 
 
 @ON_POSIX
-def test_a_link_in_the_folder_is_neither_read_nor_written(lab):
-    name = "linked.ini"
-    (lab.folder / name).symlink_to(lab.folder.parent / "secret.ini")
-    choose = Try(body=b'{"choices": {"settings": "linked.ini"}, "read": ""}')
-    answer = answered(lab, choose.bytes(lab))
-    assert SECRET.encode() not in answer
-    shown = answered(lab, Try("GET", "/api/project", body=b"").bytes(lab))
-    assert b"linked.ini is a link" in shown
-    assert f'"{name}":'.encode() not in shown
-    (lab.folder / "lab.json").unlink()
-
-
-@ON_POSIX
 @pytest.mark.parametrize("name", ["groundcontrol.ini", "lab.json", ".lab.lock"])
 def test_nothing_is_saved_through_a_link(lab, name):
     target = lab.folder.parent / "secret.ini"

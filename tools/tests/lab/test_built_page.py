@@ -8,11 +8,11 @@ import sys
 from pathlib import Path
 
 import plumb
+from example_machine import ROOT
 from folder import got, with_settings
 from plumb.cli.main import COMMANDS, main
 from published_marks import SETTINGS
 
-ROOT = Path(__file__).resolve().parents[3]
 PAGE = ROOT / "tools/plumb/lab/page"
 MOST = 70_000  # bytes, gzipped
 
@@ -23,9 +23,8 @@ def files(folder):
 
 
 def test_the_page_is_made_of_the_source_as_it_is(tmp_path):
-    done = subprocess.run(
-        [ROOT / "tools/page/make", tmp_path / "page"], capture_output=True, text=True
-    )
+    made = [ROOT / "tools/page/make", tmp_path / "page"]
+    done = subprocess.run(made, capture_output=True, text=True)
     assert done.returncode == 0, done.stdout + done.stderr
     made, shipped = files(tmp_path / "page"), files(PAGE)
     stale = sorted(name for name in made | shipped if made.get(name) != shipped.get(name))
@@ -98,9 +97,8 @@ print("\\n".join(file for file in files if file and file.endswith(".py")))
 
 def run_by_the_lab():
     """The files of the package that the lab runs, but for those that read options themselves."""
-    said = subprocess.run(
-        [sys.executable, "-c", LOADED], capture_output=True, text=True, check=True
-    )
+    command = [sys.executable, "-c", LOADED]
+    said = subprocess.run(command, capture_output=True, text=True, check=True)
     for name in said.stdout.splitlines():
         tree = ast.parse(Path(name).read_text())
         imports = [node for node in ast.walk(tree) if isinstance(node, ast.Import)]

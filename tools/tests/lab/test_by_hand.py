@@ -107,12 +107,7 @@ ABSURD = [
     # Read from the sheet's top edge up to the motors.
     ("motor_height", 463.0, 1.0, "-146.6 mm is far from the 463.0 mm of the settings"),
     ("sled_weight", GRAVITY, 2.0, "1.0 kg is far from the 10.0 kg of the settings"),
-    (
-        "tape_scale.strain",
-        0.5,
-        0.001,
-        "500.00 mm cannot be: real machines have -3.00 mm to 3.00 mm",
-    ),
+    ("tape_scale.strain", 0.5, 0.001, "500.00 mm cannot be: real machines have -3.00 mm to 3"),
     ("frame_lean.tangent_squared", 1.0, 0.001, "45.0 degrees cannot be: real machines have"),
 ]
 

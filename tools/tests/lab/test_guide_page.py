@@ -19,7 +19,6 @@ PHONE = {"width": 375, "height": 812}
 @pytest.fixture
 def first_day(page, lab, cable):
     """The first page with the machine at its port connected."""
-    page.set_default_timeout(300_000)
     page.goto(lab.url)
     page.get_by_text("Another port").click()
     page.get_by_label("Its name").fill(cable.path)

@@ -5,8 +5,8 @@ the page asks which hold.
 import re
 
 import pytest
-from folder import EXAMPLE, asked, choose, example_form, got, until
-from lab_machine import PATIENCE, start_virtual
+from folder import EXAMPLE, asked, choose, example_form, got, until, write_correction
+from lab_machine import start_virtual
 from playwright.sync_api import expect
 from plumb.firmware.settings import differences, numbers_in_force
 from plumb.settings.files import read_settings
@@ -41,20 +41,6 @@ def open_other(client, folder, gap="3008.4"):
     return got(client.post("/api/settings", files=files))["machine"]["file"]
 
 
-def test_a_file_with_another_gap_is_refused_with_both_values(client, folder):
-    assert got(client.get("/api/machine/held"))["numbers"] == []
-    file = open_other(client, folder)
-    held = got(client.get("/api/machine/held"))
-    (gap,) = held["numbers"]
-    assert (gap["number"], gap["in_file"], gap["in_machine"]) == (2, 3008.4, 2978.4)
-    assert held["file"] == file and held["is_written_here"]
-    refused = got(client.post("/api/rounds/marks/cut"), 422)["error"]
-    assert f"motor_gap ($2) is 3008.4 in {file} and 2978.4 in the machine" in refused
-    assert "Which holds?" in refused
-    assert not (folder / "marks.toml").exists()
-    assert got(client.get("/api/machine"))["program"] is None
-
-
 def test_accepted_marks_are_cut_only_with_the_settings_of_their_form(client, folder):
     other = (folder / "machine.toml").read_text().replace("2978.4", "3008.4")
     (folder / "other.toml").write_text(other)
@@ -76,9 +62,7 @@ def test_no_correction_is_written_while_the_question_is_open(client, folder):
     file = open_other(client, folder)
     (folder / "marks.toml").write_text(example_form(read=99))
     choose(client, marks=["marks.toml"], accepted=["motor_gap"])
-    project = got(client.get("/api/project"))
-    body = {"settings": project["files"][file], "choices": project["choices_digest"]}
-    refused = got(client.post("/api/correction", json=body), 422)["error"]
+    refused = write_correction(client, 422)["error"]
     assert f"is 3008.4 in {file} and 2978.4 in the machine" in refused
     assert "Answer the question above, or disconnect" in refused
 
@@ -136,27 +120,27 @@ def with_another_file(lab, page):
     content = other.read_text().replace("2978.4", "3008.4").encode()
     picked = {"name": "other.toml", "mimeType": "text/plain", "buffer": content}
     page.locator("input[type=file]").first.set_input_files(picked)
-    expect(question(page)).to_contain_text(GAP, timeout=PATIENCE)
+    expect(question(page)).to_contain_text(GAP)
 
 
 def test_nothing_is_cut_before_the_owner_says_which_numbers_hold(lab, page):
     with_another_file(lab, page)
     page.goto(f"{lab.site}#/cut")
-    expect(question(page)).to_contain_text(GAP, timeout=PATIENCE)
+    expect(question(page)).to_contain_text(GAP)
     page.get_by_role("button", name="Move the sled and cut 9 marks").click()
     said = page.get_by_text(re.compile(r"is 3008\.4 in .* and 2978\.4 in the machine"))
-    expect(said).to_be_visible(timeout=PATIENCE)
+    expect(said).to_be_visible()
     assert not (lab.folder / "marks.toml").exists()
     question(page).get_by_role("button", name="The machine's: take them").click()
-    expect(question(page)).to_have_count(0, timeout=PATIENCE)
+    expect(question(page)).to_have_count(0)
     expect(page.get_by_text(re.compile("Which holds"))).to_have_count(0)
     page.get_by_role("button", name="Move the sled and cut 9 marks").click()
-    page.get_by_text("All marks are cut.").wait_for(timeout=PATIENCE)
+    page.get_by_text("All marks are cut.").wait_for()
 
 
 def test_the_files_numbers_go_into_the_machine_as_the_other_answer(lab, page):
     with_another_file(lab, page)
     question(page).get_by_role("button", name="send them to the machine").click()
-    expect(question(page)).to_have_count(0, timeout=PATIENCE)
+    expect(question(page)).to_have_count(0)
     (before,) = lab.folder.glob("*-before-*.nc")
     assert "$2=2978.4\n" in before.read_text()

@@ -5,10 +5,9 @@ import json
 import pytest
 from folder import example_form, got
 from playwright.sync_api import expect
-from plumb.marks.form import read_form
 from screens import at_rest, await_question
 from served_lab import serve
-from test_readings_page import LEFT, SHEET, await_saved, open_readings, type_in, with_form
+from test_readings_page import LEFT, await_saved, open_readings, saved, type_in, with_form
 
 
 def choices(lab):
@@ -24,36 +23,33 @@ def page_open(lab, fresh_page):
     return fresh_page
 
 
-def test_an_open_page_goes_on_with_a_server_that_was_killed_and_started(lab, page_open):
+def choose_inches_while_it_is_down(lab, page):
+    """The lab is killed, and what is chosen then is kept in the browser."""
     lab.process.kill()
-    page_open.get_by_label("inch").check()
-    page_open.get_by_role("alert").get_by_text("The lab does not answer").wait_for()
+    page.get_by_label("inch").check()
+    page.get_by_role("alert").get_by_text("The lab does not answer").wait_for()
+
+
+def test_an_open_page_goes_on_with_a_server_that_was_killed_and_started(lab, page_open):
+    choose_inches_while_it_is_down(lab, page_open)
     page_open.get_by_role("status").get_by_text("kept in this browser").wait_for()
     assert page_open.get_by_label("inch").is_checked()
     assert choices(lab) == {}
-    again = serve(lab.folder, port=lab.port)
-    try:
-        at_rest(page_open)
-        assert choices(lab).get("units") == "inch"
-        page_open.get_by_role("alert").wait_for(state="detached")
-        assert "kept" not in page_open.get_by_role("status").inner_text()
-    finally:
-        again.end()
+    lab.process = serve(lab.folder, port=lab.port).process
+    at_rest(page_open)
+    assert choices(lab).get("units") == "inch"
+    page_open.get_by_role("alert").wait_for(state="detached")
+    assert "kept" not in page_open.get_by_role("status").inner_text()
 
 
 def test_a_reload_keeps_choices_made_while_the_server_was_down(lab, page_open):
-    lab.process.kill()
-    page_open.get_by_label("inch").check()
-    page_open.get_by_role("alert").get_by_text("The lab does not answer").wait_for()
+    choose_inches_while_it_is_down(lab, page_open)
     page_open.goto("about:blank")
-    again = serve(lab.folder, port=lab.port)
-    try:
-        page_open.goto(lab.url)
-        at_rest(page_open)
-        assert choices(lab).get("units") == "inch"
-        assert page_open.get_by_label("inch").is_checked()
-    finally:
-        again.end()
+    lab.process = serve(lab.folder, port=lab.port).process
+    page_open.goto(lab.url)
+    at_rest(page_open)
+    assert choices(lab).get("units") == "inch"
+    assert page_open.get_by_label("inch").is_checked()
 
 
 def test_a_file_saved_by_another_program_during_a_save_is_kept(lab, page_open):
@@ -81,14 +77,9 @@ MINE, THEIRS = (98, 106), (660, 111)
 
 
 @pytest.fixture
-def elsewhere(browser):
+def elsewhere(open_page):
     """A tab of another browser."""
-    context = browser.new_context(viewport={"width": 1280, "height": 900})
-    context.set_default_timeout(120_000)
-    yield context.new_page()
-    for each in context.pages:
-        each.unroute_all(behavior="ignoreErrors")
-    context.close()
+    return open_page(viewport={"width": 1280, "height": 900})
 
 
 @pytest.fixture
@@ -108,15 +99,6 @@ def type_unsaved(page):
     page.route("**/api/readings", lambda route: route.abort())
     with page.expect_request("**/api/readings"):
         type_in(page, 1, *map(str, MINE))
-
-
-def on_disk(lab):
-    """The readings of a form whose first mark may wait."""
-    corner = SHEET[0] / 2, SHEET[1] / 2
-    readings = read_form(lab.folder / "marks.toml", sheet=SHEET).measurements.readings
-    return {
-        mark.name: (round(x + corner[0], 2), round(corner[1] - y, 2)) for mark, (x, y) in readings
-    }
 
 
 def test_two_tabs_type_at_once_and_each_shows_all(lab, first, elsewhere):
@@ -140,10 +122,7 @@ def test_a_tab_of_the_same_browser_saves_what_a_tab_could_not(lab, first):
     await_saved(lab, first, {"1": MINE})
 
 
-@pytest.mark.parametrize(
-    ("answer", "kept"),
-    [("Keep mine", MINE), ("Take the file's", THEIRS)],
-)
+@pytest.mark.parametrize(("answer", "kept"), [("Keep mine", MINE), ("Take the file's", THEIRS)])
 def test_a_mark_changed_by_another_program_while_it_is_typed_is_asked_about(
     lab, first, answer, kept
 ):
@@ -153,9 +132,9 @@ def test_a_mark_changed_by_another_program_while_it_is_typed_is_asked_about(
     first.unroute("**/api/readings")
     first.get_by_role("alert").get_by_text("The file has changed on disk").wait_for()
     expect(cell(first)).to_have_value("98")
-    assert on_disk(lab) == {"1": THEIRS}
+    assert saved(lab) == {"1": THEIRS}
     first.get_by_role("button", name=answer).click()
     expect(first.get_by_text("The file has changed on disk")).to_have_count(0)
     at_rest(first)
     expect(cell(first)).to_have_value(str(kept[0]))
-    assert on_disk(lab) == {"1": kept}
+    assert saved(lab) == {"1": kept}

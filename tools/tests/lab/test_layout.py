@@ -5,7 +5,7 @@ from functools import partial
 
 import pytest
 from folder import asked, finished, got
-from lab_machine import AT_REST, PATIENCE, with_machine
+from lab_machine import AT_REST, with_machine
 from playwright.sync_api import expect
 from plumb.lab.broken_cut import NOTES, BrokenCut, digest_of_sent
 from plumb.lab.project import CUT
@@ -14,15 +14,9 @@ from screens import at_rest, fitted_machine, measured_machine, with_proof_marks
 WIDE, NARROW = {"width": 1280, "height": 800}, {"width": 390, "height": 844}
 SMALLER, LEAST_WIDE = {"width": 375, "height": 740}, {"width": 1024, "height": 768}
 # What each screen of a machine that was measured has first: a field or a button.
-FIRST = {
-    "open": ".pick",
-    "known": ".known input",
-    "measure": ".layouts label",
-    "cut": ".act button",
-    "readings": ".cells input",
-    "verdict": ".act button",
-    "correct": ".numbers input",
-}
+FIRST = {"open": ".pick", "known": ".known input", "measure": ".layouts label"}
+FIRST |= {"cut": ".act button", "readings": ".cells input", "verdict": ".act button"}
+FIRST |= {"correct": ".numbers input"}
 ON_PHONE = ("known", "cut", "readings", "verdict", "correct")
 
 
@@ -238,29 +232,18 @@ def proposed(folder):
         got(client.post("/api/next", json={key: taking[key] for key in ("choose", "digest")}))
 
 
+DONE, GONE = ({**RUNS, "outcome": outcome} for outcome in ("done", "lost"))
 CUT_STATES = {
-    "cut": (saved, {"program": {**RUNS, "outcome": "done"}}, "Type what your tape says"),
-    "virtually": (
-        saved,
-        {"kind": "virtual", "program": {**RUNS, "outcome": "done"}},
-        "Let a tape read the 9 marks",
-    ),
+    "cut": (saved, {"program": DONE}, "Type what your tape says"),
+    "virtually": (saved, {"kind": "virtual", "program": DONE}, "Let a tape read the 9 marks"),
     "broke-off": (
         partial(broken_off, marks=3, begun=3),
         {"program": {**RUNS, "outcome": "stopped"}},
         "Go on: move the sled and cut from mark",
     ),
-    "perhaps": (
-        partial(broken_off, marks=3, begun=6),
-        {},
-        "Go on: say first which mark is the last",
-    ),
+    "perhaps": (partial(broken_off, marks=3, begun=6), {}, "Go on: say first which mark is the"),
     "place-unknown": (saved, {"knows_place": False}, "Set both lengths; nothing moves"),
-    "lost": (
-        partial(broken_off, marks=3, begun=5),
-        {"phase": "lost", "program": {**RUNS, "outcome": "lost"}},
-        LOST,
-    ),
+    "lost": (partial(broken_off, marks=3, begun=5), {"phase": "lost", "program": GONE}, LOST),
     "waits": (
         saved,
         {"holds": True, "phase": "busy", "program": RUNS, "waits_for": "let 5 kg more hang on it"},
@@ -296,10 +279,10 @@ def test_the_next_measurement_comes_into_view_with_its_button(opened):
     page = opened()
     page.goto(page.url.replace("open", "verdict"))
     page.set_viewport_size(NARROW)
-    page.get_by_role("button", name="Find the best next").click(timeout=PATIENCE)
-    expect(page.get_by_role("heading", name="Next: ")).to_be_in_viewport(timeout=PATIENCE)
+    page.get_by_role("button", name="Find the best next").click()
+    expect(page.get_by_role("heading", name="Next: ")).to_be_in_viewport()
     none_out_of_view(page, {"verdict": "Type what you measured"})
     take = page.get_by_role("button", name=re.compile("^Take: .* kg more"))
-    take.first.click(timeout=PATIENCE)
+    take.first.click()
     expect(page.get_by_role("heading", name=re.compile(r"^Cut \d+ more marks"))).to_be_visible()
     expect(page.locator(".pauses li")).not_to_have_count(0)

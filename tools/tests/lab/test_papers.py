@@ -1,22 +1,9 @@
 """Tests of the files to save and print: each can be read back or printed."""
 
-import json
-import shutil
-
-import pytest
-from folder import EXAMPLE, choose, got
+from folder import choose, finished, got, with_marks
 from playwright.sync_api import expect
 from plumb.pictures import grid_paper
 from screens import measured_machine
-
-
-@pytest.fixture
-def measured(client, tmp_path):
-    """A lab whose marks are read."""
-    shutil.copy(EXAMPLE / "marks.toml", tmp_path / "marks.toml")
-    choices = json.loads((tmp_path / "lab.json").read_text())
-    (tmp_path / "lab.json").write_text(json.dumps({**choices, "marks": ["marks.toml"]}))
-    return client
 
 
 def paper(client, name):
@@ -38,9 +25,8 @@ def test_a_sheet_to_print_has_the_marks_that_are_to_be_cut(client, tmp_path, mon
     paper(client, "marks.pdf")
     assert [len(content.holes) for content in drawn] == [9, 4]
     width, height = drawn[1].sheet
-    assert sorted((hole.x - width / 2, height / 2 - hole.y) for hole in drawn[1].holes) == sorted(
-        map(tuple, places)
-    )
+    cut = [(hole.x - width / 2, height / 2 - hole.y) for hole in drawn[1].holes]
+    assert sorted(cut) == sorted(map(tuple, places))
     assert any("marks.toml" in line for line in drawn[1].how)
     # Marks that the verdict proposed and somebody took come before.
     got(client.post("/api/rounds/marks"))
@@ -52,13 +38,10 @@ def test_a_sheet_to_print_has_the_marks_that_are_to_be_cut(client, tmp_path, mon
     assert len(drawn[2].holes) == 4 and any("more.toml" in line for line in drawn[2].how)
 
 
-def test_the_report_has_the_verdicts_sentence(measured):
-    page = paper(measured, "report.html").decode()
-    share, verdict = 0.0, None
-    while share < 1:
-        answer = got(measured.get("/api/verdict"))
-        share, verdict = answer["share"], answer["verdict"]
-    assert verdict["sentence"] in page
+def test_the_report_has_the_verdicts_sentence(tmp_path):
+    with with_marks(tmp_path) as client:
+        page = paper(client, "report.html").decode()
+        assert finished(client, "verdict")["verdict"]["sentence"] in page
     assert "plumb report groundcontrol.ini marks.toml" in page
 
 

@@ -133,20 +133,17 @@ def shared_lab(tmp_path):
     (tmp_path / settings.name).write_bytes(settings.read_bytes())
     (tmp_path / "marks.toml").write_text(example_form())
     lab = serve(tmp_path, options=["--share"])
-    pin = next(
-        found[1] for line in lab.process.stdout if (found := re.search(r"PIN\D*(\d{6})", line))
-    )
+    pins = (re.search(r"PIN\D*(\d{6})", line) for line in lab.process.stdout)
+    pin = next(found[1] for found in pins if found)
     yield lab, pin
     lab.end()
 
 
 def test_a_phone_that_scans_the_code_types_readings_until_it_is_sent_away(
-    shared_lab, page, browser
+    shared_lab, page, open_page
 ):
     lab, pin = shared_lab
-    context = browser.new_context(viewport={"width": 390, "height": 844}, user_agent="Android")
-    context.set_default_timeout(120_000)
-    phone = context.new_page()
+    phone = open_page(viewport={"width": 390, "height": 844}, user_agent="Android")
     phone.goto(f"http://{NETWORK}:{lab.port}/#/pair/{pin}")
     phone.get_by_text("Android 1 can look, type readings, hold and stop").wait_for()
     assert phone.url.endswith("#/readings") and pin not in phone.url
@@ -161,7 +158,6 @@ def test_a_phone_that_scans_the_code_types_readings_until_it_is_sent_away(
     page.get_by_role("button", name="Send Android 1 away").click()
     phone.get_by_role("heading", name="Pair this phone").wait_for()
     assert axe_findings(phone) == []
-    context.close()
 
 
 def test_the_live_line_of_a_phone_ends_when_it_is_sent_away(home):

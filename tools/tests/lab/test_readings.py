@@ -4,12 +4,12 @@ import json
 import shutil
 
 import pytest
-from folder import EXAMPLE, ROOT, asked, choose, example_form, got
+from example_machine import EXAMPLE, ROOT
+from folder import asked, choose, example_form, got
 from plumb.lab.project import Project
 from plumb.lab.routes import readings
 from plumb.marks.read import read_marks
-
-SHEET = (2438.4, 1219.2)
+from synthetic import SHEET
 
 
 def shown(client, **query):
@@ -20,21 +20,6 @@ def put(client, typed, *, digest, file="marks.toml", edges="top-left"):
     rows = [{"index": index, "read": read} for index, read in typed.items()]
     body = {"file": file, "digest": digest, "edges": edges, "readings": rows}
     return client.put("/api/readings", json=body)
-
-
-def test_a_reading_is_in_the_file_at_once_and_the_command_line_reads_it(client, tmp_path):
-    form = tmp_path / "marks.toml"
-    form.write_text(example_form())
-    before = shown(client)
-    assert (before["file"], before["files"][0]["read"]) == ("marks.toml", 0)
-    assert before["marks"][0]["meant"] == pytest.approx([100, 100])
-    after = put(client, {0: [98, 106], 3: [1783, 109.5]}, digest=before["digest"]).json()
-    assert [mark["read"] is not None for mark in after["marks"]].count(True) == 2
-    assert after["marks"][3]["read"] == pytest.approx([1783, 109.5])
-    measurements = read_marks(form, sheet=SHEET)
-    assert [mark.name for mark in measurements.marks] == ["1", "4"]
-    assert client.get("/api/project").json()["choices"]["marks"] == ["marks.toml"]
-    assert form.read_text().startswith("# Calibration marks, mm from the sheet's top left corner")
 
 
 @pytest.mark.parametrize(
@@ -80,32 +65,6 @@ def test_a_form_in_inches_keeps_its_inches_and_what_was_typed_as_a_fraction(clie
     saved = (tmp_path / "marks.toml").read_text()
     assert 'measured = ["4 1/16", 4.25]' in saved
     assert "measured = [80.1875, 40.5]" in saved
-
-
-def test_an_older_save_is_refused_and_changes_nothing(client, tmp_path):
-    (tmp_path / "marks.toml").write_text(example_form())
-    old = shown(client)["digest"]
-    assert put(client, {0: [98, 106]}, digest=old).status_code == 200
-    kept = (tmp_path / "marks.toml").read_bytes()
-    refused = put(client, {0: [99, 99]}, digest=old)
-    assert refused.status_code == 409
-    assert "marks.toml has changed" in refused.json()["error"]
-    assert (tmp_path / "marks.toml").read_bytes() == kept
-
-
-def test_distances_are_saved_and_removed(client, tmp_path):
-    (tmp_path / "marks.toml").write_text(example_form())
-    body = {
-        "file": "marks.toml",
-        "digest": shown(client)["digest"],
-        "distances": [{"between": ["2", "4"], "length": 1123.5}],
-    }
-    answer = client.put("/api/distances", json=body).json()
-    assert answer["distances"] == [{"between": ["2", "4"], "length": 1123.5}]
-    measurements = read_marks(tmp_path / "marks.toml", sheet=SHEET)
-    assert [mark.name for mark in measurements.marks] == ["2", "4"]
-    body = {**body, "digest": answer["digest"], "distances": []}
-    assert client.put("/api/distances", json=body).json()["distances"] == []
 
 
 def test_a_distance_to_a_name_with_two_places_is_refused(client, tmp_path):
@@ -154,18 +113,6 @@ def test_a_file_without_marks_is_refused_in_a_line(client, tmp_path):
     assert "\n" not in refused.json()["error"]
     assert not (tmp_path / "marks.toml").exists()
     assert not [*tmp_path.glob(".*.csv")]  # no copy of it is left
-
-
-def test_a_slip_is_named_with_a_correction(client, tmp_path):
-    text = example_form(read=6).replace("measured = [1221.5, 111]", "measured = [1121.5, 111]")
-    (tmp_path / "marks.toml").write_text(text)
-    answer = client.get("/api/doubts", params={"file": "marks.toml"}).json()
-    assert answer["digest"] == shown(client)["digest"]
-    (doubt,) = answer["doubts"]
-    assert (doubt["index"], doubt["is_mark"]) == (2, True)
-    assert doubt["off"] == pytest.approx(100, abs=3)
-    assert "misread by 100 mm" in doubt["sentence"]
-    assert doubt["corrected"][0] == pytest.approx(1221.5, abs=1e-6)
 
 
 def test_good_readings_raise_no_doubt_however_few_they_are(client, tmp_path):
@@ -260,24 +207,18 @@ def meanwhile(client, tmp_path, monkeypatch):
     return saves
 
 
-def digest(client):
-    return client.get("/api/readings").json()["digest"]
-
-
 def type_a_reading(client):
-    row = {"index": 0, "read": [98, 106]}
-    body = {"file": FORM, "digest": digest(client), "edges": "top-left", "readings": [row]}
-    return client.put("/api/readings", json=body)
+    return put(client, {0: [98, 106]}, digest=shown(client)["digest"])
 
 
 def add_a_distance(client):
-    distance = {"between": ["2", "4"], "length": 1123.5}
-    body = {"file": FORM, "digest": digest(client), "distances": [distance]}
-    return client.put("/api/distances", json=body)
+    body = {"file": FORM, "digest": shown(client)["digest"]}
+    distances = [{"between": ["2", "4"], "length": 1123.5}]
+    return client.put("/api/distances", json={**body, "distances": distances})
 
 
 def say_how_fine_the_tape_is(client):
-    body = {"file": FORM, "digest": digest(client), "finest": 1.0}
+    body = {"file": FORM, "digest": shown(client)["digest"], "finest": 1.0}
     return client.put("/api/fineness", json=body)
 
 

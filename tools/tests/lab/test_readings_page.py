@@ -7,25 +7,25 @@ import re
 import shutil
 
 import pytest
-from folder import EXAMPLE, example_form
+from example_machine import EXAMPLE
+from folder import example_form
 from lab_machine import start_virtual
 from playwright.sync_api import expect
 from plumb.cli.main import main
 from plumb.grid.pattern import spans_line
 from plumb.marks.form import read_form
-from plumb.marks.read import read_marks
 from screens import at_rest, await_question, fitted_machine
+from synthetic import SHEET
 
-SHEET = (2438.4, 1219.2)
-PATIENCE = 300_000  # [ms] of a busy computer
 LEFT, TOP = "Mark {} from the left, mm", "Mark {} from the top, mm"
 
 
-def with_form(lab, form):
-    """The lab's folder with the example's machine and a form."""
+def with_form(lab, form, *marks):
+    """The lab's folder with the example's machine and a form, which counts if it is among marks."""
     shutil.copy(EXAMPLE / "groundcontrol.ini", lab.folder)
     (lab.folder / "marks.toml").write_text(form)
-    (lab.folder / "lab.json").write_text('{"settings": "groundcontrol.ini"}')
+    choices = {"settings": "groundcontrol.ini", "marks": marks}
+    (lab.folder / "lab.json").write_text(json.dumps(choices))
 
 
 def open_readings(lab, page):
@@ -38,15 +38,16 @@ def type_in(page, mark, x, y):
     page.get_by_label(TOP.format(mark), exact=True).fill(y)
 
 
+def read(lab):
+    """What the form on disk says."""
+    return read_form(lab.folder / "marks.toml", sheet=SHEET).measurements
+
+
 def saved(lab):
     """The readings on disk, from the top left corner, by name."""
-    try:
-        marks = read_marks(lab.folder / "marks.toml", sheet=SHEET).readings
-    except Exception:
-        return {}
     return {
         mark.name: (round(x + SHEET[0] / 2, 2), round(SHEET[1] / 2 - y, 2))
-        for mark, (x, y) in marks
+        for mark, (x, y) in read(lab).readings
     }
 
 
@@ -104,12 +105,12 @@ def test_a_slip_is_ringed_and_its_correction_can_be_accepted(lab, page):
     open_readings(lab, page)
     type_in(page, 8, "1211", "618")
     ring = disagreeing(page)
-    ring.get_by_text("Mark 8").wait_for(timeout=PATIENCE)
+    ring.get_by_text("Mark 8").wait_for()
     assert page.locator(".cell.doubted legend").inner_text().startswith("8")
     at_rest(page)
     assert saved(lab)["8"] == (1211, 618)  # nothing is changed unless somebody says so
     ring.get_by_role("button", name="Take 1221, 618").click()
-    ring.wait_for(state="detached", timeout=PATIENCE)
+    ring.wait_for(state="detached")
     at_rest(page)
     assert saved(lab)["8"] == (1221, 618)
 
@@ -135,8 +136,8 @@ def test_each_distance_that_is_asked_has_its_field(lab, page):
     expect(fields.nth(1)).to_have_attribute("aria-invalid", "true")
     assert not page.get_by_label(LEFT.format(1), exact=True).is_visible()
     assert not page.get_by_label("Measured from").count()
-    read = read_marks(lab.folder / "marks.toml", sheet=SHEET).distances
-    assert {each.between: each.length for each in read} == {spans[0]: 1123.5, spans[2]: 757}
+    distances = read(lab).distances
+    assert {each.between: each.length for each in distances} == {spans[0]: 1123.5, spans[2]: 757}
     first.fill("")
     first.press("Tab")
     page.get_by_text("1 of 3 distances are read.").wait_for()
@@ -156,30 +157,26 @@ def distances(*lines):
 def test_a_slip_in_a_distance_is_named_and_its_correction_can_be_accepted(lab, page):
     with_form(lab, example_form(read=23) + distances(*FEW))
     open_readings(lab, page)
-    disagreeing(page).get_by_text("Distance 4 to 12").wait_for(timeout=PATIENCE)
+    disagreeing(page).get_by_text("Distance 4 to 12").wait_for()
     doubted = page.get_by_label("Distance 4 to 12, mm", exact=True)
     expect(page.locator(".spans li.doubted")).to_contain_text("4 to 12")
     disagreeing(page).get_by_role("button", name="Look at it").click()
     expect(doubted).to_be_focused()
     disagreeing(page).get_by_role("button", name="Take 1515").click()
-    disagreeing(page).wait_for(state="detached", timeout=PATIENCE)
+    disagreeing(page).wait_for(state="detached")
     at_rest(page)
-    read = read_marks(lab.folder / "marks.toml", sheet=SHEET)
-    assert [each.length for each in read.distances] == [1123.5, 1515.0, 757.0]
-    assert read.distances[1].between == ("4", "12")
+    lengths = {each.between: each.length for each in read(lab).distances}
+    assert lengths == {("2", "4"): 1123.5, ("4", "12"): 1515.0, ("8", "12"): 757.0}
     page.get_by_label("Distance 8 to 12, mm", exact=True).fill("")
     page.keyboard.press("Tab")
     at_rest(page)
-    assert len(read_marks(lab.folder / "marks.toml", sheet=SHEET).distances) == 2
+    assert len(read(lab).distances) == 2
 
 
 @pytest.fixture
-def phone(browser):
+def phone(open_page):
     """A page as wide as a phone."""
-    context = browser.new_context(viewport={"width": 375, "height": 740})
-    context.set_default_timeout(120_000)
-    yield context.new_page()
-    context.close()
+    return open_page(viewport={"width": 375, "height": 740})
 
 
 def twenty_five(lab):
@@ -218,7 +215,7 @@ def test_on_a_phone_the_mark_that_is_typed_is_open_and_the_sheet_opens_another(l
 def test_on_a_phone_a_reading_that_disagrees_opens(lab, phone):
     with_form(lab, example_form(read=23).replace("[1221, 618]", "[1211, 618]"))
     open_readings(lab, phone)
-    disagreeing(phone).get_by_text("Mark 8").wait_for(timeout=PATIENCE)
+    disagreeing(phone).get_by_text("Mark 8").wait_for()
     expect(phone.get_by_label(LEFT.format(8), exact=True)).to_be_hidden()
     disagreeing(phone).get_by_role("button", name="Look at it").first.click()
     field = phone.get_by_label(LEFT.format(8), exact=True)
@@ -231,11 +228,7 @@ LEFT_OF_2, TOP_OF_2 = "Mark 2 from the left, mm", "Mark 2 from the top, mm"
 @pytest.fixture
 def readings(lab, page):
     """The page of readings, all typed."""
-    shutil.copy(EXAMPLE / "groundcontrol.ini", lab.folder)
-    (lab.folder / "marks.toml").write_text(example_form(read=99))
-    (lab.folder / "lab.json").write_text(
-        '{"settings": "groundcontrol.ini", "marks": ["marks.toml"]}'
-    )
+    with_form(lab, example_form(read=99), "marks.toml")
     page.goto(f"{lab.url}#/readings")
     expect(page.locator(".count")).to_contain_text("23 of 23 marks are read")
     return page
@@ -250,11 +243,6 @@ def reason(page, name):
     return page.locator(f"#{field(page, name).get_attribute('aria-describedby')}")
 
 
-def read_on_disk(lab):
-    form = read_form(lab.folder / "marks.toml", sheet=SHEET)
-    return len(form.measurements.measured_marks)
-
-
 def test_half_a_reading_does_not_count_not_even_after_a_reload(lab, readings):
     page, typed, said = readings, "11l.9", "“11l.9” is not a length: type it like 11.9"
     other = field(page, TOP_OF_2).input_value()
@@ -264,7 +252,7 @@ def test_half_a_reading_does_not_count_not_even_after_a_reload(lab, readings):
     expect(reason(page, LEFT_OF_2)).to_have_text(said)
     expect(reason(page, LEFT_OF_2)).to_be_visible()
     expect(field(page, LEFT_OF_2)).to_have_attribute("aria-invalid", "true")
-    assert read_on_disk(lab) == 22
+    assert len(read(lab).measured_marks) == 22
     page.reload()
     expect(page.locator(".count")).to_contain_text("22 of 23 marks are read")
     expect(field(page, LEFT_OF_2)).to_have_value(typed)
@@ -272,14 +260,14 @@ def test_half_a_reading_does_not_count_not_even_after_a_reload(lab, readings):
     expect(reason(page, LEFT_OF_2)).to_have_text(said)
     page.goto(f"{lab.site}#/verdict")
     half = page.get_by_text("1 mark is half typed and does not count.")
-    expect(half).to_be_visible(timeout=PATIENCE)
+    expect(half).to_be_visible()
     page.goto(f"{lab.site}#/readings")
     field(page, LEFT_OF_2).fill("659.5")
     expect(page.locator(".count")).to_contain_text("23 of 23 marks are read")
     expect(field(page, LEFT_OF_2)).not_to_have_attribute("aria-describedby", re.compile("."))
     page.goto(f"{lab.site}#/verdict")
     states = page.get_by_role("group", name="What is drawn")
-    expect(states.get_by_text("as set")).to_be_visible(timeout=PATIENCE)
+    expect(states.get_by_text("as set")).to_be_visible()
     expect(half).to_have_count(0)
 
 
@@ -291,7 +279,7 @@ def test_a_file_that_went_back_before_the_page_looked_is_loaded_again(lab, readi
     page.route("**/api/project", lambda look: held.append(look) if holds else look.continue_())
     with page.expect_response("**/api/readings"):
         field(page, LEFT_OF_2).fill("")
-    assert read_on_disk(lab) == 22
+    assert len(read(lab).measured_marks) == 22
     await_question(page, held)
     (lab.folder / "marks.toml").write_text(whole)
     holds = False
@@ -303,10 +291,7 @@ def test_a_file_that_went_back_before_the_page_looked_is_loaded_again(lab, readi
 @pytest.fixture
 def form(lab, page):
     """The form of the example with a few readings, on the page."""
-    (lab.folder / "groundcontrol.ini").write_bytes((EXAMPLE / "groundcontrol.ini").read_bytes())
-    (lab.folder / "marks.toml").write_text(f"{spans_line([('2', '4')])}\n{example_form(read=5)}")
-    choices = {"settings": "groundcontrol.ini", "marks": ["marks.toml"]}
-    (lab.folder / "lab.json").write_text(json.dumps(choices))
+    with_form(lab, f"{spans_line([('2', '4')])}\n{example_form(read=5)}", "marks.toml")
     page.goto(f"{lab.url}#/readings")
     page.get_by_label("Distance 2 to 4, mm").wait_for()
     return page
@@ -322,10 +307,6 @@ def late(form):
             lambda route: waiting.append(route) if route.request.method == "PUT" else None,
         )
     return waiting
-
-
-def read(lab):
-    return read_form(lab.folder / "marks.toml", sheet=SHEET).measurements
 
 
 def let_go(page, late, count):
@@ -376,11 +357,11 @@ def test_an_answer_to_an_older_question_changes_nothing(open_machine, page):
     await_question(page, late)
     page.get_by_label("inch").check()
     number = page.locator(".course").first
-    expect(number).to_contain_text(" inch", timeout=PATIENCE)
+    expect(number).to_contain_text(" inch")
     with page.expect_response("**/api/diary"):
         asked[0].fulfill(response=late[0])
     at_rest(page)
-    expect(number).to_contain_text(" inch", timeout=PATIENCE)
+    expect(number).to_contain_text(" inch")
 
 
 def test_readings_count_from_the_edges_that_are_named_with_them(open_machine, page):
@@ -389,7 +370,7 @@ def test_readings_count_from_the_edges_that_are_named_with_them(open_machine, pa
     page.route("**/api/choices", lambda route: route.continue_() if saves else saves.append(route))
     open_machine("readings")
     left = page.get_by_label("Mark 1 from the left, mm", exact=True)
-    x = float(left.input_value(timeout=PATIENCE))
+    x = float(left.input_value())
     page.get_by_label("Measured from").select_option("top-right")
     await_question(page, saves)
     # What the page would ask then is answered before this.
@@ -397,7 +378,7 @@ def test_readings_count_from_the_edges_that_are_named_with_them(open_machine, pa
     assert float(left.input_value()) == x
     saves[0].continue_()
     right = page.get_by_label("Mark 1 from the right, mm", exact=True)
-    expect(right).to_have_value(re.compile(r"2\d\d\d"), timeout=PATIENCE)
+    expect(right).to_have_value(re.compile(r"2\d\d\d"))
     assert float(right.input_value()) + x == pytest.approx(2438.4)
 
 
@@ -405,13 +386,13 @@ def test_a_question_without_an_answer_is_reported_and_asked_again(lab, fresh_pag
     page, never = fresh_page, []
     page.clock.install()
     start_virtual(page, lab)
-    page.get_by_role("heading", name="Its first day").wait_for(timeout=PATIENCE)
+    page.get_by_role("heading", name="Its first day").wait_for()
     page.route("**/api/guide", lambda route: never.append(route))
     await_question(page, never)
     said = page.get_by_text("The lab does not answer, so this may be old")
     assert said.count() == 0
     page.clock.fast_forward(10_000)
-    said.wait_for(timeout=PATIENCE)
+    said.wait_for()
     page.unroute("**/api/guide")
     page.clock.fast_forward(3_000)
-    expect(said).to_have_count(0, timeout=PATIENCE)
+    expect(said).to_have_count(0)

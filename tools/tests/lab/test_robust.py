@@ -14,11 +14,13 @@ from attacks import Try, answered, status
 from folder import (
     EXAMPLE,
     asked,
+    choose,
     compared,
     example_form,
     got,
     type_in,
     with_settings,
+    write_correction,
 )
 from plumb.lab.project import digest_of
 from screens import measured_machine
@@ -86,11 +88,8 @@ def test_a_full_disk_changes_nothing_and_is_shown_until_there_is_room(lab):
         assert status(refused) == 507, refused
         assert b"lab.json" in refused
         assert (lab.folder / "lab.json").read_bytes() == before
-        assert {path.name for path in lab.folder.iterdir()} == {
-            "lab.json",
-            ".lab.token",
-            ".lab.lock",
-        }
+        names = {path.name for path in lab.folder.iterdir()}
+        assert names == {"lab.json", ".lab.token", ".lab.lock"}
         resource.prlimit(lab.process.pid, resource.RLIMIT_FSIZE, (most, most))
         assert status(save_choices(lab, large, digest_of(before))) == 200
     finally:
@@ -192,10 +191,8 @@ def test_a_second_file_is_opened_and_the_first_again(tmp_path):
     assert (tmp_path / "groundcontrol.ini").read_bytes() == INI
     assert open_file(client, INI) == "groundcontrol.ini"
     assert open_file(client, OTHER, "my machine.INI") == "groundcontrol-2.ini"
-    assert sorted(path.name for path in tmp_path.glob("*.ini")) == [
-        "groundcontrol-2.ini",
-        "groundcontrol.ini",
-    ]
+    inis = {path.name for path in tmp_path.glob("*.ini")}
+    assert inis == {"groundcontrol-2.ini", "groundcontrol.ini"}
 
 
 @pytest.mark.parametrize("then", ["replaced", "taken away"])
@@ -233,11 +230,6 @@ def test_a_correction_replaces_no_file_at_all(tmp_path, name):
     (tmp_path / "marks.toml").write_text(example_form(read=99))
     with asked(tmp_path) as client:
         open_file(client, INI)
-        project = got(client.get("/api/project"))
-        wanted = {**project["choices"], "marks": ["marks.toml"], "accepted": ["motor_gap"]}
-        got(client.put("/api/choices", json={"choices": wanted, "read": project["choices_digest"]}))
-        project = got(client.get("/api/project"))
-        known = {"choices": project["choices_digest"]}
-        known["settings"] = project["files"]["groundcontrol.ini"]
-        assert got(client.post("/api/correction", json=known))["file"] == "machine-2.toml"
+        choose(client, marks=["marks.toml"], accepted=["motor_gap"])
+        assert write_correction(client)["file"] == "machine-2.toml"
     assert (tmp_path / name).read_text() == "mine"

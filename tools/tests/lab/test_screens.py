@@ -41,23 +41,21 @@ STATES = {
 
 
 @pytest.fixture
-def shown(browser, lab, request):
+def shown(open_page, lab, request):
     """The page of a lab in a state, in a width and a scheme."""
     state, size, scheme = request.param
     STATES[state](lab)
     width, height = SIZES[size]
-    context = browser.new_context(
+    page = open_page(
         viewport={"width": width, "height": height},
         color_scheme=scheme,
         reduced_motion="reduce",
         has_touch=size == "phone",
     )
-    page = context.new_page()
     page.goto(lab.url)
     page.locator("nav").wait_for()
     page.size, page.color_scheme = size, scheme
-    yield page
-    context.close()
+    return page
 
 
 def ways(state, *each):

@@ -8,8 +8,8 @@ import pytest
 from folder import choose, finished
 from playwright.sync_api import expect
 from screens import at_rest, await_question, axe_findings, measured_machine
+from synthetic import SHEET
 
-SHEET = (2438.4, 1219.2)
 SVG = "{http://www.w3.org/2000/svg}"
 NOISE = 2.45  # sigmas: noise alone makes a longer error at 5 % of the marks
 FRAME = ".sheet .frame"
@@ -22,14 +22,18 @@ OVERLAPPING = """() => {
 }"""
 
 
-@pytest.fixture
-def verdict(lab, page):
-    """The verdict on the example's marks."""
+def at_verdict(lab, page):
+    """The page at the verdict on the example's marks."""
     measured_machine(lab.folder)
     page.goto(f"{lab.url}#/verdict")
     page.locator(FRAME).wait_for()
     at_rest(page)
     return page
+
+
+@pytest.fixture
+def verdict(lab, page):
+    return at_verdict(lab, page)
 
 
 def ticks(page):
@@ -252,13 +256,8 @@ def half_worked(asked):
     return lambda route: (asked.append(route), route.fulfill(json=answer))
 
 
-def test_on_a_phone_no_name_lies_over_another_and_two_fingers_enlarge_it(lab, browser):
-    measured_machine(lab.folder)
-    context = browser.new_context(viewport={"width": 390, "height": 844}, has_touch=True)
-    page = context.new_page()
-    page.goto(f"{lab.url}#/verdict")
-    page.locator(FRAME).wait_for()
-    at_rest(page)
+def test_on_a_phone_no_name_lies_over_another_and_two_fingers_enlarge_it(lab, open_page):
+    page = at_verdict(lab, open_page(viewport={"width": 390, "height": 844}, has_touch=True))
     names = page.locator(".sheet .names text").all_text_contents()
     assert {"1", "5", "11", "15"} <= set(names)
     assert page.evaluate(OVERLAPPING) == []
@@ -266,7 +265,7 @@ def test_on_a_phone_no_name_lies_over_another_and_two_fingers_enlarge_it(lab, br
     expect(page.locator(CARD)).to_contain_text("Mark 1")
     place, wood = page.locator(".sheet circle.place").nth(8), page.locator(".sheet .wood")
     (x, y), whole = middle_of(place), wood.bounding_box()["width"]
-    fingers = context.new_cdp_session(page)
+    fingers = page.context.new_cdp_session(page)
     for apart in (30, 45, 60):
         each = [{"x": x + side * apart, "y": y, "id": side + 1} for side in (-1, 1)]
         kind = "touchStart" if apart == 30 else "touchMove"
@@ -276,16 +275,10 @@ def test_on_a_phone_no_name_lies_over_another_and_two_fingers_enlarge_it(lab, br
     assert wood.bounding_box()["width"] == pytest.approx(2 * whole, rel=0.02)
     assert middle_of(place) == pytest.approx((x, y), abs=1)
     assert axe_findings(page) == []
-    context.close()
 
 
-def test_its_picture_is_saved_in_light_colours_with_its_date_and_its_settings(lab, browser):
-    measured_machine(lab.folder)
-    context = browser.new_context(color_scheme="dark", viewport={"width": 1280, "height": 800})
-    page = context.new_page()
-    page.goto(f"{lab.url}#/verdict")
-    page.locator(FRAME).wait_for()
-    at_rest(page)
+def test_its_picture_is_saved_in_light_colours_with_its_date_and_its_settings(lab, open_page):
+    page = at_verdict(lab, open_page(color_scheme="dark", viewport={"width": 1280, "height": 800}))
 
     def saved(kind):
         with page.expect_download() as download:
@@ -304,4 +297,3 @@ def test_its_picture_is_saved_in_light_colours_with_its_date_and_its_settings(la
     assert content.startswith(b"\x89PNG")
     wide = page.locator(".sheet svg").bounding_box()["width"]
     assert int.from_bytes(content[16:20], "big") == pytest.approx(2 * wide, abs=2)
-    context.close()

@@ -7,7 +7,17 @@ import shutil
 import tomllib
 
 import pytest
-from folder import EXAMPLE, asked, choose, compared, finished, got, type_in, with_marks
+from folder import (
+    EXAMPLE,
+    asked,
+    choose,
+    compared,
+    finished,
+    got,
+    type_in,
+    with_marks,
+    write_correction,
+)
 from plumb.cli.main import build_parser, main
 from plumb.diagnosis.answer import odds_words
 
@@ -20,9 +30,8 @@ KNOWN = {
 
 
 @pytest.fixture
-def client(tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-    with with_marks(tmp_path) as client:
+def client(here):
+    with with_marks(here) as client:
         yield client
 
 
@@ -85,9 +94,7 @@ def test_the_correction(client, tmp_path, capsys, accepted):
         choose(client, accepted=offered)
         shown = finished(client, "correction")
     assert {*accepted} <= {*offered}
-    project = got(client.get("/api/project"))
-    read = {"settings": project["files"]["groundcontrol.ini"], "choices": project["choices_digest"]}
-    written = got(client.post("/api/correction", json=read))["files"]
+    written = write_correction(client)["files"]
     assert shown["file"] == written[0] == "machine.toml"
     here = {name: (tmp_path / name).read_text() for name in written}
     for name in written:
@@ -149,11 +156,10 @@ WAYS = [("nine", *FIRST), ("distances", *NEXT), ("own", *ANOTHER_SHEET)]
 
 
 @pytest.fixture
-def folder(tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
+def folder(here):
     for name in ("groundcontrol.ini", "machine.toml"):
-        shutil.copy(EXAMPLE / name, tmp_path)
-    return tmp_path
+        shutil.copy(EXAMPLE / name, here)
+    return here
 
 
 def lab(folder, **choices):

@@ -69,11 +69,7 @@ def test_a_declared_gigabyte_is_refused_at_its_header(lab):
 @pytest.mark.parametrize("target", ["/api/choices", "/api/settings"])
 def test_a_gigabyte_without_a_length_is_cut_off_early(lab, target):
     kind = "multipart/form-data; boundary=x" if target == "/api/settings" else "application/json"
-    headers = (
-        ("Content-Length", None),
-        ("Transfer-Encoding", "chunked"),
-        ("Content-Type", kind),
-    )
+    headers = (("Content-Length", None), ("Transfer-Encoding", "chunked"), ("Content-Type", kind))
     before = memory(lab)
     start = Try("POST" if "settings" in target else "PUT", target, headers, b"")
     with line_to(lab) as line:

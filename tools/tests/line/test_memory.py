@@ -1,8 +1,8 @@
-"""The machine's numbers over the line: listed, written, read back."""
+"""The machine's numbers over the line: listed, written, read back, and those of before."""
 
 import pytest
 from numbers_machine import NumbersMachine
-from plumb.line.memory import read_numbers, write_numbers
+from plumb.line.memory import kept_before, read_numbers, write_numbers
 from plumb.line.sender import Sender
 from plumb.text.errors import InputError
 
@@ -48,3 +48,15 @@ def test_a_machine_that_moves_gets_no_numbers():
     with pytest.raises(InputError, match="the machine moves"):
         write_numbers(Sender(machine), ["$38=15.5"])
     assert machine.written == []
+
+
+def test_the_newest_numbers_come_back(tmp_path):
+    for day, gap in (("2026-01-02", 2), ("2026-01-10", 3), ("2025-12-31", 1)):
+        (tmp_path / f"machine-before-{day}.nc").write_text(f"$2={gap}\n$3=5\n")
+    (tmp_path / "other-before-2027-01-01.nc").write_text("$2=4\n")
+    assert kept_before(tmp_path / "machine.toml") == ["$2=3", "$3=5"]
+
+
+def test_without_kept_numbers_there_is_a_remedy(tmp_path):
+    with pytest.raises(InputError, match="nothing was kept when it was sent; send it first"):
+        kept_before(tmp_path / "machine.toml")

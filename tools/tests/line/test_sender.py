@@ -8,13 +8,8 @@ from plumb.line.memory import refuse_while_moving
 from plumb.line.port import LostError
 from plumb.line.sender import (
     AHEAD,
-    GO_ON,
-    HOLD,
-    STOP,
     RefusedError,
     Sender,
-    Status,
-    StoppedError,
     Watch,
     cleaned,
 )
@@ -105,17 +100,6 @@ def test_a_stop_forgets_the_lines_behind_a_refused_line():
     assert board.waiting == []
 
 
-def test_messages_between_answers_are_heard_in_order():
-    said = []
-    board = Board(lambda line: "Left: 1651.00mm\r\nRight: 1651.00mm\r\nok")
-    sender = Sender(board, said.append)
-    sender.stream(["B06 L1651 R1651"])
-    assert said == ["Left: 1651.00mm", "Right: 1651.00mm"]
-    assert sender.ask("B10 L") == said
-    assert len(said) == 2
-    assert sender.status == Status("Idle", (1.0, -2.5, 0.0))
-
-
 def test_a_machine_left_by_a_grbl_sender_reports_again():
     said, answers = [], {"B05": "Firmware Version 1.28\r\nok", "$$": "this is $$\r\nok"}
     board = Board(answers.get, left_by_grbl=True)
@@ -178,14 +162,6 @@ def test_a_greeting_counts_for_no_line():
     assert said == []
 
 
-def test_faults_in_a_machines_greeting_are_heard():
-    said = []
-    board = Board()
-    board.read = iter([b"ready\r\nok\r\nALARM: Position Lost.\r\n" + REPORT.encode()]).__next__
-    Sender(board, said.append).await_start()
-    assert said == ["ALARM: Position Lost."]
-
-
 def reported(x):
     return f"<Idle,MPos:{x:.2f},0.00,0.00,WPos:0,0,0>\r\n".encode()
 
@@ -215,16 +191,6 @@ def test_a_moving_machine_is_not_taken_for_standing_after_the_computer_slept():
         refuse_while_moving(sender)
 
 
-def test_a_machine_that_falls_silent_while_it_is_waited_for_is_named():
-    board = Board()
-    sender = Sender(board)
-    sender.await_start()
-    board.deaf, began = True, board.time
-    with pytest.raises(LostError, match="silent for 5 s"):
-        sender.await_rest()
-    assert board.time - began < 6
-
-
 def test_waiting_characters_are_read_before_the_machine_is_given_up():
     board = Board()
     usual, stood = board.read, []
@@ -252,24 +218,6 @@ def test_the_answer_of_a_line_that_is_slipped_in_is_for_no_line_of_the_program()
         sender.slip_in("G0 Z\u00bd")
 
 
-def test_a_hold_is_a_single_character_and_going_on_answers_no_line():
-    board = Board()
-    sender = Sender(board)
-    pressed = [True]
-
-    def attend(_):
-        if pressed and board.time > 0.5:
-            pressed.clear()
-            sender.hold()
-            sender.go_on()
-
-    sender.attend = attend
-    assert sender.stream([f"G0 X{i}" for i in range(20)]) == 20
-    assert HOLD + GO_ON in board.written
-    assert HOLD == b"\x84"
-    assert sender.stream(["G0 X1"]) == 1
-
-
 @pytest.mark.parametrize("press", [Sender.go_on, Sender.brake])
 def test_the_ok_of_a_pressed_key_answers_no_line(press):
     board = Board()
@@ -278,15 +226,6 @@ def test_the_ok_of_a_pressed_key_answers_no_line(press):
     press(sender)
     with pytest.raises(RefusedError, match=r"^'G1 Xtwo': the machine says: error: no$"):
         sender.stream(["G1 Xtwo"])
-
-
-def test_nothing_is_sent_after_a_stop():
-    board = Board()
-    sender = Sender(board, attend=lambda sender: board.time > 1 and sender.stop())
-    with pytest.raises(StoppedError):
-        sender.stream([f"G1 X{i}.123456789 Y{i}.123456789" for i in range(40)])
-    assert board.written.endswith(STOP)
-    assert b"X39" not in board.written
 
 
 @pytest.mark.parametrize(

@@ -227,9 +227,8 @@ class CoastingBoard(SlowBoard):
     def read(self):
         if self.x and self.bursts:
             self.time += 2.0
-            return b"".join(
-                b"<Idle,MPos:%d.00,0.00,0.00,WPos:0,0,0>\r\n" % x for x in self.bursts.pop(0)
-            )
+            said = b"<Idle,MPos:%d.00,0.00,0.00,WPos:0,0,0>\r\n"
+            return b"".join(said % x for x in self.bursts.pop(0))
         if not self.bursts:
             self.x = 9.0
         return super().read()

@@ -1,13 +1,16 @@
-"""marks.toml."""
+"""The two forms of measurements: marks.toml, and the published Calibration Measurements.ini."""
 
 import re
 from pathlib import Path
 
+import plumb
 import pytest
+from example_machine import ROOT
 from plumb.marks.read import Distance, Mark, read_marks
 from plumb.text.errors import InputError
+from synthetic import SHEET
 
-SHEET = (2400.0, 1200.0)
+PANEL = (2400.0, 1200.0)
 GOOD = """
 frame = "sheet-top-left"
 controller = "holey"
@@ -36,7 +39,7 @@ mm = 1119.5
 def read(tmp_path, text):
     path = tmp_path / "marks.toml"
     path.write_text(text)
-    return read_marks(path, sheet=SHEET)
+    return read_marks(path, sheet=PANEL)
 
 
 def test_every_key_is_read(tmp_path):
@@ -48,11 +51,8 @@ def test_every_key_is_read(tmp_path):
         Mark("2", (0.0, 0.0), None, None, 110.0, None),
     )
     assert measurements.distances == (Distance(("A", "2"), 1119.5),)
-    assert (measurements.controller, measurements.tape_sigma, measurements.sled_weight) == (
-        "holey",
-        0.5,
-        110.0,
-    )
+    said = measurements.controller, measurements.tape_sigma, measurements.sled_weight
+    assert said == ("holey", 0.5, 110.0)
     assert measurements.repeats == {"A": (0, 1)}
     assert measurements.targets.shape == measurements.measured.shape == (2, 2)
     assert measurements.distance_targets.tolist() == [[[-1000.0, 500.0], [0.0, 0.0]]]
@@ -77,24 +77,12 @@ def test_distances_alone_are_measurements_too():
         ("tape_sigma_mm = 0.5", "tape_sigma_mm = 0", "tape_sigma_mm: 0 is out of range"),
         ("sled_weight_n = 110.0", "sled_weight_n = 11.2", "9.81 times kilograms"),
         ("sled_weight_n = 90", "sled_weight_n = 25", "mark A sled_weight_n: .*pounds"),
-        (
-            "measured = [201.5, 98]",
-            "mesured = [201.5, 98]",
-            "mark A: unknown name 'mesured'; did ",
-        ),
+        ("measured = [201.5, 98]", "mesured = [201.5, 98]", "mark A: unknown name 'mesured'; did "),
         ("measured = [201.5, 98]", "measured = [201.5]", "mark A measured: two numbers"),
-        (
-            "measured = [201.5, 98]",
-            'measured = ["201.5", 98]',
-            "mark A measured: a number is needed",
-        ),
+        ("measured = [201.5, 98]", 'measured = ["201.5", 98]', "mark A measured: a number is nee"),
         ("approach = [1, 2]", "approach = [0, 0.0]", "not a direction"),
         ("chains = [1500.25, 1600]", "chains = [-1, 1600]", "chains: -1 is out of range"),
-        (
-            "target = [1200.0, 600.0]",
-            "",
-            "mark 2: target is missing; write target = ... .a place, as .x, y..",
-        ),
+        ("target = [1200.0, 600.0]", "", "mark 2: target is missing; write target = ... .a place"),
         ("name = 2", 'name = ""', "the name is empty"),
         ("name = 2", "name = 2.5", "text in quotes"),
         ("name = 2", "name = 3", "there is no mark named '2'"),
@@ -128,11 +116,53 @@ def test_a_file_without_marks_is_refused(tmp_path):
 
 
 def test_the_example_in_the_docs_can_be_read(tmp_path):
-    root = Path(__file__).resolve().parents[3]
-    (tmp_path / "groundcontrol.ini").write_bytes(
-        (root / "tools/plumb/examples/mibproj/groundcontrol.ini").read_bytes()
-    )
-    (text,) = re.findall(r"```toml\n(.*?)```", (root / "docs/marks.md").read_text(), re.DOTALL)
+    settings = EXAMPLE.with_name("groundcontrol.ini").read_bytes()
+    (tmp_path / "groundcontrol.ini").write_bytes(settings)
+    (text,) = re.findall(r"```toml\n(.*?)```", (ROOT / "docs/marks.md").read_text(), re.DOTALL)
     path = tmp_path / "marks.toml"
     path.write_text(text)
-    assert read_marks(path, sheet=SHEET).distances
+    assert read_marks(path, sheet=PANEL).distances
+
+
+EXAMPLE = Path(plumb.__file__).parent / "examples" / "mibproj" / "Calibration Measurements.ini"
+
+
+def test_the_example_is_read_into_the_machine_frame():
+    measurements = read_marks(EXAMPLE, sheet=SHEET)
+    assert [mark.name for mark in measurements.marks] == [str(i) for i in range(9)]
+    # Mark 0: 69.2 - 1219.2 and 609.6 - 59.6; measured 67 - 1219.2 and 609.6 - 52.
+    assert measurements.targets[0] == pytest.approx([-1150.0, 550.0])
+    assert measurements.measured[0] == pytest.approx([-1152.2, 557.6])
+    assert measurements.controller is None
+    assert measurements.source == str(EXAMPLE)
+
+
+def spoilt(tmp_path, old, new, name="marks.ini"):
+    text = EXAMPLE.read_text()
+    assert old in text
+    path = tmp_path / name
+    path.write_text(text.replace(old, new, 1))
+    return path
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "hint"),
+    [
+        ("numpositions = 9\n", "", "numpositions is missing in .global."),
+        ("numpositions = 9", "numpositions = nine", "is not a count"),
+        ("numpositions = 9", "numpositions = 8", "x8: is beyond numpositions = 8"),
+        ("numpositions = 9", "numpositions = 10", "tx9 is missing"),
+        ("x4 = 1216\n", "", "x4 is missing in .actual_positions."),
+        ("tx4 = 1219.2\n", "xt4 = 1219.2\n", "tx4 is missing in .target_positions."),
+        ("y1 = 45", "y1 = 45 mm", "y1: '45 mm' is not a number"),
+        ("y1 = 45", "y1 =", "y1: a number is missing"),
+        ("y1 = 45", "x1 = 45", "already on line"),
+        ("tx8 = 2369.2", "tx8 = 3369.2", "mark 8: target .* is off the 2438 x 1219 mm sheet"),
+    ],
+)
+def test_bad_published_files_are_refused_with_the_place(tmp_path, old, new, hint):
+    path = spoilt(tmp_path, old, new)
+    with pytest.raises(InputError, match=hint) as caught:
+        read_marks(path, sheet=SHEET)
+    assert str(caught.value).startswith(str(path))
+    assert "\n" not in str(caught.value)

@@ -3,8 +3,8 @@
 import pytest
 from plumb.marks.read import read_marks
 from plumb.text.errors import InputError
+from synthetic import SHEET
 
-SHEET = (2438.4, 1219.2)
 MILLIMETRES = """
 frame = "sheet-top-left"
 [[mark]]

@@ -29,6 +29,7 @@ FLEXIBLE = {
     (1150, -550): (0.399591, -0.065752, 0.038704),
     (-700, -300): (0.036479, 0.005626, 0.027049),
 }
+SOFT = {"inward": 0.007, "downward": 0.02}
 
 
 def machine(weight=97.9, **changes):
@@ -40,17 +41,13 @@ def machine(weight=97.9, **changes):
 
 
 def giving(settings, points):
-    return compliance(
-        values_of(settings), over_top=settings.feed == "top", points=np.array(points, dtype=float)
-    )
+    over_top, places = settings.feed == "top", np.array(points, dtype=float)
+    return compliance(values_of(settings), over_top=over_top, points=places)
 
 
 @pytest.mark.parametrize(
     ("settings", "judged"),
-    [
-        (machine(), DEFAULT),
-        (machine(effects={"frame_flex": {"inward": 0.007, "downward": 0.02}}), FLEXIBLE),
-    ],
+    [(machine(), DEFAULT), (machine(effects={"frame_flex": SOFT}), FLEXIBLE)],
     ids=["default", "flexible"],
 )
 def test_give_agrees_with_the_judge_within_a_percent(settings, judged):

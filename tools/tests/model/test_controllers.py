@@ -35,14 +35,16 @@ def tangent(motor_x, motor_y, x, y, over):
     return point, math.pi / 2 - spoke if over else spoke + 3 / 2 * math.pi
 
 
-def stock_by_hand(settings, x, y):
-    over = settings.feed == "top"
-    published = settings.published
-    half = settings.motor_gap / 2
-    lines = []
-    for motor_x in (-half, half):
+def parts_of(settings, x, y):
+    """Of each chain: the wrapped part, and how far the straight part goes across and down."""
+    for motor_x in (-settings.motor_gap / 2, settings.motor_gap / 2):
+        over = settings.feed == "top"
         (at_x, at_y), wrapped = tangent(motor_x, settings.motor_height, x, y, over)
-        lines.append((wrapped, abs(x - at_x), at_y - y))
+        yield wrapped, abs(x - at_x), at_y - y
+
+
+def stock_by_hand(settings, x, y):
+    published, lines = settings.published, [*parts_of(settings, x, y)]
     lengths = []
     tolerances = (published.left_tolerance, published.right_tolerance)
     for (wrapped, across, drop), other, tolerance in zip(
@@ -86,15 +88,8 @@ HOLEY = replace(
 
 
 def holey_by_hand(settings, x, y):
-    published = settings.published
-    half = settings.motor_gap / 2
+    published, lines = settings.published, [*parts_of(settings, x, y)]
     density = 0.001372
-    lines = []
-    for motor_x in (-half, half):
-        (at_x, at_y), wrapped = tangent(
-            motor_x, settings.motor_height, x, y, settings.feed == "top"
-        )
-        lines.append((wrapped, abs(x - at_x), at_y - y))
     weight = published.holey_sled_weight + density / 2 * sum(
         math.hypot(*line[1:]) for line in lines
     )
@@ -127,9 +122,8 @@ def test_holey_agrees_with_a_catenary_by_its_equation(feed):
 def test_holey_without_a_sled_weight_is_stock(weight):
     published = replace(HOLEY.published, holey_sled_weight=weight, chain_elasticity=None)
     off = replace(HOLEY, published=published)
-    assert np.array_equal(
-        chain_lengths(off, POINTS), chain_lengths(off, POINTS, controller="stock")
-    )
+    stock = chain_lengths(off, POINTS, controller="stock")
+    assert np.array_equal(chain_lengths(off, POINTS), stock)
 
 
 def test_targets_off_the_sheet_are_moved_to_its_edge():

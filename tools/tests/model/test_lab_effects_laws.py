@@ -1,4 +1,4 @@
-"""The laws of lab effects: zero means absent, zero has a slope, slopes are exact."""
+"""The laws of lab effects, and their numbers worked out by hand."""
 
 import re
 from dataclasses import replace
@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from plumb.fit.observations import observe
 from plumb.fit.sighting import LAB_NAMES, SHEET_ROTATION, sighted
-from plumb.marks.read import Distance, Measurements
+from plumb.marks.read import Distance, Mark, Measurements
 from plumb.model.catalogue import parameter_names, parameter_words
 from plumb.model.lab_effects import EDGES, LAB_EFFECTS, SLED, TAPE
 from plumb.model.predict import NAMES, frame_words, known_effects, library, values_of
@@ -21,26 +21,27 @@ SIZES[SHEET_ROTATION] = 1.0
 TYPICAL = {name: SIZES[name] for name in LAB_NAMES}
 
 
-def board():
+def board(feed):
     """Marks of two sleds, approached from three sides or not known whence, and a distance."""
-    marks = marks_on(TRUE, BELIEVED, grid(4, 3))
-    heavy = marks_on(TRUE, BELIEVED, grid(2, 2), sled_weight=150.0, prefix="heavy ")
+    true, believed = (replace(machine, feed=feed) for machine in (TRUE, BELIEVED))
+    marks = marks_on(true, believed, grid(4, 3))
+    heavy = marks_on(true, believed, grid(2, 2), sled_weight=150.0, prefix="heavy ")
     several = tuple(
         replace(mark, approach=APPROACHES[i % len(APPROACHES)])
         for i, mark in enumerate(marks + heavy)
     )
-    return Measurements(several, (Distance(("0", "11"), 2400.0),))
+    return observe(believed, Measurements(several, (Distance(("0", "11"), 2400.0),)))
 
 
-ROWS = observe(BELIEVED, board())
+ROWS = {feed: board(feed) for feed in ("top", "bottom")}
 
 
-def seen(outside, values=None, names=EVERY):
+def seen(outside, values=None, names=EVERY, *, feed="top"):
     return sighted(
         values_of(TRUE) if values is None else values,
         outside,
-        ROWS,
-        over_top=True,
+        ROWS[feed],
+        over_top=feed == "top",
         usual_weight=TRUE.sled_weight,
         names=names,
     )
@@ -77,11 +78,12 @@ class TestEach:
         assert (np.abs(at_zero).max(axis=(0, 1)) > 0).all()
 
 
+@pytest.mark.parametrize("feed", ROWS)
 @pytest.mark.parametrize("name", EVERY)
-def test_the_slopes_of_all_that_is_measured_are_those_of_finite_differences(name):
+def test_the_slopes_of_all_that_is_measured_are_those_of_finite_differences(name, feed):
     outside = TYPICAL | {SHEET_ROTATION: 0.1}
     values = values_of(TRUE)
-    sighting = seen(outside)
+    sighting = seen(outside, feed=feed)
     # Places come back within 1e-5 mm or so; a longer step hides that, a shorter step bends less.
     step = (1e-2 if "." in name else 1e-3) * SIZES[name]
     ends = []
@@ -89,10 +91,10 @@ def test_the_slopes_of_all_that_is_measured_are_those_of_finite_differences(name
         if name in NAMES:
             moved = values.copy()
             moved[NAMES.index(name)] += signed
-            ends.append(seen(outside, moved, names=()))
+            ends.append(seen(outside, moved, names=(), feed=feed))
         else:
             changed = outside | {name: outside.get(name, 0.0) + signed}
-            ends.append(seen(changed, names=()))
+            ends.append(seen(changed, names=(), feed=feed))
     for which in ("read", "taped"):
         above, below = (getattr(end, which).where for end in ends)
         difference = (above - below) / (2 * step)
@@ -107,3 +109,72 @@ def test_derivatives_that_are_not_asked_for_are_not_computed():
         assert part.read.slopes[:, :, i] == pytest.approx(
             whole.read.slopes[:, :, EVERY.index(name)], abs=1e-12
         )
+
+
+CHAINS = {"chain_sag": {"weight_ratio_squared": (0.00137293 / 97.9) ** 2 / 24}}
+CHAINS["chain_stretch"] = {"compliance": 5.17e-6}
+MACHINE = replace(BELIEVED, effects=CHAINS)
+CORNER = (1000.0, 500.0)
+TWO = (Mark("corner", CORNER), Mark("middle", (0.0, 0.0)))
+
+
+def shown(marks, distances=(), **outside):
+    rows = observe(MACHINE, Measurements(marks, distances))
+    return sighted(
+        values_of(MACHINE),
+        {name.replace("__", "."): value for name, value in outside.items()},
+        rows,
+        over_top=True,
+        usual_weight=MACHINE.sled_weight,
+        names=(),
+    )
+
+
+def lag(place, approach, drag=6.6):
+    """The distance by which friction moves a mark [mm]."""
+    marks = (Mark("one", place, approach=approach),)
+    return (shown(marks, sled_friction__drag=drag).read.where - shown(marks).read.where)[0]
+
+
+# Friction of 6.6 N, published, rounded to one or two digits: top centre 0.24 mm in y, right middle
+# 0.8 and right bottom 2.5 mm in x, lower calibration mark (965, -356) 0.48 mm in x.
+@pytest.mark.parametrize(
+    ("place", "axis", "published", "slack"),
+    [
+        ((0, 550), 1, 0.24, 0.03),
+        ((1150, 0), 0, 0.8, 0.05),
+        ((1150, -550), 0, 2.5, 0.06),
+        ((965, -356), 0, 0.48, 0.01),
+        ((0, 0), 0, 0.05, 0.01),
+    ],
+)
+def test_friction_holds_the_sled_back_as_far_as_published(place, axis, published, slack):
+    ahead = [0.0, 0.0]
+    ahead[axis] = 30.0
+    back = [-part for part in ahead]
+    assert lag(place, tuple(ahead))[axis] == pytest.approx(-published, abs=slack)
+    assert lag(place, tuple(back))[axis] == pytest.approx(published, abs=slack)
+
+
+def test_a_sideways_lag_in_a_lower_corner_drags_the_mark_up_or_down_too():
+    # Coming from the middle it stays behind, and the slacker chain lets it stay higher.
+    x, y = lag((1150, -550), (1.0, 0.0))
+    assert x < 0 < y and abs(y) == pytest.approx(0.0733 * 6.6, rel=0.02)
+
+
+def test_a_tape_that_reads_too_long_gives_larger_numbers():
+    sighting = shown(TWO, (Distance(("corner", "middle"), 1.0),), tape_scale__strain=0.001)
+    for places in (sighting.read, sighting.taped):
+        assert places.where == pytest.approx(np.array([(1001.0, 500.5), (0, 0)]), abs=1e-4)
+
+
+def test_a_skew_sheet_moves_the_top_right_in_readings_and_leaves_distances_alone():
+    sighting = shown(TWO, (Distance(("corner", "middle"), 1.0),), sheet_skew__angle=0.002)
+    assert sighting.read.where == pytest.approx(np.array([(1001.0, 500.0), (0, 0)]), abs=1e-4)
+    assert sighting.taped.where == pytest.approx(np.array([CORNER, (0, 0)]), abs=1e-4)
+
+
+def test_readings_from_the_edges_are_those_of_the_turned_sheet():
+    # A quarter turn: what was to the right is up, and is read too far right.
+    sighting = shown(TWO, sheet_skew__angle=0.01, **{SHEET_ROTATION: np.pi / 2})
+    assert sighting.read.where[0] == pytest.approx([-500.0 + 10.0, 1000.0], abs=1e-3)

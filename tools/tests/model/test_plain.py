@@ -1,15 +1,15 @@
-"""Sizes in a maker's words: the size that is meant, its sign, its interval, and no more figures."""
+"""Sizes in a maker's words, with no more figures than known; and the order of computed numbers."""
 
 import math
+import re
 from dataclasses import replace
+from pathlib import Path
 
+import numpy as np
+import plumb
 import pytest
 from plumb.model.catalogue import every_effect, parameter_words
-from plumb.model.plain import (
-    noun_of,
-    plain_before,
-    plain_size,
-)
+from plumb.model.plain import TIE, ascending, greatest, least, noun_of, plain_before, plain_size
 from plumb.model.predict import judged, with_parameters
 from plumb.text.values import INCHES, MM
 from synthetic import BELIEVED
@@ -63,11 +63,8 @@ def test_every_parameter_has_plain_words_and_its_size_can_be_read_back(name):
     assert words["more"] != words["less"]
     said = plain_size(name, parameter_words()[name]["typical"], unit=MM)
     shown = float(said.partition(f" {words['unit']}")[0].split()[-1])
-    back = {
-        "as is": shown,
-        "root": shown**2,
-        "angle": math.tan(math.radians(shown)) ** 2,
-    }[words["shown"]]
+    by_angle = math.tan(math.radians(shown)) ** 2
+    back = {"as is": shown, "root": shown**2, "angle": by_angle}[words["shown"]]
     assert back / words["times"] == pytest.approx(parameter_words()[name]["typical"], rel=0.01)
 
 
@@ -103,5 +100,44 @@ def test_the_high_spot_of_a_sprocket_is_where_the_judge_has_its_middle(
     else:  # a clockwise turn lifts what is left of the axis
         said = "that rises" if x * clockwise < 0 else "that sinks"
     assert max(abs(x), abs(y)) == pytest.approx(0.1)
-    words = plain_size(name, size, unit=MM)
-    assert words.startswith(f"{side} sprocket 0.100 mm off its middle") and words.endswith(said)
+    assert plain_size(name, size, unit=MM).endswith(said)
+    assert plain_size(name, size, unit=MM).startswith(f"{side} sprocket 0.100 mm off its middle")
+
+
+def rounded_otherwise(numbers, seed):
+    """The numbers as another processor may round them."""
+    return numbers * (1 + 1e-12 * np.random.default_rng(seed).standard_normal(len(numbers)))
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_rounding_changes_no_order(seed):
+    numbers = np.array([5.0, 3.0, 5.0, -2000.0, 3.0, 1e-15, 0.0, -1e-14, np.inf, 3.0])
+    assert ascending(rounded_otherwise(numbers, seed)).tolist() == [3, 5, 6, 7, 1, 4, 9, 0, 2, 8]
+    assert least(rounded_otherwise(numbers[:3], seed)) == 1
+    assert greatest(rounded_otherwise(numbers[:3], seed)) == 0
+
+
+def test_values_that_differ_are_in_order():
+    assert ascending([2.0 + 2 * TIE, 2.0 - 2 * TIE, 2.0]).tolist() == [1, 2, 0]
+    assert ascending([1e6, 1e6 - 1, 1e6 - 0.05]).tolist() == [1, 0, 2]  # a share of large numbers
+    assert ascending([0.0, -0.5 * TIE, -5 * TIE]).tolist() == [2, 0, 1]
+    assert ascending([np.inf, 1e300, -np.inf, np.inf]).tolist() == [2, 1, 0, 3]
+    assert ascending([]).tolist() == []
+
+
+def test_nothing_that_users_get_is_ranked_by_the_last_bit():
+    """These alone may: they rank yes and no, whole numbers, or places that nobody is shown."""
+    allowed = {
+        "model/plain.py",
+        "diagnosis/every_machine.py",
+        "diagnosis/evidence.py",  # the order in which signs are conditioned on, which is not shown
+        "job/check.py",
+        "job/fixes.py",  # the first of yes and no
+        "job/wood.py",  # the first of yes and no
+    }
+    root, ranks = Path(plumb.__file__).parent, re.compile(r"arg(?:min|max|sort)\(")
+    users = [path for path in root.rglob("*.py") if path.parent.name not in ("bench", "vm")]
+    ranking = [
+        path.relative_to(root).as_posix() for path in users if ranks.search(path.read_text())
+    ]
+    assert {*ranking} <= allowed and "model/plain.py" in ranking

@@ -6,13 +6,7 @@ import numpy as np
 import pytest
 from plumb.fit.observations import chains_to, loaded, observe, visited
 from plumb.marks.read import Measurements
-from plumb.model.predict import (
-    NAMES,
-    believed_lengths,
-    known_effects,
-    lengths,
-    values_of,
-)
+from plumb.model.predict import NAMES, believed_lengths, known_effects, lengths, values_of
 from plumb.settings.machine import PublishedSettings
 from synthetic import BELIEVED, TRUE, grid, marks_on
 
@@ -23,9 +17,8 @@ def test_every_parameter_of_the_library_has_its_place_among_the_values():
 
 
 def test_the_stock_controller_believes_its_own_formula_and_plumb_ours():
-    stock = replace(
-        BELIEVED, controller="stock", published=PublishedSettings(chain_sag_correction=8.2)
-    )
+    published = PublishedSettings(chain_sag_correction=8.2)
+    stock = replace(BELIEVED, controller="stock", published=published)
     target = np.array([[1000.0, -400.0]])
     ours = believed_lengths(stock, target, controller="plumb")
     # Our model of these settings has their sag, though it is written in published units.

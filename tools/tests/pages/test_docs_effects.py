@@ -3,6 +3,7 @@
 import re
 
 import pytest
+import write
 from effects_page import PAGE, Showing, cosine, pages
 from plumb.fit.observations import rms
 from plumb.model.catalogue import every_effect
@@ -57,3 +58,30 @@ def test_sizes_are_those_published():
     gap, radius = (Showing("", {name: 1.0}).field for name in ("motor_gap", "rotation_radius"))
     assert (rms(gap.raw), rms(gap.shape)) == pytest.approx((0.72, 0.39), abs=0.02)
     assert (rms(radius.raw), rms(radius.shape)) == pytest.approx((1.75, 0.61), abs=0.04)
+
+
+TEXTS, PICTURE = {"docs/a.md": "# A\n"}, "docs/pictures/a/one.png"
+
+
+@pytest.fixture
+def written(tmp_path, monkeypatch):
+    """Writes a page and its picture below a folder; gives the exit code."""
+    monkeypatch.setattr(write, "PAGES", (lambda: TEXTS,))
+    monkeypatch.setattr(write.effects_page, "pictures", lambda: {PICTURE: b"drawn"})
+    return lambda *options: write.main([*options, "--folder", str(tmp_path)])
+
+
+def test_a_changed_or_missing_page_is_reported(written, tmp_path, capsys):
+    assert written() == written("--check") == 0
+    assert capsys.readouterr().out == "" and (tmp_path / PICTURE).read_bytes() == b"drawn"
+    for change in (lambda path: path.write_text("other"), lambda path: path.unlink()):
+        change(tmp_path / "docs/a.md")
+        assert written("--check") == 1
+        assert capsys.readouterr().out.startswith("docs/a.md: stale; run ")
+        assert written() == written("--check") == 0
+
+
+def test_a_folder_that_cannot_be_written_is_refused(written, tmp_path, capsys):
+    (tmp_path / "docs").write_text("a file")
+    assert written() == 2
+    assert capsys.readouterr().err.startswith("write.py: ")

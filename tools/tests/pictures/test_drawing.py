@@ -6,8 +6,8 @@ import xml.etree.ElementTree as ElementTree
 import numpy as np
 import pytest
 from plumb.pictures.drawing import FORMATS, Panel, columns_for, draw, factor_for, view_of
+from synthetic import SHEET
 
-SHEET = (2438.4, 1219.2)
 PLACES = np.array([[-1000.0, 500.0], [0.0, 500.0], [1000.0, -500.0]])
 ERRORS = np.array([[1.0, -2.0], [0.0, 12.0], [0.3, 0.0]])
 BEFORE = Panel("Before: 7.0 mm RMS", PLACES, ERRORS)

@@ -60,9 +60,8 @@ def test_print_keeps_off_the_edges_of_a4_and_letter(options):
 def test_every_reading_has_its_row_and_each_number_a_box(options):
     sheet = content(**options)
     figures = pages_of(sheet)
-    assert sum(len(boxes(figure)) for figure in figures) == sum(
-        len(reading.planned) for reading in sheet.readings
-    )
+    filled = sum(len(boxes(figure)) for figure in figures)
+    assert filled == sum(len(reading.planned) for reading in sheet.readings)
     for figure in figures:
         for first, second in itertools.pairwise(sorted(boxes(figure))):
             same_column = abs(first[0] - second[0]) < 0.1
@@ -99,22 +98,15 @@ def test_the_same_grid_gives_the_same_pages(run, tmp_path):
     command = ("grid", f"--places={words}", "--output", tmp_path / "g.nc")
     for _ in range(2):
         assert run(*command, "--paper", paper)[0] == 0
-    assert paper.read_bytes() == measuring_sheet(
-        content_of(
-            marks_grid.Grid(repeats=False, places=places),
-            MACHINE,
-            MM,
-            settings=None,
-            form="marks.toml",
-        )
-    )
+    grid = marks_grid.Grid(repeats=False, places=places)
+    sheet = content_of(grid, MACHINE, MM, settings=None, form="marks.toml")
+    assert paper.read_bytes() == measuring_sheet(sheet)
     assert len(re.findall(rb"/Type /Page\b(?!s)", paper.read_bytes())) == 2
 
 
-def test_the_paper_is_a_pdf_and_a_file_of_its_own(run, ask, tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
+def test_the_paper_is_a_pdf_and_a_file_of_its_own(run, ask, here):
     for name, hint in (("sheet.png", ".pdf"), ("g.pdf", "two results")):
         code, _, complaint = run("grid", "--output", "g.pdf", "--paper", name)
-        assert code == 2 and hint in complaint and list(tmp_path.iterdir()) == []
+        assert code == 2 and hint in complaint and list(here.iterdir()) == []
     _, answer = ask("grid", "--output", "g.nc", "--paper", "sheet.pdf")
     assert answer["written"] == ["g.nc", "sheet.pdf"]

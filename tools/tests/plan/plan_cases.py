@@ -27,10 +27,8 @@ def case_on(measurements, *effects, verdict="cannot_tell", checked=(), machine=M
     board = Board.of(model, rows, sigma=SIGMA, checked=checked)
     posterior = posterior_of(board, Stated(SIGMA, is_final=True))
     frame = posterior.frame
-    fitted = tuple(
-        Hypothesis((name,), explain(board, (name,), start=frame), 1 / len(effects))
-        for name in effects
-    )
+    parts = [(name, explain(board, (name,), start=frame)) for name in effects]
+    fitted = tuple(Hypothesis((name,), each, 1 / len(effects)) for name, each in parts)
     return Case(
         settings=machine,
         controller="plumb",

@@ -1,4 +1,4 @@
-"""Tests of a measurement's promised information and chance, against boards drawn otherwise."""
+"""What a measurement promises, and what a plan could tell, against boards drawn otherwise."""
 
 from dataclasses import replace
 
@@ -8,14 +8,18 @@ from plan_cases import MACHINE, SIGMA, case_on, nine
 from plumb.diagnosis.answer import NOTHING
 from plumb.diagnosis.every_machine import asked_for, clean_of
 from plumb.diagnosis.evidence import Noises, accounts_of, fitted
+from plumb.diagnosis.explanation import Board, explain
 from plumb.diagnosis.linear import LinearBoard, Metric
 from plumb.diagnosis.posterior import listing
 from plumb.diagnosis.priors import turned
-from plumb.marks.read import Measurements
+from plumb.fit.observations import model_and_observations
+from plumb.marks.read import Mark, Measurements
+from plumb.model.catalogue import EVERY_MACHINE
 from plumb.plan.case import PlannedCheck, PlannedMeasurement
 from plumb.plan.options import many_marks
 from plumb.plan.outlook import Outlooks, _is_right, _shown
 from plumb.plan.planned_visits import nowhere
+from plumb.plan.preview import POWER, preview
 from synthetic import BELIEVED, grid, marks_on
 
 NOISES = Noises(np.array([SIGMA]), np.zeros(1))
@@ -159,3 +163,44 @@ def test_where_nothing_is_proved_each_effect_is_looked_for():
     assert expected.left is None and 0 <= expected.chance <= 1 and expected.bits > 0.1
     less = Outlooks(hidden).of(PlannedMeasurement(nowhere()))
     assert less.chance <= expected.chance and less.bits < expected.bits
+
+
+def plan_of(columns, rows, **how):
+    targets = grid(columns, rows)
+    places = enumerate(map(tuple, targets.tolist()))
+    return Measurements(tuple(Mark(str(i), at, at, **how) for i, at in places))
+
+
+@pytest.fixture(scope="module")
+def plan_of_nine():
+    return preview(MACHINE, plan_of(3, 3, approach=(0.0, 1.0)), sigma=SIGMA)
+
+
+def outline(seen, effect):
+    (only,) = [each for each in seen.outlines if each.effect == effect]
+    return only
+
+
+@pytest.mark.parametrize("effect", ["sheet_skew", "chain_plane"])
+def test_the_smallest_size_is_detected_at_the_stated_rate(effect):
+    seen = preview(MACHINE, plan_of(5, 5), sigma=SIGMA)
+    model, rows = model_and_observations(MACHINE, plan_of(5, 5))
+    frame = explain(Board.of(model, rows, sigma=SIGMA))
+    board = LinearBoard.of(frame, (*EVERY_MACHINE, effect))
+    every = accounts_of(board)
+    accounts = every.among(np.array([names in ((), (effect,)) for names in every.effects]))
+    source, count = np.random.default_rng(1), 1500
+    drawn = board.effects[:, board.columns[effect]] * outline(seen, effect).smallest
+    read = drawn + SIGMA * source.standard_normal((len(drawn), count))
+    read += board.frame @ source.standard_normal((board.frame.shape[1], count))
+    noises = Noises(np.array([SIGMA]), np.zeros(1))
+    total = clean_of(replace(board, read=read), accounts, noises).total
+    nothing = np.exp(total[0] - np.logaddexp.reduce(total, axis=0))
+    assert np.mean(nothing < NOTHING) == pytest.approx(POWER, abs=0.1)
+
+
+def test_look_alikes_are_named_and_effects_that_show_are_counted(plan_of_nine):
+    assert "frame_lean" in outline(plan_of_nine, "chain_sag").alike
+    smallest = [each.smallest for each in plan_of_nine.outlines if each.smallest is not None]
+    assert plan_of_nine.named <= plan_of_nine.seen == sum(size <= 1 for size in smallest)
+    assert plan_of_nine.seen < sum(size <= 2 for size in smallest)

@@ -7,8 +7,11 @@ import pytest
 from hidden_boards import board, board_cut, size_for
 from plumb.bench.boards import plan
 from plumb.bench.causes import MAKER
+from plumb.cli.compare import conclusion
 from plumb.diagnosis import Checked, diagnose
+from plumb.fit.compare import compare
 from plumb.fit.inputs import Inputs
+from plumb.marks.read import Mark, Measurements
 from plumb.model.catalogue import effect_names
 from plumb.model.predict import FOUND, lengths
 from plumb.plan import propose
@@ -16,6 +19,8 @@ from plumb.plan.case import case_of
 from plumb.plan.options import ROOM_FOR_A_SECOND, many_marks, options
 from plumb.plan.planned_visits import usable
 from plumb.plan.separation import ENOUGH, Chooser
+from plumb.text.values import MM
+from synthetic import BELIEVED, grid
 
 NINE = plan(3, 3)
 NOISE = 0.5
@@ -118,9 +123,8 @@ def test_where_nothing_is_provable_doubt_is_removed_first(clean):
     marks, diagnosis, _ = clean
     answer = propose(diagnosis, Inputs(MAKER, marks))
     best = answer.proposals[0]
-    largest = max(
-        (hidden for hidden in diagnosis.could_hide if hidden.mm), key=lambda hidden: hidden.mm
-    )
+    rooms = [hidden for hidden in diagnosis.could_hide if hidden.mm]
+    largest = max(rooms, key=lambda hidden: hidden.mm)
     assert best.question == "find" and best.rooms[0].effect == largest.effect
     assert best.rooms[0].then < 0.5 * best.rooms[0].now
     for proposal in answer.proposals:
@@ -149,3 +153,37 @@ def test_a_slip_is_read_again_and_nothing_else():
     option = answer.proposals[0].option
     assert option.visits.names == (slipped[7].name,)
     assert option.do[0].startswith(f"Read {slipped[7].name} again")
+
+
+def mirrored_board(seed):
+    """Marks whose errors mirror each other, left and right: what is of one chain ties with what is
+    of the other, and so do marks of both halves."""
+    targets = grid(3, 3)
+    x = targets[:, 0]
+    read = targets * 1.0015 + np.stack([0.0 * x, 2.0 - 1e-7 * x**2], axis=1)
+    read *= 1 + 1e-12 * np.random.default_rng(seed).standard_normal(read.shape)
+    marks = zip(targets.tolist(), read.tolist(), strict=True)
+    return Measurements(
+        tuple(Mark(str(i), tuple(there), tuple(seen)) for i, (there, seen) in enumerate(marks))
+    )
+
+
+def answers(seed):
+    """The ranked answers that a user gets."""
+    measurements = mirrored_board(seed)
+    inputs = Inputs(BELIEVED, measurements, sigma=0.5)
+    diagnosis = diagnose(inputs)
+    proposals = propose(diagnosis, inputs).proposals
+    return {
+        "ranking": [each.effect for each in diagnosis.ranking],
+        "explanations": [each.effects for each in diagnosis.explanations],
+        "proposals": [(each.option.title, each.option.do) for each in proposals],
+        "worst mark": conclusion(compare(Inputs(BELIEVED, measurements)), MM),
+    }
+
+
+def test_rounding_changes_no_answer():
+    usual, otherwise = answers(0), answers(1)
+    for what, order in usual.items():
+        assert otherwise[what] == order, what
+    assert len(usual["proposals"]) > 3

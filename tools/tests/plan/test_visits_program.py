@@ -1,41 +1,21 @@
-"""Planned visits as a program that cuts them, and as a form that waits for their readings."""
+"""Planned visits: the form that waits for their readings, and the way to them."""
+
+import dataclasses
 
 import numpy as np
 import pytest
 from plumb.marks.form import read_form
-from plumb.plan.planned_visits import (
-    joined,
-    marks_file,
-    nowhere,
-    program,
-    sent,
-)
+from plumb.marks.model import Mark
+from plumb.plan.planned_visits import joined, marks_file, nowhere, refuse_way, sent
+from plumb.text.errors import InputError
 from plumb.text.values import MM
 from synthetic import BELIEVED
 
 
-def test_the_program_waits_before_the_first_mark_and_after_the_last():
-    visits = sent(BELIEVED, [(0.0, 0.0), (300.0, 0.0)], controller="plumb", sled_weight=146.95)
-    parts = program(visits, usual_weight=97.9).split("M0")
-    assert [part.count("G1 Z-0.5") for part in parts] == [0, 2, 0]
-    assert "let 5.0 kg more" in parts[0] and "G0 Z5" in parts[0] and "take off" in parts[1]
-    assert parts[1].index("G0 X0 Y0") < parts[1].index("take off")
-    usual = sent(BELIEVED, [(0.0, 0.0)], controller="plumb", sled_weight=97.9)
-    assert "M0" not in program(usual, usual_weight=97.9)
-
-
 def test_a_form_keeps_place_side_and_weight(file):
-    targets, sides = (
-        np.array([(-1000.0, 480.0), (20.0, -300.0)]),
-        np.array([(0.0, 1.0), (0.6, -0.8)]),
-    )
-    visits = sent(
-        BELIEVED,
-        targets,
-        controller="plumb",
-        sled_weight=147.0,
-        approaches=sides,
-    )
+    targets = np.array([(-1000.0, 480.0), (20.0, -300.0)])
+    sides = np.array([(0.0, 1.0), (0.6, -0.8)])
+    visits = sent(BELIEVED, targets, controller="plumb", sled_weight=147.0, approaches=sides)
     text = marks_file(
         visits, sheet=BELIEVED.sheet, controller="plumb", said=("Four marks.",), unit=MM
     )
@@ -45,15 +25,6 @@ def test_a_form_keeps_place_side_and_weight(file):
         assert mark.target == pytest.approx(tuple(target), abs=0.001)
         assert mark.approach == pytest.approx(tuple(side), abs=0.001)
         assert mark.sled_weight == 147.0
-
-
-def test_instructions_are_comments_that_no_bracket_ends():
-    visits = sent(BELIEVED, [(0.0, 0.0)], controller="plumb", sled_weight=98.0)
-    long = "Cut and read a mark (0, 0) " + 20 * "and so on "
-    lines = program(visits, usual_weight=98.0, do=[long]).splitlines()
-    said = [line for line in lines if "and so on" in line]
-    assert len(said) == 4 and all(line.count("(") == line.count(")") == 1 for line in said)
-    assert max(map(len, said)) <= 72 and lines.index(said[-1]) < lines.index("G21")
 
 
 def test_joined_visits_keep_everything():
@@ -71,3 +42,40 @@ def test_joined_visits_keep_everything():
     assert {mark.sled_weight for mark in read} == {120.0}
     rows = back.rows()
     assert rows.count == 6 and rows.mark_rows.tolist() == [0, 1, 2] and not rows.measured.any()
+
+
+UP, LEFT = (0.0, 1.0), (-1.0, 0.0)
+
+
+@pytest.mark.parametrize("side", [None, UP, LEFT])
+def test_marks_on_the_sheet_are_reached(side):
+    refuse_way(BELIEVED, [Mark("1", (-1000, 500), approach=side), Mark("2", (0, -500))])
+
+
+@pytest.mark.parametrize(
+    ("place", "side", "why"),
+    [
+        ((0.0, -600.0), None, "leaves the sheet"),  # 40 mm below it there is no sheet
+        ((1190.0, 0.0), LEFT, "leaves the sheet"),
+        ((0.0, 620.0), None, "leaves the sheet"),
+    ],
+)
+def test_a_path_off_the_sheet_is_refused(place, side, why):
+    with pytest.raises(InputError, match=f"mark far {why}"):
+        refuse_way(BELIEVED, [Mark("near", (0.0, 0.0)), Mark("far", place, approach=side)])
+
+
+def test_the_weight_on_the_sled_counts():
+    mark = Mark("1", (0.0, 560.0))
+    refuse_way(BELIEVED, [mark])
+    with pytest.raises(InputError, match="where the sled cannot hang well"):
+        refuse_way(BELIEVED, [dataclasses.replace(mark, sled_weight=400.0)])
+
+
+def test_the_way_between_two_marks_counts():
+    low = dataclasses.replace(BELIEVED, motor_height=700.0)
+    corners = [Mark("left", (-1000.0, 400.0)), Mark("right", (1000.0, 400.0))]
+    for corner in corners:
+        refuse_way(low, [corner])
+    with pytest.raises(InputError, match="mark right passes where the sled cannot hang well"):
+        refuse_way(low, corners)

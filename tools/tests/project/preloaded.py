@@ -44,9 +44,8 @@ def preloaded() -> Iterator[Path]:
         folder = Path(name)
         address = str(folder / "line")
         client = folder / "plumb"
-        client.write_text(
-            CLIENT.format(python=sys.executable, by_itself=BY_ITSELF, address=address)
-        )
+        how = {"python": sys.executable, "by_itself": BY_ITSELF, "address": address}
+        client.write_text(CLIENT.format(**how))
         client.chmod(0o755)
         command = [sys.executable, __file__, address]
         # It ends when its input does.

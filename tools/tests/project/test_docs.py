@@ -8,9 +8,9 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+from example_machine import ROOT
 from plumb.cli.main import build_parser
 
-ROOT = Path(__file__).resolve().parents[3]
 FOLDERS = ("docs", "lib", "src", "test", "tools")
 # Files that a page tells the reader to write.
 READERS_FILES = {"lib/Kinematics/src/effects/mount_give.h"}
@@ -83,11 +83,8 @@ def listed_below(*headings: str) -> set[Path]:
 
 def commands() -> list[str]:
     """The commands of plumb."""
-    choices = next(
-        action.choices
-        for action in build_parser()._actions
-        if isinstance(action, argparse._SubParsersAction)
-    )
+    actions = build_parser()._actions
+    choices = next(each.choices for each in actions if isinstance(each, argparse._SubParsersAction))
     return list(choices)
 
 

@@ -114,8 +114,7 @@ def test_unused_refuses_what_only_a_test_calls(tmp_path, name, text):
 
 
 @pytest.mark.parametrize(
-    "use",
-    ["int a = axes.lonely(3);", "#define LONELY lonely(3)", "auto there = &Axes::lonely;"],
+    "use", ["int a = axes.lonely(3);", "#define LONELY lonely(3)", "auto there = &Axes::lonely;"]
 )
 def test_unused_allows_what_is_used(tmp_path, use):
     files = {"lib/Motion/src/path.h": LONELY, "src/main.cpp": f"{use}\n"}
@@ -182,8 +181,8 @@ def test_generated_reports_a_stale_page(tmp_path):
     ("text", "word"),
     [
         ("const float kTick = 1;\n", "kTick"),
-        ("struct Motor {\n};\n", "Motor"),
-        ("Plain cruising() {\n}\n", "cruising"),
+        ("struct Motor {};\n", "Motor"),
+        ("Plain go() {\n}\n", "go"),
     ],
 )
 def test_names_refuse_a_name_that_two_files_of_a_suite_define(tmp_path, text, word):

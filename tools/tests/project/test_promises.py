@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from pathlib import Path
 
 import pytest
+from example_machine import ROOT
 
-ROOT = Path(__file__).resolve().parents[3]
 PAGE = ROOT / "docs/promises.md"
 LINK = re.compile(r"\[[^]]*\]\(([^)]+)\)")
 ROW = re.compile(r"\| (.+) \| (.+) \|")

@@ -1,4 +1,4 @@
-"""The recipes of docs/ are carried out as they stand, in a copy of what they change."""
+"""The recipes of docs/ and tools/demo are carried out as they stand; a recipe, in a copy."""
 
 import json
 import re
@@ -6,14 +6,13 @@ import shutil
 import subprocess
 import sys
 import types
-from pathlib import Path
 
 import pytest
+from example_machine import ROOT
 from plumb.cli import main
 
-ROOT = Path(__file__).resolve().parents[3]
 sys.path.insert(0, str(ROOT / "tools/bench"))
-from commands import compiled  # noqa: E402
+from commands import compiled
 
 PAGE = ROOT / "docs/new-effect.md"
 EIGEN = ROOT / ".pio/libdeps/native/ArduinoEigen/ArduinoEigen"
@@ -136,3 +135,16 @@ def judged(folder):
     options = ["-O1", "-isystem", EIGEN, *(f"-I{part}" for part in includes)]
     compiled(program, sources, options=options, folder=folder)
     return subprocess.run([program, "mount_give"], capture_output=True, text=True)
+
+
+@pytest.mark.slow
+def test_the_demo_ends_with_the_hidden_effect_named_and_a_better_machine():
+    program = [ROOT / "tools/demo", "--seed", "2"]
+    said = subprocess.run(program, capture_output=True, text=True, check=True).stdout
+    played, revealed = said.split("$ plumb practice reveal")
+    assert "chain_stretch" not in played
+    assert "Hidden was chain_stretch" in revealed and "You found chain stretch." in revealed
+    before, after = map(float, re.findall(r"\d\.\d+$", revealed, re.MULTILINE))
+    assert after < 0.2 * before
+    assert "The machine is as it was fitted" in played
+    assert (ROOT / "build/demo/error-falls.png").read_bytes().startswith(b"\x89PNG")

@@ -4,8 +4,8 @@ import subprocess
 from pathlib import Path
 
 import pytest
+from example_machine import ROOT
 
-ROOT = Path(__file__).resolve().parents[3]
 # The step alone, on a machine where nothing is installed and that this test describes.
 STEP = """
 set -euo pipefail

@@ -4,14 +4,13 @@ import os
 import signal
 import subprocess
 import sys
-from pathlib import Path
 
 import pytest
+from example_machine import ROOT
 
-ROOT = Path(__file__).resolve().parents[3]
 sys.path.insert(0, str(ROOT / "tools/steps"))
-import run_tests as run  # noqa: E402
-from run_tests import Part  # noqa: E402
+import run_tests as run
+from run_tests import Part
 
 
 @pytest.fixture(autouse=True)
@@ -93,13 +92,10 @@ def test_a_run_that_is_interrupted_ends_all_that_it_started(results):
     log = results / "r/x.log"
     while not (log.is_file() and log.read_text()):
         assert work.poll() is None
-    group = subprocess.run(
-        ["ps", "-o", "pid=", "--sid", str(work.pid)], capture_output=True, text=True
-    )
+    session = ["ps", "-o", "pid=", "--sid", f"{work.pid}"]
+    group = subprocess.run(session, capture_output=True, text=True)
     assert len(group.stdout.split()) == 1 + run.CORES
     os.kill(work.pid, signal.SIGINT)
     assert work.wait() == 130
-    left = subprocess.run(
-        ["ps", "-o", "pid=", "--sid", str(work.pid)], capture_output=True, text=True
-    )
+    left = subprocess.run(session, capture_output=True, text=True)
     assert left.stdout.split() == []

@@ -15,14 +15,14 @@ from pathlib import Path
 from urllib.request import urlopen
 
 import pytest
+from example_machine import ROOT
 from plumb.settings.files import read_settings
 from plumb.settings.toml import machine_toml
 from plumb.text.version import version
 from published_marks import MARKS, SETTINGS
 
-ROOT = Path(__file__).resolve().parents[3]
 sys.path.insert(0, str(ROOT / "tools/bench"))
-from board import built_firmware  # noqa: E402
+from board import built_firmware
 
 PIP = [sys.executable, "-m", "pip", "--disable-pip-version-check"]
 
@@ -114,13 +114,8 @@ def every_command_runs(plumb):
 
 
 def the_lab_is_served_with_its_page(plumb):
-    served = plumb(
-        "lab",
-        "--no-browser",
-        "--port",
-        "0",
-        start=partial(subprocess.Popen, stdout=subprocess.PIPE),
-    )
+    running = partial(subprocess.Popen, stdout=subprocess.PIPE)
+    served = plumb("lab", "--no-browser", "--port", "0", start=running)
     try:
         address = [served.stdout.readline() for _ in range(2)][1].partition("?")[0]
         page = urlopen(address, timeout=120).read().decode()

@@ -13,8 +13,6 @@ from plumb.marks.read import Measurements
 from plumb.settings.toml import write_machine_toml
 from synthetic import BELIEVED, TRUE, distances_between, grid, marks_on
 
-EXAMPLE = Path(__file__).resolve().parents[3] / "docs/example"
-
 
 def asked(*words) -> dict:
     """The object that a command prints with --json."""

@@ -5,23 +5,18 @@ import shutil
 from pathlib import Path
 
 import pytest
-from example_machine import checked
+from example_machine import INI, MARKS, checked
 from plumb.cli.main import main
 from plumb.model.plain import plain_change
 from plumb.settings.toml import write_machine_toml
 from plumb.text.values import MM
-from reports import EXAMPLE, asked, board, nine, reported, spans
+from reports import asked, board, nine, reported, spans
 from synthetic import TRUE, grid, marks_on
 from systems import ON_POSIX
 
-INI, MARKS = EXAMPLE / "groundcontrol.ini", EXAMPLE / "marks.toml"
 AXE = Path(__file__).resolve().parents[2] / "page/node_modules/axe-core/axe.min.js"
-HOSTILE = (
-    "</script><script>alert(1)</script>",
-    '"><img src=x onerror=alert(1)>',
-    "<!-- <script>",
-    "-->&amp;<b>",
-)
+HOSTILE = ("</script><script>alert(1)</script>", '"><img src=x onerror=alert(1)>')
+HOSTILE += ("<!-- <script>", "-->&amp;<b>")
 
 
 def slipped(folder):
@@ -40,12 +35,8 @@ def hostile(folder):
     return board(folder, marks, name="<img src=x onerror=alert(2)>.toml")
 
 
-BOARDS = {
-    "cannot_tell": lambda folder: (INI, MARKS),
-    "slip": slipped,
-    "spans": spans,
-    "hostile": hostile,
-}
+BOARDS = {"cannot_tell": lambda folder: (INI, MARKS), "slip": slipped}
+BOARDS |= {"spans": spans, "hostile": hostile}
 
 
 @pytest.fixture(scope="module")
@@ -189,16 +180,13 @@ def test_the_same_files_give_the_same_bytes(made, tmp_path):
         ((INI, MARKS), "-o/--output"),
     ],
 )
-def test_unusable_files_are_refused_and_nothing_is_written(
-    tmp_path, monkeypatch, capsys, words, complaint
-):
-    monkeypatch.chdir(tmp_path)
-    (tmp_path / "own.html").write_text("mine")
+def test_unusable_files_are_refused_and_nothing_is_written(here, capsys, words, complaint):
+    (here / "own.html").write_text("mine")
     assert main(["report", *map(str, words)]) == 2
     said = capsys.readouterr()
     assert complaint in said.err and said.err.count("\n") == 1 and not said.out
-    assert [path.name for path in tmp_path.iterdir()] == ["own.html"]
-    assert (tmp_path / "own.html").read_text() == "mine"
+    assert [path.name for path in here.iterdir()] == ["own.html"]
+    assert (here / "own.html").read_text() == "mine"
 
 
 def test_a_page_that_plumb_wrote_may_be_replaced(made, tmp_path, capsys):

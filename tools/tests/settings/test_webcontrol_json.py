@@ -2,22 +2,17 @@
 
 import json
 import re
-from pathlib import Path
 
 import pytest
+from example_machine import EXAMPLE
 from plumb.cli.main import main
 from plumb.firmware.client_files import client_numbers
 from plumb.settings.cut_with import digest_of
-from plumb.settings.files import (
-    changed_client_file,
-    parse_webcontrol,
-    read_settings,
-)
+from plumb.settings.files import changed_client_file, parse_webcontrol, read_settings
 from plumb.settings.ini import SOURCES
 from plumb.text.errors import InputError
 from plumb.text.ini import read_ini
 
-EXAMPLE = Path(__file__).resolve().parents[3] / "docs/example"
 INI = EXAMPLE / "groundcontrol.ini"
 # WebControl spells the keys with capitals; the published ini has them small.
 CAPITALS = {key.lower(): key for _, key in SOURCES.values()}
@@ -122,10 +117,7 @@ def test_a_wrong_value_is_named_with_its_line(webcontrol):
     assert '"key"' in text.splitlines()[entry.line - 1]
 
 
-def test_a_calibration_with_webcontrol_needs_nothing_else(
-    webcontrol, tmp_path, monkeypatch, capsys
-):
-    monkeypatch.chdir(tmp_path)
+def test_a_calibration_with_webcontrol_needs_nothing_else(webcontrol, here, capsys):
     marks = str(EXAMPLE / "marks.toml")
     known = (
         "tape_scale.strain=0+-0.0001",

@@ -2,12 +2,10 @@
 
 import os
 import sys
-from pathlib import Path
 
 import pytest
+from example_machine import ROOT
 from served_machine import Served
-
-ROOT = Path(__file__).resolve().parents[3]
 
 
 @pytest.fixture(scope="session")

@@ -8,6 +8,7 @@ import time
 from pathlib import Path
 
 import pytest
+from example_machine import ROOT
 from intelhex import IntelHex
 from numbers_machine import NumbersMachine
 from plumb.firmware.hex_file import hex_bytes, program_in
@@ -16,7 +17,6 @@ from plumb.line.bootloader import hex_file, version_in, write_program
 from plumb.text.errors import InputError
 from served_machine import plumb
 
-ROOT = Path(__file__).resolve().parents[3]
 BOOTLOADER = (
     "/usr/share/arduino/hardware/arduino/avr/bootloaders/stk500v2/stk500boot_v2_mega2560.hex"
 )

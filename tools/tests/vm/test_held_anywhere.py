@@ -97,10 +97,10 @@ class Client:
         raise AssertionError(f"{self.answered} of {len(self.lines)} lines were answered")
 
 
-@pytest.mark.parametrize(
-    ("seed", "brain"),
-    [(0, "host"), (1, "host"), pytest.param(1, "mega", marks=pytest.mark.slow)],
-)
+MEGA = pytest.param(1, "mega", marks=pytest.mark.slow)
+
+
+@pytest.mark.parametrize(("seed", "brain"), [(0, "host"), (1, "host"), MEGA])
 def test_holds_at_any_moment_leave_the_path_unchanged(seed, brain, elf):
     usual = Client(machine_at_rest()).run(None)
     client = Client(machine_at_rest(elf if brain == "mega" else None))

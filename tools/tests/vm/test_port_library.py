@@ -54,8 +54,7 @@ def client(program: str, folder: Path, **environment: str) -> subprocess.Complet
 
 
 @pytest.mark.parametrize(
-    ("program", "why"),
-    [(DROPS_DTR, "Inappropriate ioctl"), (ASKS_PARITY, "Invalid argument")],
+    ("program", "why"), [(DROPS_DTR, "Inappropriate ioctl"), (ASKS_PARITY, "Invalid argument")]
 )
 def test_a_client_opens_the_port_as_it_opens_a_boards(served, tmp_path, program, why):
     served()

@@ -44,9 +44,8 @@ def test_a_practice_is_cut_read_and_revealed_with_the_commands_of_a_machine(mach
     plumb("add", *inputs, *words, folder=tmp_path)
     said = plumb("practice", "reveal", "game", "game/new.toml", folder=tmp_path)
     assert "Hidden was sled_swing" in said and "You found" in said
-    score = json.loads(
-        plumb("practice", "reveal", "game", "game/new.toml", "--json", folder=tmp_path)
-    )
+    again = ("practice", "reveal", "game", "game/new.toml", "--json")
+    score = json.loads(plumb(*again, folder=tmp_path))
     assert score["named"] == ["sled_swing"] and not score["missed"] and not score["false"]
     assert score["after_mm"] < 0.5 * score["before_mm"]
     # Settings that were left as they are find nothing.
@@ -64,13 +63,12 @@ def test_a_practice_is_cut_read_and_revealed_with_the_commands_of_a_machine(mach
         (["hint", "game"], "give start, reveal"),
     ],
 )
-def test_refusals(words, complaint, tmp_path, monkeypatch, capsys):
-    monkeypatch.chdir(tmp_path)
+def test_refusals(words, complaint, here, capsys):
     for name, text in (("broken", "{}"), ("game", Secret(1).text)):
-        (tmp_path / name).mkdir()
-        (tmp_path / name / "practice.json").write_text(text)
-    (tmp_path / "theirs").mkdir()
-    (tmp_path / "theirs/machine.toml").write_text("")
+        (here / name).mkdir()
+        (here / name / "practice.json").write_text(text)
+    (here / "theirs").mkdir()
+    (here / "theirs/machine.toml").write_text("")
     assert main(["practice", *words]) == 2
     assert complaint in capsys.readouterr().err
 

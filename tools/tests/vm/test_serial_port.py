@@ -1,4 +1,4 @@
-"""The virtual machine behind a serial port, driven by the commands that drive a board."""
+"""The virtual machine behind a serial port, or a socket as on Windows, driven like a board."""
 
 import json
 import os
@@ -12,7 +12,7 @@ import serial
 from plumb.cli.main import main
 from plumb.cli.vm import EEPROM_BYTES, TRAVELS
 from plumb.diary.file import append, read_diary
-from served_machine import INTERRUPTIBLE, PLUMB, START, plumb
+from served_machine import INTERRUPTIBLE, PLUMB, SPEED, START, plumb
 
 
 def test_a_program_is_cut_and_the_machine_tells_its_place(served, tmp_path):
@@ -47,16 +47,6 @@ def test_numbers_are_written_read_back_kept_and_brought_back(served, tmp_path):
     plumb("send", "--port", "maslow", "B10 L", folder=tmp_path)
     (entry,) = read_diary(tmp_path).of_kind("program")
     assert entry.content["program"] == "B10 L" and entry.content["whole"]
-
-
-def test_a_refused_line_stops_the_program(served, tmp_path):
-    served()
-    append(tmp_path, "fit", {})
-    (tmp_path / "job.nc").write_text("G21\nG0 X--5\nG0 X10\n")
-    said = plumb("send", "--port", "maslow", "job.nc", folder=tmp_path, code=2)
-    assert "'G0 X--5': the machine says: ALARM: Halted" in said
-    (entry,) = read_diary(tmp_path).of_kind("program")
-    assert entry.content["lines"] == 3 and not entry.content["whole"]
 
 
 MOVES = "G21\nG90\nG1 X0 Y60 F800\nG4 P500\n"
@@ -101,9 +91,8 @@ def test_the_printed_command_brings_a_lost_place_back(served, tmp_path):
 
 
 @pytest.mark.parametrize("words", [("B05", "job.nc"), ("job.nc", "B05"), ("machine.toml", "B05")])
-def test_a_file_is_sent_alone(words, tmp_path, monkeypatch, capsys):
-    monkeypatch.chdir(tmp_path)
-    (tmp_path / "job.nc").write_text("G0 X1\n")
+def test_a_file_is_sent_alone(words, here, capsys):
+    (here / "job.nc").write_text("G0 X1\n")
     assert main(["send", *words, "--port", "nowhere"]) == 2
     assert "goes alone" in capsys.readouterr().err
 
@@ -114,7 +103,11 @@ def test_the_printed_command_resumes_a_stopped_job(served, tmp_path):
     # longer, or hear the dwell's end as well; the file goes on from the line that it says.
     moves = MOVES.replace("P500", "P1300")
     (tmp_path / "job.nc").write_text(f"(a job)\n{moves}G0 X--5\n")
+    append(tmp_path, "fit", {})
     said = plumb("send", "--port", "maslow", "job.nc", folder=tmp_path, code=2)
+    assert "'G0 X--5': the machine says: ALARM: Halted" in said
+    (entry,) = read_diary(tmp_path).of_kind("program")
+    assert entry.content["lines"] == 5 and not entry.content["whole"]
     commands = re.findall(r"^  plumb (.*)$", said.replace("\\\n", " "), re.MULTILINE)
     read, resume = (shlex.split(each) for each in commands)
     assert read == ["read", "--port", "maslow", "-o", "machine.toml"]
@@ -269,3 +262,29 @@ def test_impossible_values_are_refused_in_one_line(tmp_path, words, why):
     assert why in said
     assert said.count("\n") == 1
     assert (tmp_path / "here").read_text() == "something\n"
+
+
+@pytest.fixture
+def name(tmp_path):
+    """The name of a machine's port; the machine ends with the test."""
+    command = [*PLUMB, "vm", "--link", "socket://localhost:0", "--speed", str(SPEED)]
+    machine = INTERRUPTIBLE(command, cwd=tmp_path, stdout=subprocess.PIPE, text=True)
+    yield re.match(r"The machine is at (socket://localhost:\d+)\.", machine.stdout.readline())[1]
+    machine.terminate()
+    machine.wait()
+
+
+def test_a_program_is_sent_through_a_socket_and_each_opening_resets_the_board(name, tmp_path):
+    plumb("grid", "--places=0,100 300,100", "--output", "grid.nc", folder=tmp_path)
+    assert "the machine took each" in plumb("send", "--port", name, "grid.nc", folder=tmp_path)
+    assert "The sled is at x " in plumb("read", "--port", name, folder=tmp_path)
+    for _ in range(2):
+        with serial.serial_for_url(name, timeout=START) as line:
+            assert line.read_until(b"Detected").endswith(b"Detected")
+
+
+def test_a_socket_that_is_taken_or_is_no_name_is_refused(name, tmp_path):
+    said = plumb("vm", "--link", name, folder=tmp_path, code=2)
+    assert f"{name}: a virtual machine is at it already; end it or give another number" in said
+    said = plumb("vm", "--link", "socket://garage:7000", folder=tmp_path, code=2)
+    assert "is not like socket://localhost:7000" in said

@@ -31,7 +31,7 @@ NOT_UNDER_WINE = (
     # They open pseudo terminals.
     "lab/test_broken_cut.py",
     *("line/test_line_lock.py", "vm/test_clients.py", "vm/test_flash.py", "vm/test_links.py"),
-    *(f"vm/test_{name}.py" for name in ("port_library", "serial_port", "whole_lines")),
+    *(f"vm/test_{name}.py" for name in ("port_library", "serial_port")),
 )
 START = 120  # [s] in which a program under Wine must have begun
 
@@ -80,12 +80,8 @@ def served(folder):
 
 def test_the_diagnosis_is_that_of_linux(folder):
     words = ["diagnose", "groundcontrol.ini", "marks.toml"]
-    linux = subprocess.run(
-        [sys.executable, "-m", "plumb.cli.start", *words],
-        cwd=folder,
-        capture_output=True,
-        text=True,
-    )
+    command = [sys.executable, "-m", "plumb.cli.start", *words]
+    linux = subprocess.run(command, cwd=folder, capture_output=True, text=True)
     assert plumb(folder, *words, code=linux.returncode) == linux.stdout
 
 
@@ -113,14 +109,8 @@ def test_the_error_falls_and_all_is_written(folder):
 
 
 def test_a_virtual_machine_is_sent_a_program_and_read(folder, served):
-    port = served(
-        r"The machine is at (socket://localhost:\d+)",
-        "vm",
-        "--speed",
-        "10",
-        "--link",
-        "socket://localhost:0",
-    )
+    link = ("--link", "socket://localhost:0")
+    port = served(r"The machine is at (socket://localhost:\d+)", "vm", "--speed", "10", *link)
     plumb(folder, "grid", "--places=0,100 100,100", "--output", "grid.nc")
     assert "the machine took each" in plumb(folder, "send", "--port", port, "grid.nc")
     assert "The sled is at x " in plumb(folder, "read", "--port", port)

@@ -130,7 +130,6 @@ class BenchSize(BaseModel):
 
     value: float
     said: str  # in words, with its interval if it was fitted
-    held: bool
     possible: bool  # whether its interval, or what holds it, reaches what a real machine may have
 
 
@@ -357,7 +356,6 @@ def _sizes(fitted: Fit, chosen: Chosen, unit: Unit) -> dict[str, BenchSize]:
         sizes[name] = BenchSize(
             value=value,
             said=plain_size(name, value, *interval, unit=unit),
-            held=name in chosen.held,
             possible=bool(plausible_range(name).is_near(*(interval or (value, value)))),
         )
     return sizes
