@@ -59,8 +59,7 @@ struct PlainInfo {
       : more(more_words), less(less_words), unit(its_unit), times(factor), shown(how) {}
 };
 
-/// How the owner measures an effect directly, without marks on a sheet. Lengths in the steps, and
-/// in the title of a reading, stand in both units: {1 mm|0.039 inch}.
+/// A direct measurement of an effect. Its lengths stand in both units: {1 mm|0.039 inch}.
 struct CheckInfo {
   const char* title;  ///< what is measured; empty: no direct way is known
   const char* steps;  ///< what to do, and how exactly

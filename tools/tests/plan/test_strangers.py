@@ -8,7 +8,7 @@ import pytest
 from plan_cases import MACHINE, SIGMA, case_on, nine
 from plumb.diagnosis.outliers import Outlier
 from plumb.plan.options import MARK, READING, ROUND
-from plumb.plan.planned_visits import BELOW, check_places, grid, usable
+from plumb.plan.planned_visits import BELOW, grid, proof_places, usable
 from plumb.plan.proposal import BESIDE, READ_AGAIN, SURE, for_slips, near_the_worst
 from synthetic import distances_between, marks_on, read_elsewhere
 from synthetic import grid as targets_of
@@ -57,9 +57,9 @@ def test_the_worst_distances_are_measured_again():
     assert again.minutes == ROUND + READING * 3 * 4 and len(again.visits) == 0
 
 
-def test_check_marks_lie_far_from_what_was_fitted_and_from_each_other():
+def test_proof_marks_lie_far_from_what_was_fitted_and_from_each_other():
     known = targets_of(3, 3)
-    first, second = check_places(MACHINE, known)
+    first, second = proof_places(MACHINE, known)
     places = grid(MACHINE.sheet, 15, 9)
     places = places[usable(MACHINE, places, MACHINE.sled_weight)]
     places = places[usable(MACHINE, places - [0.0, BELOW], MACHINE.sled_weight)]
@@ -70,4 +70,4 @@ def test_check_marks_lie_far_from_what_was_fitted_and_from_each_other():
     assert gap(first, known) == max(gap(place, known) for place in places)
     both = np.vstack([known, first])
     assert gap(second, both) == max(gap(place, both) for place in places)
-    assert len(check_places(MACHINE, np.zeros((0, 2)))) == 2
+    assert len(proof_places(MACHINE, np.zeros((0, 2)))) == 2

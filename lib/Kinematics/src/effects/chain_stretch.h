@@ -39,8 +39,7 @@ struct ChainStretch : Effect<Real> {
             "mm longer / 3000 mm / 98 N", 20};
   }
   static ReadingInfo reading(uint8_t) {
-    const double pull = 98.1;    // [N] 10 kg
-    const double length = 3000;  // [mm]
+    const double pull = 98.1, length = 3000;  // [N] 10 kg, [mm]
     return {"how much longer {3 m|118 1/8 inches} of chain become under 10 kg", "mm", 0.2,
             1 / pull / length, 2};
   }
