@@ -53,9 +53,8 @@ struct ChainSag : Effect<Real> {
   }
   /// 3 m of chain: grams / 1000 / 3000 mm * 9.81 N/kg, over the sled's weight.
   static ReadingInfo reading(uint8_t) {
-    const double newtons_a_mm = 9.81 / 1000 / 3000;
-    const double factor = newtons_a_mm * newtons_a_mm / 24;
-    return {"{3 m|118 1/8 inches} of chain on a scale", "g", 10, factor, 0, 0, kSquare};
+    const double a_mm = 9.81 / 1000 / 3000;  // [N]
+    return {"{3 m|118 1/8 inches} of chain on a scale", "g", 10, a_mm * a_mm / 24, 0, 0, kSquare};
   }
   static double usual(const Frame<Real>& frame, uint8_t) {
     const double ratio = double(weightRatio(frame));
