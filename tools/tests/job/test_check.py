@@ -16,6 +16,7 @@ from plumb.job.findings import ARC, CHAINS, GREATEST, HALTS, IGNORED, LEAVES, WA
 from plumb.marks.read import read_marks
 from plumb.model.predict import judged, lengths
 from plumb.settings.files import read_settings
+from plumb.text.values import MM
 from workshop import NAMES, PROGRAMS, lines_of
 
 SETTINGS, POCKET, MARKS = (
@@ -269,7 +270,7 @@ def ends(ways):
 
 def test_the_piece_is_shaded_by_its_depth_and_seen_whole():
     sheet, checked = drawn(*SLOT)
-    picture = _picture(checked, MAKER, "job.nc", form="svg")
+    picture = _picture(checked, MAKER, "job.nc", MM, form="svg")
     assert picture.count(b"<image") == 2  # on the sheet, and from near
     assert b"cut up to 1.00 mm deep" in picture
     low, high = near_view(checked)
@@ -278,7 +279,7 @@ def test_the_piece_is_shaded_by_its_depth_and_seen_whole():
     assert left < 100 and right > 140 and (sheet.shades[..., 3] > 0).any()
     nothing, checked = drawn("G0 Z3", "G0 X9")
     assert nothing.shades is None
-    assert b"<image" not in _picture(checked, MAKER, "job.nc", form="svg")
+    assert b"<image" not in _picture(checked, MAKER, "job.nc", MM, form="svg")
 
 
 SLOT = ("G0 Z3", "G0 X100 Y50", "G1 Z-1 F60", "G1 X140 F600", "G0 Z3")
