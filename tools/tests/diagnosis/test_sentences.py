@@ -4,6 +4,7 @@ from types import SimpleNamespace
 
 import pytest
 from plumb.diagnosis.answer import odds_words, verdict_sentence
+from plumb.text.values import MM
 
 LONG = "chain_plane", "chain_zero", "sheet_skew"  # effects with the longest nouns
 PAIR = LONG[:2]
@@ -17,6 +18,7 @@ def said_of(verdict, *explanations, nothing=0.7, field=0.0, disagreements=()):
     said = verdict_sentence(
         SimpleNamespace(
             verdict=verdict,
+            unit=MM,
             explanations=explanations,
             rms_before=2.0,
             noise_rms=0.42,
