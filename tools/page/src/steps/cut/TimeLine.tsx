@@ -2,6 +2,7 @@
 import { marksBefore, minutesAt, type Round } from "./round";
 
 const NAMED = 5; // every so many marks
+const NEAR_END = 0.85; // of the whole time: from there on "now" stands where the end is named
 const [FIRST, LAST] = [6, 92]; // [%] of the width, from the start to the end
 
 export function TimeLine({ round, taken }: { round: Round; taken: number }) {
@@ -54,9 +55,11 @@ export function TimeLine({ round, taken }: { round: Round; taken: number }) {
             now, {minutes(taken)}
           </text>
         )}
-        <text x={end} y={13}>
-          {Math.round(whole)} min
-        </text>
+        {minutesAt(round, taken) < NEAR_END * whole && (
+          <text x={end} y={13}>
+            {Math.round(whole)} min
+          </text>
+        )}
       </g>
     </svg>
   );
