@@ -30,7 +30,7 @@ FLOORS = (
     ("cli",),
     ("lab",),
     ("api", "guide"),
-    ("vm",),
+    ("vm", "words"),
     ("bench", "diary", "pictures"),
     ("cure", "job", "plan"),
     ("diagnosis",),

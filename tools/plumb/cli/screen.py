@@ -25,6 +25,7 @@ from plumb.text.answers import json_of
 from plumb.text.commands import GOES_ON, quoted
 from plumb.text.files import numbered
 from plumb.text.values import MM, Unit
+from plumb.words import Part, Sentences
 
 WIDEST = 80  # [characters]
 PATIENCE = 2.0  # [s] before a bar shows how far the work is
@@ -84,6 +85,16 @@ def sentences(lines: Sequence[str], *, mark: str = "- ") -> str:
         )
         for line in lines
     ).replace("\0", " ")
+
+
+def in_text(parts: Iterable[Part]) -> list[str]:
+    """Return tables and sentences as a terminal shows them."""
+    return [
+        sentences(part.lines, mark=part.mark)
+        if isinstance(part, Sentences)
+        else table(part.header, part.rows, left=part.left, words=part.words)
+        for part in parts
+    ]
 
 
 def headline(sentence: str, kind: str = "") -> str:

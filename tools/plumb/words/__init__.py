@@ -1,0 +1,27 @@
+"""Answers in words, for terminal, page and report: a headline, sentences and tables."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Rows:
+    """A table: the first `left` columns and those in `words` (-1 is the last) hold words, the others
+    numbers.
+    """
+
+    header: Sequence[str]
+    rows: Sequence[Sequence[str]]
+    left: int = 1
+    words: Sequence[int] = ()
+
+
+@dataclass(frozen=True)
+class Sentences:
+    """Sentences below each other, each behind a mark, or paragraphs without one."""
+
+    lines: Sequence[str]
+    mark: str = "- "
+
+
+Part = Rows | Sentences
