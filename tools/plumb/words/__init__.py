@@ -6,9 +6,8 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class Rows:
-    """A table: the first `left` columns and those in `words` (-1 is the last) hold words, the others
-    numbers.
-    """
+    """A table; the first `left` columns and those in `words` (-1 is the last) hold words, the rest
+    numbers."""
 
     header: Sequence[str]
     rows: Sequence[Sequence[str]]
