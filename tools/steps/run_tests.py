@@ -33,7 +33,8 @@ ENVIRONMENT = {
     # Without compiled files each command that a test starts would compile the lab anew.
     "PYTHONDONTWRITEBYTECODE": "",
 }
-CHECKS = sorted((ROOT / "tools/checks").glob("[!t]*.py"))  # all but tree.py, which they share
+CHECKS = [[each] for each in sorted((ROOT / "tools/checks").glob("[!t]*.py"))]  # without tree.py
+CHECKS.append([ROOT / "docs/written_by/write.py", "--check"])  # whether written pages are fresh
 # The tests that wait for a browser, a port or a simulated machine.
 WAITING = [f"tools/tests/{room}" for room in ("lab", "line", "vm", "firmware", "senders")]
 # How pytest's workers and PlatformIO report the end of a test. One that was skipped proved nothing.
@@ -112,7 +113,7 @@ def lanes(what: str) -> list[list[Part]]:
         Part("fuzz", [["nice", ROOT / "test/fuzz/run"]]),
         Part("bench", [[ROOT / "tools/bench/run"]]),
     ]
-    return [tests, host, [Part("checks", [[sys.executable, check] for check in CHECKS])]]
+    return [tests, host, [Part("checks", [[sys.executable, *check] for check in CHECKS])]]
 
 
 def run(work: Sequence[Sequence[Part]]) -> None:

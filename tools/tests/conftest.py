@@ -5,7 +5,6 @@ import os
 import shutil
 import sys
 import tempfile
-from importlib import resources
 from unittest.mock import MagicMock
 
 import asked_again
@@ -13,13 +12,14 @@ import pytest
 from chromium import QUIET
 from jsonschema import Draft202012Validator
 from plumb.cli import output
+from plumb.cli.answers import schema
 from plumb.cli.main import main
 from plumb.text.compiled import stale_source
 
 if os.name == "nt":  # there the tests without a browser run alone
     none = MagicMock(sync_playwright=lambda: pytest.skip("Wine has no browser"))
     sys.modules["playwright"] = sys.modules["playwright.sync_api"] = none
-SCHEMA = json.loads(resources.files("plumb.cli").joinpath("answers.schema.json").read_text("utf-8"))
+SCHEMA = schema()
 
 
 def pytest_configure(config):

@@ -1,12 +1,7 @@
-"""JSON answers of all commands, and their schema: `python -m plumb.cli.answers`.
-
-The schema is written from the types of the answers; with --check it is only compared.
-"""
+"""JSON answers of all commands: `python -m plumb.cli.answers` prints their schema."""
 
 import json
-import sys
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any
 
 from plumb.bench.report import Report
@@ -31,8 +26,6 @@ from plumb.diary.recheck import Recheck
 from plumb.fit.compare import Comparison
 from plumb.text.answers import schema_of
 from plumb.vm.practice import Score
-
-FILE = Path(__file__).with_name("answers.schema.json")
 
 
 @dataclass(frozen=True)
@@ -85,14 +78,5 @@ def schema() -> dict[str, Any]:
     }
 
 
-def main(words: list[str]) -> int:
-    """Write the schema, or say whether it is what the types say."""
-    text = json.dumps(schema(), indent=2, ensure_ascii=False) + "\n"
-    if words == ["--check"]:
-        return int(text != FILE.read_text("utf-8"))
-    FILE.write_text(text, "utf-8")
-    return 0
-
-
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))
+    print(json.dumps(schema(), indent=2, ensure_ascii=False))

@@ -1,19 +1,19 @@
-"""The output of --json fits the schema in the package."""
+"""The output of --json fits the schema of the answers."""
 
 import json
-from importlib import resources
 
 import plumb.cli.read as read_command
 import pytest
 from example_machine import EXAMPLE, INI, TOML
 from jsonschema import Draft202012Validator as Validator
 from numbers_machine import NumbersMachine
+from plumb.cli.answers import schema
 from plumb.cli.main import COMMANDS, build_parser, main
 from plumb.marks.form import marks_toml
 from plumb.marks.read import Distance, Mark, Measurements
 from plumb.vm.practice import Secret
 
-SCHEMA = json.loads(resources.files("plumb.cli").joinpath("answers.schema.json").read_text("utf-8"))
+SCHEMA = schema()
 BOARD = (INI, EXAMPLE / "marks.toml")
 SLIPPED = (INI, "slipped.toml")  # a reading of BOARD is wrong by 40 mm
 SPANS = (INI, "spans.toml")
