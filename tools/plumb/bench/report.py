@@ -1,7 +1,6 @@
 """The bench run through: boards played side by side, and a row of rates for each kind."""
 
-from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from typing import Annotated
 
@@ -11,7 +10,6 @@ import numpy as np
 from plumb.bench.judged_board import JudgedBoard, judge_board
 from plumb.bench.kinds import KINDS, Kind
 from plumb.text.answers import Number, key
-from plumb.text.errors import InputError
 
 Progress = Callable[[str], None]  # called with the kind of each board that is done
 AT_ONCE = 4  # boards of one kind that a process takes
@@ -84,9 +82,8 @@ def play(
     *,
     progress: Progress = lambda kind: None,
     jobs: int = 1,
-    cluster: str = "",
 ) -> Report:
-    """Play all boards, in `jobs` programs at once or on a Dask cluster, and count.
+    """Play all boards, in `jobs` programs at once, and count.
 
     An interruption keeps what is done; with nothing done it goes on up.
     """
@@ -98,8 +95,9 @@ def play(
     done: dict[str, list[JudgedBoard]] = {kind: [] for kind in wanted.kinds}
     interrupted = False
     try:
-        with _handed_out(cluster):
-            parallel = joblib.Parallel(n_jobs=-1 if cluster else jobs, return_as="generator")
+        # Boards fill the cores; threads of numpy would only queue for them.
+        with joblib.parallel_config(backend="loky", inner_max_num_threads=1):
+            parallel = joblib.Parallel(n_jobs=jobs, return_as="generator")
             played = parallel(
                 joblib.delayed(_some)(kind, some.tolist(), wanted) for kind, some in tasks
             )
@@ -133,26 +131,6 @@ def _some(kind: str, indices: Sequence[int], wanted: WantedBoards) -> list[Judge
         judge_board(wanted.kind(kind), each, marks=wanted.marks, seed=wanted.seed)
         for each in indices
     ]
-
-
-@contextmanager
-def _handed_out(cluster: str) -> Iterator[None]:
-    """Let joblib hand boards to programs beside this, or to the workers of a Dask cluster."""
-    if not cluster:
-        # Boards fill the cores; threads of numpy would only queue for them.
-        with joblib.parallel_config(backend="loky", inner_max_num_threads=1):
-            yield
-        return
-    try:
-        from distributed import Client
-    except ModuleNotFoundError:
-        raise InputError("--cluster needs Dask: pip install 'plumb-maslow[cluster]'") from None
-    try:
-        client = Client(cluster, timeout=10)  # type: ignore[no-untyped-call]  # it has no types
-    except (OSError, ValueError) as error:
-        raise InputError(f"--cluster {cluster}: {error}") from None
-    with client, joblib.parallel_config(backend="dask"):
-        yield
 
 
 def row_of(kind: str, boards: Sequence[JudgedBoard]) -> Row:

@@ -23,12 +23,7 @@ def run(arguments: argparse.Namespace) -> int:
         arguments.noise,
         not arguments.unstated,
     )
-    report = play(
-        wanted,
-        progress=counted(len(kinds) * wanted.boards),
-        jobs=arguments.jobs,
-        cluster=arguments.cluster,
-    )
+    report = play(wanted, progress=counted(len(kinds) * wanted.boards), jobs=arguments.jobs)
     print_json(report) if arguments.json else print(as_text(report))
     return INTERRUPTED if report.interrupted else 0
 
@@ -171,10 +166,4 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="draws the boards; the same seed, the same boards [1]",
     )
     parser.add_argument("--jobs", metavar="N", type=count, default=1, help="processes at once [1]")
-    parser.add_argument(
-        "--cluster",
-        metavar="ADDRESS",
-        default="",
-        help="a Dask scheduler whose workers play the boards",
-    )
     add_shared(parser, "--json")

@@ -1,6 +1,5 @@
 """`plumb bench`: how often the diagnosis is right, how it is counted, and what its boards hide."""
 
-import sys
 from dataclasses import replace
 
 import numpy as np
@@ -10,12 +9,11 @@ from plumb.bench.causes import CAUSES, MAKER, OUTSIDE, Hidden
 from plumb.bench.hiding import PenSlip, slip
 from plumb.bench.judged_board import judge_board
 from plumb.bench.kinds import KINDS, board_of
-from plumb.bench.report import RATES, WantedBoards, play, row_of
+from plumb.bench.report import WantedBoards, play, row_of
 from plumb.bench.shown import Truth
 from plumb.diagnosis import diagnose
 from plumb.fit.inputs import Inputs
 from plumb.model.catalogue import effect_names
-from plumb.text.errors import InputError
 
 SEED = 77
 NONE = "known/none"
@@ -103,39 +101,12 @@ def test_an_interruption_keeps_the_boards_that_are_done(run, ask, monkeypatch):
     assert run(*words) == (130, "", "")
 
 
-@pytest.fixture(scope="module")
-def alone():
-    """Boards played one after the other, and which."""
-    wanted = WantedBoards((NONE, "stock/slip"), boards=2, marks=9, seed=2)
-    return wanted, play(wanted)
-
-
-def numbers(report):
-    """All rates but the time."""
-    return [[getattr(row, rate) for rate in RATES[:-1]] for row in report.rows]
-
-
 @pytest.mark.slow
 def test_what_is_promised_comes_true_where_three_effects_act_and_a_pattern_that_nobody_draws():
     kinds = ("known/bump-3-0.3", "stock/bump-3-0.3")
     promises = play(WantedBoards(kinds, boards=8, marks=25, seed=4111)).promises
     assert promises.boards == 16
     assert promises.came_true == pytest.approx(promises.promised, rel=0.1)
-
-
-@pytest.mark.slow
-def test_a_cluster_of_two_workers_gives_the_same_rates(alone):
-    from distributed import LocalCluster
-
-    wanted, report = alone
-    with LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None) as cluster:
-        assert numbers(play(wanted, cluster=cluster.scheduler_address)) == numbers(report)
-
-
-def test_a_cluster_needs_dask(monkeypatch):
-    monkeypatch.setitem(sys.modules, "distributed", None)
-    with pytest.raises(InputError, match=r"pip install 'plumb-maslow\[cluster\]'"):
-        play(WantedBoards((NONE,), boards=1, marks=9, seed=2), cluster="tcp://localhost:1")
 
 
 FEW = (5, 15, 19, 25)  # seeds
