@@ -7,7 +7,6 @@ from plumb.cli.add import WantedFiles, written
 from plumb.cli.addition import KINDS, details_text, short_text
 from plumb.cli.arguments import BOARD, add_shared
 from plumb.cli.as_fitted import checked_by_fit, is_all, report
-from plumb.cli.compare import conclusion, outside_sentence, pose_sentence
 from plumb.cli.inputs import add_stated, stated_inputs
 from plumb.cli.next import after, first_proposal, to_read
 from plumb.cli.screen import (
@@ -36,6 +35,7 @@ from plumb.fit.inputs import Inputs
 from plumb.model.plain import plainly
 from plumb.plan import Next, Proposal, propose
 from plumb.text.answers import Internal, in_json, part
+from plumb.words.comparison import conclusion, outside_sentence, pose_sentence
 
 
 @dataclass(frozen=True)

@@ -12,6 +12,7 @@ from pydantic_core import to_json
 from plumb.cure.decision import Decision
 from plumb.diagnosis.answer import Diagnosis
 from plumb.diary.file import Diary
+from plumb.fit.compare import compare
 from plumb.fit.inputs import Inputs
 from plumb.lab.background import WarmBoard, sure_board
 from plumb.lab.project import Choices
@@ -22,6 +23,7 @@ from plumb.lab.routes.next import NextAnswer, offers_of
 from plumb.lab.routes.project import ProjectAnswer, machine_of
 from plumb.lab.routes.verdict import Verdict, VerdictAnswer, verdict_of
 from plumb.plan import Next
+from plumb.words.comparison import conclusion
 
 PAGE = Path(__file__).parent / "page"
 PACKAGES = ("plumb-maslow", "numpy", "scipy")
@@ -107,6 +109,7 @@ def _about(inputs: Inputs, command: str) -> dict[str, object]:
         "files": [dict(zip(("what", "name", "digest"), each, strict=True)) for each in said],
         "versions": ", ".join(f"{name} {version(name)}" for name in PACKAGES),
         "command": command,
+        "compared": conclusion(compare(inputs), inputs.unit),
     }
 
 
