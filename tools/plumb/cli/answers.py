@@ -21,11 +21,11 @@ from plumb.cli.resume import ResumeAnswer
 from plumb.cli.send import SendAnswer
 from plumb.cli.settings import SettingLines
 from plumb.cli.slip import SlipAnswer
-from plumb.diary.recheck import Recheck
 from plumb.fit.compare import Comparison
 from plumb.text.answers import schema_of
 from plumb.vm.practice import Score
 from plumb.words.proposals import ProposalsAnswer
+from plumb.words.recheck import RecheckAnswer
 
 
 @dataclass(frozen=True)
@@ -40,7 +40,7 @@ ANSWERS: dict[str, Any] = {
     "refusal": RefusalAnswer,
     "add": AddAnswer,
     "bench": Report,
-    "calibrate": CalibrateAnswer | Recheck,
+    "calibrate": CalibrateAnswer | RecheckAnswer,
     "check": JobAnswer,
     "compare": Comparison,
     "diagnose": DiagnosisAnswer,

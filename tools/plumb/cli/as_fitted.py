@@ -2,20 +2,19 @@
 
 import argparse
 from dataclasses import replace
+from pathlib import Path
 
 from plumb.cli.output import say_failure
-from plumb.cli.screen import BAD, GOOD, headline, print_json, table
+from plumb.cli.screen import headline, in_text, print_json
 from plumb.diagnosis.explanation import FEWEST_NUMBERS
 from plumb.diary.file import RECHECK, folder_of, keep, read_diary
 from plumb.diary.recheck import Recheck, fit_of, recheck
 from plumb.fit.inputs import Inputs
 from plumb.job.home import HomeTouch, are_apart
-from plumb.text.answers import json_of
-
-SHOWN = 4  # changes
+from plumb.words.recheck import KINDS, RecheckAnswer, in_words
 
 
-def checked_by_fit(inputs: Inputs, path: str) -> Recheck | None:
+def checked_by_fit(inputs: Inputs, path: str) -> RecheckAnswer | None:
     """Hold marks that were cut with fitted settings against the fit in the diary next to them.
 
     None where there is no such question: other settings cut a mark, the fit has seen it, its diary
@@ -38,7 +37,7 @@ def checked_by_fit(inputs: Inputs, path: str) -> Recheck | None:
     if fit is None or not are_apart(touches):
         return None
     sigma = inputs.sigma or measured.tape_sigma
-    return recheck(fit, settings, touches, sigma=sigma, unit=inputs.unit)
+    return in_words(recheck(fit, settings, touches, sigma=sigma, unit=inputs.unit))
 
 
 def is_all(checked: Recheck) -> bool:
@@ -46,30 +45,15 @@ def is_all(checked: Recheck) -> bool:
     return checked.holds or 2 * len({mark.name for mark in checked.marks}) < FEWEST_NUMBERS
 
 
-def report(arguments: argparse.Namespace, checked: Recheck) -> int:
+def report(arguments: argparse.Namespace, checked: RecheckAnswer) -> int:
     """Keep the answer in the diary, print it, and return the exit code."""
-    say_failure(keep(arguments.settings, RECHECK, json_of(checked), begin=False))
-    print_json(checked) if arguments.json else print(_text(checked))
-    return int(not checked.holds)
-
-
-def _text(checked: Recheck) -> str:
-    unit = checked.unit
-    rows = [
-        [
-            mark.name,
-            f"{unit.bare(mark.hole[0], 1)}, {unit.bare(mark.hole[1], 1)}",
-            ", ".join(map(unit.signed, mark.error)),
-            unit.bare(mark.expected_mm),
-        ]
-        for mark in checked.marks
-    ]
-    marks = table(["mark", f"at [{unit.name}]", "error", "expected up to"], rows)
-    if checked.holds:
-        return f"{headline(f'{checked.sentence} Nothing was written.', GOOD)}\n\n{marks}"
-    changes = [
-        [change.words(unit), "yes" if change.explains else "no"]
-        for change in checked.changes[:SHOWN]
-    ]
-    single = table(["a single change", "explains the marks"], changes)
-    return "\n\n".join([headline(checked.sentence, BAD), marks, single])
+    names = (Path(path).name for path in (*arguments.marks, arguments.settings))
+    *forms, machine = names
+    entry = checked.entry(" and ".join(forms), machine)
+    say_failure(keep(arguments.settings, RECHECK, entry, begin=False))
+    if arguments.json:
+        print_json(checked)
+    else:
+        verdict = headline(checked.headline, KINDS[checked.state])
+        print("\n\n".join([verdict, *in_text(checked.tables)]))
+    return int(checked.state != "as_fitted")

@@ -34,7 +34,7 @@ Folder = Source
 class Entry:
     """Entry of the diary."""
 
-    kind: str  # "fit", "numbers", "program", "check", "recheck", "slip" or "home"
+    kind: str  # "fit", "numbers", "program", "recheck", "slip", "home" or "check"
     at: Moment  # with its offset from UTC
     content: Internal[Mapping[str, Any]]  # lists, numbers and words as JSON has them
 
@@ -156,7 +156,8 @@ def _add_line(path: Path, line: bytes) -> None:
 # What goes into the diary: a fit with its marks and numbers, numbers sent, programs sent.
 
 FIT, NUMBERS, PROGRAM = "fit", "numbers", "program"
-CHECK, RECHECK, SLIP, HOME = "check", "recheck", "slip", "home"
+CHECK = "check"  # as the page called its rechecks before
+RECHECK, SLIP, HOME = "recheck", "slip", "home"
 
 
 def fit_entry(
@@ -245,7 +246,7 @@ def noted(entry: Entry) -> str:
     if entry.kind == PROGRAM:
         end = "" if content["whole"] else ", not to its end"
         return f"sent {content['program']}{end}"
-    if entry.kind == CHECK:
+    if entry.kind in (CHECK, RECHECK) and "form" in content:
         return f"{content['form']}, by {content['machine']}: {content['sentence']}"
     if entry.kind == HOME:
         return f"home mark {content['mark']} {'kept' if content['kept'] else 'used'}"

@@ -7,7 +7,7 @@ marks may lie from where the settings put them, and which errors are too large f
 import tomllib
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import Annotated
+from typing import Annotated, Literal
 
 import numpy as np
 import scipy
@@ -15,7 +15,7 @@ import scipy
 from plumb.diary.file import FIT, Diary, Entry
 from plumb.fit.sighting import SHEET_ROTATION
 from plumb.job.home import TOUCH_SIGMA, HomeTouch, Point, believed_chains, turned_back
-from plumb.model.plain import in_feet, plain_change, plain_name, ranked, words_of
+from plumb.model.plain import ranked
 from plumb.model.predict import FOUND, NAMES, Array, places_with_slopes, values_of
 from plumb.settings.machine import MachineSettings
 from plumb.settings.toml import machine_in
@@ -27,6 +27,7 @@ STEP = 0.1  # [mm] of chain
 # Changes that need no new fit: how much longer a chain is than the machine believes, where the
 # sheet lies, and the frame.
 LEFT, RIGHT, SHEET_X, SHEET_Y = "left chain", "right chain", "sheet x", "sheet y"
+Sameness = Literal["as_fitted", "sheet_moved", "changed", "beyond_these_marks"]
 FRAME = ("motor_gap", "motor_height", "motor_center_x")
 
 
@@ -41,21 +42,6 @@ class LikelyChange:
     chi_square: Internal[float]  # that it leaves
     explains: bool  # whether what it leaves is within the interval
 
-    def words(self, unit: Unit) -> str:
-        """Return the change with its size."""
-        size = f"{unit.signed(self.size)} +- {unit.worded(self.sigma)}"
-        if self.name in (LEFT, RIGHT):
-            return f"the {self.name} is {size} longer than the machine believes"
-        if self.name in (SHEET_X, SHEET_Y):
-            return f"the sheet has moved by {size} along {self.name[-1]}"
-        words = words_of(self.name)
-        if "." not in self.name and words["unit"] == "mm":
-            return f"{plain_name(self.name)} by {size}"
-        now = self.before + self.size
-        said = plain_change(self.name, self.before, now, now - self.sigma, now + self.sigma, unit)
-        by = f"by {said.shift} +- {said.margin} {said.unit}"
-        return in_feet(words["more"], unit).replace("by #", "#").replace("#", by)
-
 
 @dataclass(frozen=True)
 class RecheckedMark:
@@ -63,7 +49,8 @@ class RecheckedMark:
 
     name: str
     hole: Point
-    error: Point
+    target: Point  # where it was sent
+    error: Point  # of the hole, against the promise
     expected_mm: float  # an unchanged machine rarely errs by more
 
     @property
@@ -83,34 +70,24 @@ class Recheck:
     # [rad] of the sheet, counter-clockwise: as it was fitted, or 0 if it hangs straight
     turn: Annotated[float, key("sheet_turned_rad")]
     changes: tuple[LikelyChange, ...]  # the best first
-    unit: Internal[Unit] = MM  # of the lengths in the verdict
+    unit: Internal[Unit] = MM  # of the lengths in what is said of it
+
+    at = part("fit.at", Moment, "Of the diary.", name="fit")
 
     @in_json
     def holds(self) -> bool:
         """Whether the marks lie within the interval of the fit."""
         return self.chi_square <= self.limit
 
-    at = part("fit.at", Moment, "Of the diary.", name="fit")
-
     @in_json
-    def sentence(self) -> str:
-        """The verdict in a sentence or two."""
-        worst = self.unit.worded(max(mark.off for mark in self.marks))
-        of_date = f"the fit of {self.fit.at:%Y-%m-%d}"
+    def state(self) -> Sameness:
+        """What the marks say."""
         if self.holds:
-            return (
-                f"The machine is as it was fitted: by {of_date}, errors up to {worst} are to be "
-                "expected."
-            )
+            return "as_fitted"
         best = self.changes[0]
-        said = (
-            f"Something changed since {of_date}. The likeliest: {best.words(self.unit)}."
-            if best.explains
-            else f"Errors up to {worst} are more than {of_date} allows; no single change explains "
-            "them."
-        )
-        far = [mark.name for mark in self.marks if mark.off > mark.expected_mm]
-        return f"{said} First read mark {far[0]} again: it alone is off." if len(far) == 1 else said
+        if not best.explains:
+            return "beyond_these_marks"
+        return "sheet_moved" if best.name in (SHEET_X, SHEET_Y) else "changed"
 
 
 def recheck(
@@ -156,7 +133,8 @@ def _recheck(
     return Recheck(
         fit=fit,
         marks=tuple(
-            RecheckedMark(touch.name, touch.hole, (x, y), most) for touch, (x, y), most in each
+            RecheckedMark(touch.name, touch.hole, touch.shown, (x, y), most)
+            for touch, (x, y), most in each
         ),
         chi_square=float(left @ np.linalg.solve(covariance, left)),
         limit=limit,

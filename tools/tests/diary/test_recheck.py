@@ -74,7 +74,7 @@ def test_a_turned_sheet_is_no_change_of_the_machine(tmp_path, turn):
 def test_a_chain_that_became_longer_is_named_with_its_size(machine, longer, name):
     settings, fit = machine
     checked = recheck(fit, settings, touched(settings, longer=longer))
-    assert not checked.holds
+    assert checked.state == "changed"
     best = checked.changes[0]
     assert best.name == name and best.explains
     assert best.size == pytest.approx(sum(longer), abs=2.5 * best.sigma)
@@ -142,5 +142,6 @@ def test_a_change_explains_what_it_leaves_within_the_99_percent(checked, share, 
     across = np.array([[1.0, 0.0], [-1.0, 0.0]]) * SIGMA * math.sqrt(share * SURE_OF[3] / 2)
     again = checked(np.array([[0.0, 3.0], [0.0, 3.0]]) + across)
     change = next(each for each in again.changes if each.name == SHEET_Y)
+    assert again.state == ("sheet_moved" if explains else "beyond_these_marks")
     assert change.explains is explains and change.size == pytest.approx(3.0)
     assert change.chi_square == pytest.approx(share * SURE_OF[3], rel=1e-3)

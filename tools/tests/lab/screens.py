@@ -85,7 +85,7 @@ def with_proof_marks(lab):
     with lab.client() as client:
         got(client.post("/api/rounds/proof"))
         type_in(client, "proof.toml", (0.3, 0), (4.0, 0))
-        assert "read mark 2 again" in got(client.get("/api/proof"))["sentence"]
+        assert "read mark 2 again" in got(client.get("/api/proof"))["checked"]["sentence"]
 
 
 def with_virtual_machine(lab, far=lambda program: program["done"] > program["total"] / 2):

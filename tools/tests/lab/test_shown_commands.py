@@ -144,7 +144,7 @@ def test_the_check(client):
     got(client.post("/api/rounds/proof"))
     type_in(client, "proof.toml", (0, 4.0))
     shown = got(client.get("/api/proof"))
-    assert not shown["holds"]
+    assert shown["checked"]["state"] == "sheet_moved"
     assert shown["command"] == "plumb calibrate machine.toml proof.toml --units inch"
     assert main(shlex.split(shown["command"])[1:]) == 1
 

@@ -30,7 +30,7 @@ export function Prove() {
 function OpenProof({ answer, round }: { answer: ProofAnswer; round: Round }) {
   const units = useUnits();
   const { act, fields, running } = useCutting(round);
-  const isJudged = answer.sentence !== "";
+  const { checked } = answer;
   const places = answer.meant.map((place) =>
     place.map((mm) => shownLength(mm, units, 0)).join(", "),
   );
@@ -42,17 +42,17 @@ function OpenProof({ answer, round }: { answer: ProofAnswer; round: Round }) {
       why={<Why />}
       command={answer.command}
       stage={
-        isJudged ? (
-          <JudgedMap {...{ answer, round }} />
+        checked ? (
+          <JudgedMap {...{ answer, checked }} />
         ) : (
           <CutMap round={round} earlier={answer.earlier} />
         )
       }
       fieldsFirst
-      act={!isJudged && act}
+      act={!checked && act}
     >
-      {isJudged ? (
-        <Judged {...{ answer, round }} />
+      {checked ? (
+        <Judged {...{ answer, checked }} />
       ) : (
         <>
           <p>
@@ -62,7 +62,7 @@ function OpenProof({ answer, round }: { answer: ProofAnswer; round: Round }) {
         </>
       )}
       {round.is_saved && !running && <ProofReadings file={round.form} />}
-      {isJudged && <Promised {...{ answer, round }} />}
+      <Promised answer={answer} />
     </Screen>
   );
 }
@@ -82,12 +82,12 @@ function ProofReadings({ file }: { file: string }) {
 /** Writes a result into the diary, once there is one. */
 function useNoted(answer: ProofAnswer | undefined): void {
   const { take } = useProject();
-  const isNew = !!answer?.sentence && !answer.is_noted;
+  const isNew = !!answer?.checked && !answer.is_noted;
   useEffect(() => {
     if (!isNew) return;
     // If it fails, the next look at the result writes it.
     send<Project>("POST", "proof/note").then(take, () => undefined);
-  }, [isNew, answer?.sentence, take]);
+  }, [isNew, answer?.checked?.sentence, take]);
 }
 
 function Why() {

@@ -8,9 +8,8 @@ from fastapi import APIRouter
 from pydantic import BaseModel
 
 from plumb.cure.add import add
-from plumb.diary.file import CHECK as NOTED
-from plumb.diary.file import FIT, Entry, append, fit_entry, read_diary
-from plumb.diary.recheck import Recheck, RecheckedMark, fit_of, recheck
+from plumb.diary.file import FIT, RECHECK, Entry, append, fit_entry, read_diary
+from plumb.diary.recheck import fit_of, recheck
 from plumb.fit.inputs import Inputs
 from plumb.job.home import HomeTouch
 from plumb.lab.machine_line import TheLine
@@ -19,10 +18,11 @@ from plumb.lab.proof_marks import inputs_of_promise, proof_forms, proof_round
 from plumb.lab.rounds import command, form_of, is_proof, unit_words
 from plumb.lab.routes.project import ProjectAnswer, TheProject, show
 from plumb.lab.routes.rounds import RoundAnswer, round_answer
-from plumb.marks.model import Measurements
 from plumb.marks.plausible import from_edges
 from plumb.model.catalogue import effect_names
 from plumb.text.errors import InputError
+from plumb.words import Rows
+from plumb.words.recheck import RecheckAnswer, in_words
 
 router = APIRouter(tags=["proof"])
 
@@ -42,10 +42,9 @@ class ProofAnswer(BaseModel):
     round: RoundAnswer | None  # the marks; None: nothing can be checked yet
     earlier: list[tuple[float, float]]  # of the marks that were fitted, machine frame
     meant: list[tuple[float, float]]  # the proof marks from the chosen edges
-    marks: tuple[RecheckedMark, ...]  # empty: not all is read yet
-    sentence: str  # empty: not all is read yet
+    checked: RecheckAnswer | None  # None: not all is read yet
+    tables: list[Rows]
     rounds: list[RoundError]  # in the order they were cut, the proof marks last
-    holds: bool
     is_used: bool  # the verdict goes by these marks too
     is_noted: bool  # the diary has this result
     command: str
@@ -67,12 +66,11 @@ def show_proof(project: TheProject, line: TheLine) -> ProofAnswer:
         meant=[from_edges(mark.place, sheet=sheet, corner=corner) for mark in shown.marks]
         if shown
         else [],
-        marks=checked.marks if checked else (),
-        sentence=checked.sentence if checked else "",
+        checked=checked,
+        tables=checked.tables if checked else [],
         rounds=_rounds(project, choices, form) if checked else [],
-        holds=checked is not None and checked.holds,
         is_used=form in choices.marks,
-        is_noted=checked is not None and _is_noted(project, _entry(choices, form, checked)),
+        is_noted=checked is not None and _is_noted(project, checked.entry(form, choices.settings)),
         command=_command(project, inputs, shown) if shown else "",
     )
 
@@ -84,9 +82,9 @@ def note_proof(project: TheProject) -> ProjectAnswer:
     checked = _checked(project, inputs_of_promise(project), form)
     if checked is None:
         raise InputError("not all proof marks are read: there is no result yet")
-    entry = _entry(choices, form, checked)
+    entry = checked.entry(form, choices.settings)
     if not _is_noted(project, entry):
-        append(project.folder, NOTED, entry)
+        append(project.folder, RECHECK, entry)
     return show(project)
 
 
@@ -122,29 +120,11 @@ def _command(project: Project, inputs: Inputs, shown: RoundAnswer) -> str:
     return command("calibrate", choices.settings, shown.form, *unit)
 
 
-def _entry(choices: Choices, form: str, checked: Recheck) -> dict[str, Any]:
-    """Return the result of a round of proof marks as the diary has it. mm."""
-    return {
-        "form": form,
-        "machine": choices.settings,
-        "sentence": checked.sentence,
-        "holds": checked.holds,
-        "marks": [
-            {"name": mark.name, "promised": round(mark.expected_mm, 3), "off": round(mark.off, 3)}
-            for mark in checked.marks
-        ],
-    }
-
-
 def _is_noted(project: Project, entry: Mapping[str, Any]) -> bool:
     """Return whether the diary's newest result of this form is this, in whatever unit."""
-    noted = [
-        each
-        for each in read_diary(project.folder).of_kind(NOTED)
-        if each.content["form"] == entry["form"]
-    ]
-    same = ("machine", "marks")
-    return bool(noted) and all(noted[-1].content[key] == entry[key] for key in same)
+    kept = [each.content for each in read_diary(project.folder).of_kind(RECHECK)]
+    noted = [each for each in kept if each.get("form") == entry["form"]]
+    return bool(noted) and all(noted[-1][key] == entry[key] for key in ("machine", "marks"))
 
 
 def _rounds(project: Project, choices: Choices, proof_form: str) -> list[RoundError]:
@@ -158,22 +138,17 @@ def _rounds(project: Project, choices: Choices, proof_form: str) -> list[RoundEr
     ]
 
 
-def _checked(project: Project, inputs: Inputs, form: str) -> Recheck | None:
+def _checked(project: Project, inputs: Inputs, form: str) -> RecheckAnswer | None:
     """Return the proof marks against the fit; None before all are read."""
-    marks = _measured(project, form)
+    marks = form_of(project, project.choices, form).measurements
     touches = [HomeTouch(mark.name, where, mark.target) for mark, where in marks.readings]
     if len(touches) < len(marks.marks):
         return None
     fit = fit_of(read_diary(project.folder), inputs.settings) or _fitted_now(project, inputs)
     cut_with = marks.rounds[0].cut_with
-    return recheck(
-        fit,
-        inputs.settings,
-        touches,
-        cut_with=cut_with,
-        sigma=marks.tape_sigma,
-        unit=inputs.unit,
-    )
+    sigma, unit = marks.tape_sigma, inputs.unit
+    checked = recheck(fit, inputs.settings, touches, cut_with=cut_with, sigma=sigma, unit=unit)
+    return in_words(checked)
 
 
 def _fitted_now(project: Project, inputs: Inputs) -> Entry:
@@ -183,7 +158,3 @@ def _fitted_now(project: Project, inputs: Inputs) -> Entry:
     name = project.choices.settings
     entry = fit_entry(add(inputs, effects=effects), inputs, machine=name, settings="")
     return Entry(FIT, datetime.now().astimezone(), entry)
-
-
-def _measured(project: Project, form: str) -> Measurements:
-    return form_of(project, project.choices, form).measurements

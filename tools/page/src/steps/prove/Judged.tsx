@@ -8,29 +8,28 @@ import { Sheet } from "../../sheet/Sheet";
 import { Do } from "../../shell/doing";
 import { useMachine } from "../../shell/machine";
 import { useProject, useTell } from "../../shell/project";
-import type { Round } from "../cut/round";
 
 export type ProofAnswer = Schemas["ProofAnswer"];
 
 interface JudgedParts {
   answer: ProofAnswer;
-  round: Round;
+  checked: NonNullable<ProofAnswer["checked"]>;
 }
 
-export function JudgedMap({ answer: { marks, earlier }, round }: JudgedParts) {
+export function JudgedMap({ answer: { earlier }, checked: { marks } }: JudgedParts) {
   const off = {
     title: "from where they were promised",
     errors: marks.map(({ error }) => error),
     promised: marks.map(({ expected_mm }) => expected_mm),
   };
-  const read = marks.map(({ name, hole }, i) => ({ name, target: round.marks[i]?.place ?? hole }));
+  const read = marks.map(({ name, target }) => ({ name, target }));
   const fitted = earlier.map((target) => ({ name: "", target, look: "faint" as const }));
   return (
     <Sheet label="How far the proof marks are off" marks={[...read, ...fitted]} states={[off]} />
   );
 }
 
-export function Judged({ answer: { sentence, holds, rounds, is_used } }: JudgedParts) {
+export function Judged({ answer: { rounds, is_used }, checked }: JudgedParts) {
   const { reload } = useProject();
   const tell = useTell();
   const units = useUnits();
@@ -38,8 +37,11 @@ export function Judged({ answer: { sentence, holds, rounds, is_used } }: JudgedP
   const most = Math.max(...rounds.map(({ off_target }) => off_target), 0.1);
   return (
     <>
-      <p class={holds ? "judged box edge" : "judged trouble edge"} role="status">
-        {sentence}
+      <p
+        class={checked.state === "as_fitted" ? "judged box edge" : "judged trouble edge"}
+        role="status"
+      >
+        {checked.sentence}
       </p>
       <Table
         class="wide off-target"
@@ -66,18 +68,13 @@ export function Judged({ answer: { sentence, holds, rounds, is_used } }: JudgedP
   );
 }
 
-/** How far off each proof mark may be, and is. */
-export function Promised({ answer, round }: JudgedParts) {
-  const units = useUnits();
+/** Each proof mark against the promise, and what may have changed. */
+export function Promised({ answer: { tables } }: { answer: ProofAnswer }) {
   return (
-    <Table
-      class="checked"
-      names={["mark", "promised within", "off from what was promised", "off from the target"]}
-      rows={answer.marks.map(({ name, hole: [x, y], error, expected_mm }, i) => {
-        const [aim_x, aim_y] = round.marks[i]?.place ?? [x, y];
-        const off = [expected_mm, Math.hypot(...error), Math.hypot(x - aim_x, y - aim_y)];
-        return [name, ...off.map((mm) => namedLength(mm, units, 2))];
-      })}
-    />
+    <>
+      {tables.map(({ header, rows }) => (
+        <Table key={header[0]} class="checked" names={header} rows={rows} />
+      ))}
+    </>
   );
 }
