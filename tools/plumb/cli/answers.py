@@ -14,7 +14,6 @@ from plumb.cli.forward import PlacesAnswer
 from plumb.cli.grid import PlannedGrid
 from plumb.cli.home import HomeAnswer
 from plumb.cli.inverse import ChainLengths
-from plumb.cli.next import ProposalsAnswer
 from plumb.cli.reach import ReachMap
 from plumb.cli.read import MachineNumbers
 from plumb.cli.report import ReportAnswer
@@ -26,6 +25,7 @@ from plumb.diary.recheck import Recheck
 from plumb.fit.compare import Comparison
 from plumb.text.answers import schema_of
 from plumb.vm.practice import Score
+from plumb.words.proposals import ProposalsAnswer
 
 
 @dataclass(frozen=True)

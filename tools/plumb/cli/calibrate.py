@@ -7,9 +7,8 @@ from plumb.cli.add import WantedFiles, written
 from plumb.cli.addition import KINDS, details_text, short_text
 from plumb.cli.arguments import BOARD, add_shared
 from plumb.cli.as_fitted import checked_by_fit, is_all, report
-from plumb.cli.compare import conclusion, outside_sentence, pose_sentence
 from plumb.cli.inputs import add_stated, stated_inputs
-from plumb.cli.next import after, first_proposal, to_read
+from plumb.cli.next import after, first_proposal
 from plumb.cli.screen import (
     BAD,
     OPEN,
@@ -17,6 +16,7 @@ from plumb.cli.screen import (
     bar,
     free_name,
     headline,
+    in_text,
     into_machine,
     next_step,
     print_json,
@@ -36,6 +36,8 @@ from plumb.fit.inputs import Inputs
 from plumb.model.plain import plainly
 from plumb.plan import Next, Proposal, propose
 from plumb.text.answers import Internal, in_json, part
+from plumb.words.comparison import conclusion, outside_sentence, pose_sentence
+from plumb.words.proposals import to_read
 
 
 @dataclass(frozen=True)
@@ -227,7 +229,8 @@ def _ending(
     if best is None:
         return [verdict]
     if not arguments.details:
-        steps = to_read(best, list(map(best.unit.reading, best.option.do)), inputs.settings)
+        do = list(map(best.unit.reading, best.option.do))
+        (steps,) = in_text([to_read(best, do, inputs.settings)])
         return [f"{verdict}\n{steps}\n{after(best, arguments, inputs.settings)}"]
     parts = [verdict, *first_proposal(best, arguments, inputs.settings)]
     if decision.chosen:

@@ -7,8 +7,7 @@ from typing import Annotated
 
 from plumb.cli.arguments import add_shared, any_length, unit_of
 from plumb.cli.output import refuse_twins, write_outputs
-from plumb.cli.screen import next_step, print_json, sentences, table
-from plumb.diagnosis.unseen import share_words
+from plumb.cli.screen import in_text, next_step, print_json
 from plumb.fit.inputs import settings_in
 from plumb.fit.problem import USUAL_SIGMA
 from plumb.grid import (
@@ -22,15 +21,14 @@ from plumb.grid import (
     touches_of,
 )
 from plumb.grid.options import APPROACH, NUMBERS, UNITS, demand, pairs
-from plumb.model.plain import noun_of, plain_before
 from plumb.model.reach import plain_machine, refuse_way, with_soft_chains
 from plumb.pictures.grid_paper import grid_paper
-from plumb.plan.preview import POWER, Outline, Preview, as_read, preview
+from plumb.plan.preview import Preview, as_read, preview
 from plumb.settings.cut_with import cut_with_lines, with_form
 from plumb.settings.machine import MachineSettings
 from plumb.text.answers import meant
 from plumb.text.errors import InputError
-from plumb.text.values import Unit
+from plumb.words.proposals import causes
 
 Point = tuple[float, float]
 
@@ -88,7 +86,7 @@ def run(arguments: argparse.Namespace) -> int:
     if not arguments.output and (files or not told):
         print(planned.program, end="")
     if told:
-        print(_told(told, unit_of(arguments)))
+        print("\n\n".join(in_text(causes(told, unit_of(arguments)))))
     if arguments.output and arguments.marks:
         words = f"Cut {arguments.output}, write what you measure into {arguments.marks}, then:"
         measured = ["calibrate", arguments.settings or "groundcontrol.ini", arguments.marks]
@@ -167,11 +165,6 @@ def _usual(machine: PlainMachine) -> MachineSettings:
     )
 
 
-# What --details says: which causes such marks could show, before anything is cut.
-
-ALIKE = 2  # look-alikes in the table
-
-
 def _could_tell(arguments: argparse.Namespace, planned: _Planned) -> Preview:
     """Return what the marks could tell of the machine in the settings. Raises InputError."""
     if not arguments.settings:
@@ -179,49 +172,6 @@ def _could_tell(arguments: argparse.Namespace, planned: _Planned) -> Preview:
     grid, machine = planned.grid, planned.machine
     plan = as_read(touches_of(grid, machine), spans_of(grid))
     return preview(settings_in(arguments.settings), plan, sigma=USUAL_SIGMA)
-
-
-def _told(outlook: Preview, unit: Unit) -> str:
-    what = f"{outlook.marks} marks"
-    what += f" and {outlook.distances} distances" if outlook.distances else ""
-    first = (
-        f"{what} read to {unit.worded(outlook.sigma)}: of {len(outlook.outlines)} causes in their "
-        f"usual size, {outlook.seen} would show and {outlook.named} could be named."
-    )
-    return "\n\n".join([sentences([first], mark=""), _outline_table(outlook, unit)])
-
-
-def _outline_table(outlook: Preview, unit: Unit) -> str:
-    rows = []
-    for place, outline in enumerate(outlook.outlines, 1):
-        alike = ", ".join(map(noun_of, outline.alike[:ALIKE]))
-        more = len(outline.alike) - ALIKE
-        rows.append(
-            [
-                str(place),
-                noun_of(outline.effect),
-                unit.bare(outline.raw),
-                share_words(outline.hidden_share),
-                _smallest(outline, unit),
-                f"{alike} +{more}" if more > 0 else alike or "-",
-            ]
-        )
-    header = ["", "effect", f"usual, {unit.name}", "taken up", "found from", "taken for"]
-    note = (
-        f"found from: the smallest size that is found in {100 * POWER:.0f} % of all cases, times "
-        "the usual size"
-    )
-    return table(header, rows, left=2, words=[-2, -1]) + "\n" + sentences([note], mark="")
-
-
-def _smallest(outline: Outline, unit: Unit) -> str:
-    if outline.smallest is None:
-        return "never"
-    first = outline.parameters[0]
-    alone = len(outline.parameters) == 1 and first.smallest is not None
-    name, size = f"{outline.effect}.{first.name}", first.smallest or 0.0
-    in_words = f" ({plain_before(name, size, unit=unit)})" if alone else ""
-    return f"x {outline.smallest:.2g}{in_words}"
 
 
 # The arguments of `plumb grid`.

@@ -1,8 +1,6 @@
 """`plumb next`: the most useful next measurement, with the chance that it settles the question."""
 
 import argparse
-from collections.abc import Sequence
-from dataclasses import dataclass
 from pathlib import Path
 
 from plumb.cli.arguments import BOARD, add_shared
@@ -12,51 +10,20 @@ from plumb.cli.screen import (
     bar,
     free_name,
     headline,
+    in_text,
     next_step,
     print_json,
     same_inputs,
-    sentences,
-    table,
 )
-from plumb.diagnosis import Diagnosis, diagnose
-from plumb.fit.by_hand import to_fill_in, what_to_type
+from plumb.diagnosis import diagnose
+from plumb.fit.by_hand import to_fill_in
 from plumb.fit.inputs import Inputs, settings_in
 from plumb.plan import Next, Proposal, propose
 from plumb.plan.case import Case
-from plumb.plan.options import READ_ONLY
-from plumb.plan.proposal import (
-    CONFIRM,
-    EXPLORE,
-    FIND,
-    REREAD,
-    SETTLE,
-    form_of,
-    program_of,
-)
+from plumb.plan.proposal import form_of, program_of, worth
 from plumb.settings.machine import MachineSettings
-from plumb.text.answers import Internal, part
 from plumb.text.errors import InputError
-
-FEW = 5  # proposals; --json has all
-HEADS = {
-    SETTLE: "chance to settle",
-    CONFIRM: "chance to confirm",
-    FIND: "may act unseen then",
-    REREAD: "chance to show it",
-    EXPLORE: "",
-}
-WORDED = {question: [3] if question == FIND else [] for question in HEADS}  # columns of words
-
-
-@dataclass(frozen=True)
-class ProposalsAnswer(Next):
-    """The proposals, with what they are for."""
-
-    diagnosis: Internal[Diagnosis]
-    written: tuple[str, ...]
-
-    sentence = part("diagnosis.sentence", str)
-    suspects = part("diagnosis.suspects", tuple[str, ...])
+from plumb.words import proposals as words
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -70,9 +37,9 @@ def run(arguments: argparse.Namespace) -> int:
     read = [arguments.settings, *arguments.marks, *named]
     write_outputs(files, inputs=read)
     if arguments.json:
-        print_json(ProposalsAnswer(**vars(advice), diagnosis=diagnosis, written=tuple(files)))
+        print_json(words.ProposalsAnswer(**vars(advice), diagnosis=diagnosis, written=tuple(files)))
     else:
-        facts = other_ways(advice, place)
+        facts = in_text(words.other_ways(advice, place))
         chosen = advice.proposals[place - 1] if advice.proposals else None
         print("\n\n".join([*facts, *first_proposal(chosen, arguments, inputs.settings)]))
         if files:
@@ -136,62 +103,35 @@ def _chosen(advice: Next, wanted: int | None, *, is_cut: bool) -> int:
     return place
 
 
-def other_ways(advice: Next, shown: int = 1) -> list[str]:
-    """Return the best proposals in a few rows, without the one that is shown in whole."""
-    others = [(i, each) for i, each in enumerate(advice.proposals[:FEW], 1) if i != shown]
-    if not others:
-        return []
-    question = others[0][1].question
-    rows = [
-        [f"{i}", each.option.title, f"{each.option.minutes:.0f}", each.promise]
-        for i, each in others
-    ]
-    return [
-        table(["", "other ways", "minutes", HEADS[question]], rows, left=2, words=WORDED[question])
-    ]
-
-
 def first_proposal(
     best: Proposal | None, arguments: argparse.Namespace, settings: MachineSettings
 ) -> list[str]:
     """Return what to measure, how, and the commands after it."""
+    first = headline(words.headline(best), words.KINDS[worth(best)])
     if best is None:
-        return [headline("Nothing that can be proposed would tell more.")]
-    first = f"{headline(f'Next: {best.headline}.')}\n{to_read(best, best.steps, settings)}"
-    return [first, after(best, arguments, settings)]
-
-
-def to_read(best: Proposal, steps: Sequence[str], settings: MachineSettings) -> str:
-    """Return the steps of a measurement, and what is typed for VALUE."""
-    typed = what_to_type([check.name for check in best.option.checks], settings, best.unit)
-    return sentences([*steps, typed] if typed else steps, mark="  ")
+        return [first]
+    steps = in_text([words.to_read(best, best.steps, settings)])
+    return [f"{first}\n{steps[0]}", after(best, arguments, settings)]
 
 
 def after(best: Proposal, arguments: argparse.Namespace, settings: MachineSettings) -> str:
     """Return the commands after the measurement."""
-    if best.option.kind in READ_ONLY and not len(best.option.visits):
-        name = Path(arguments.marks[-1]).name
-        words = f"Add each reading to {name} as a [[distance]] of the same ends. Then:"
-        if best.question == REREAD:
-            words = f"Correct its line in {name}. Then:"
-        return next_step(words, ["calibrate", *same_inputs(arguments)])
-    if best.option.checks or not len(best.option.visits):
-        checks = [
-            word
-            for check in best.option.checks
-            for word in ("--checked", to_fill_in(check.name, check.sigma, settings, best.unit))
-        ]
-        again = ["calibrate", *same_inputs(arguments), *checks]
-        return next_step("When that is measured:", again)
+    said = words.when_measured(best, Path(arguments.marks[-1]).name)
+    checks = [
+        word
+        for check in best.option.checks
+        for word in ("--checked", to_fill_in(check.name, check.sigma, settings, best.unit))
+    ]
+    if checks or not len(best.option.visits):
+        return next_step(said, ["calibrate", *same_inputs(arguments), *checks])
     written: str | None = getattr(arguments, "template", None)
     form = written or free_name("more", ".toml")
-    again = ["calibrate", *same_inputs(arguments, form)]
-    said = next_step("When they are measured:", again)
+    then = next_step(said, ["calibrate", *same_inputs(arguments, form)])
     if written:
-        return said
+        return then
     cut = free_name("more", ".nc")
     asked = ["next", *same_inputs(arguments), "--marks", form, "--output", cut]
-    return f"{next_step('Cut them by a program, and fill in a form:', asked)}\n{said}"
+    return f"{next_step('Cut them by a program, and fill in a form:', asked)}\n{then}"
 
 
 # The arguments of `plumb next`.

@@ -25,7 +25,7 @@ from plumb.text.answers import json_of
 from plumb.text.commands import GOES_ON, quoted
 from plumb.text.files import numbered
 from plumb.text.values import MM, Unit
-from plumb.words import Part, Sentences
+from plumb.words import Part, Rows, Sentences
 
 WIDEST = 80  # [characters]
 PATIENCE = 2.0  # [s] before a bar shows how far the work is
@@ -90,11 +90,14 @@ def sentences(lines: Sequence[str], *, mark: str = "- ") -> str:
 def in_text(parts: Iterable[Part]) -> list[str]:
     """Return tables and sentences as a terminal shows them."""
     return [
-        sentences(part.lines, mark=part.mark)
-        if isinstance(part, Sentences)
-        else table(part.header, part.rows, left=part.left, words=part.words)
+        sentences(part.lines, mark=part.mark) if isinstance(part, Sentences) else _rows_text(part)
         for part in parts
     ]
+
+
+def _rows_text(part: Rows) -> str:
+    shown = table(part.header, part.rows, left=part.left, words=part.words)
+    return f"{shown}\n{sentences([part.note], mark='')}" if part.note else shown
 
 
 def headline(sentence: str, kind: str = "") -> str:

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Annotated
+from typing import Annotated, Literal
 
 import numpy as np
 
 from plumb.fit.inputs import Inputs, known_outside
 from plumb.fit.observations import Observations, chains_to, rms
+from plumb.fit.problem import USUAL_SIGMA
 from plumb.fit.sighting import Sighting, sighted
 from plumb.marks.read import Measurements
 from plumb.model.predict import FOUND, FOUND_WORDS, values_of
@@ -19,6 +20,8 @@ from plumb.text.answers import Internal, in_json, key
 from plumb.text.errors import InputError, to_do
 
 Point = tuple[float, float]
+Nearness = Literal["near_noise", "off"]
+NOISY = 1.5  # times the error of a reading, up to which an RMS may be reading alone
 
 
 @dataclass(frozen=True)
@@ -64,6 +67,7 @@ class ComparedRound:
 class Comparison:
     """Settings compared with marks."""
 
+    state: Nearness  # whether reading alone may have made the RMS
     marks: tuple[ComparedMark, ...]
     distances: tuple[ComparedDistance, ...]
     # [mm] of the marks as vectors, or of the distances if there are no marks
@@ -101,10 +105,16 @@ def compare(inputs: Inputs) -> Comparison:
     spans = np.array([distance.error for distance in distances])
     pose = best_pose(where[rows.mark_rows], rows.measured)
     counted = np.hypot(errors[:, 0], errors[:, 1]) if marks else np.abs(spans)
+    whole, sigma = (
+        rms(errors if marks else spans),
+        inputs.stated.sigma if inputs.stated else USUAL_SIGMA,
+    )
+    read = sigma * np.sqrt(2.0) if marks else sigma
     return Comparison(
+        state="near_noise" if whole <= NOISY * read else "off",
         marks=marks,
         distances=distances,
-        rms=rms(errors if marks else spans),
+        rms=whole,
         worst=float(counted.max()),
         distance_rms=rms(spans) if distances else None,
         shape_rms=rms(pose.errors) if pose else None,

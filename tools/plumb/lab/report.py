@@ -12,16 +12,18 @@ from pydantic_core import to_json
 from plumb.cure.decision import Decision
 from plumb.diagnosis.answer import Diagnosis
 from plumb.diary.file import Diary
+from plumb.fit.compare import compare
 from plumb.fit.inputs import Inputs
 from plumb.lab.background import WarmBoard, sure_board
 from plumb.lab.project import Choices
 from plumb.lab.routes.bench import covariates_of, draw
 from plumb.lab.routes.correction import correction_of
 from plumb.lab.routes.diary import diary_answer
-from plumb.lab.routes.next import NextAnswer, offers_of
+from plumb.lab.routes.next import next_answer
 from plumb.lab.routes.project import ProjectAnswer, machine_of
 from plumb.lab.routes.verdict import Verdict, VerdictAnswer, verdict_of
 from plumb.plan import Next
+from plumb.words.comparison import conclusion
 
 PAGE = Path(__file__).parent / "page"
 PACKAGES = ("plumb-maslow", "numpy", "scipy")
@@ -43,7 +45,7 @@ def report(
         "project": project,
         "about": about,
         "verdict": VerdictAnswer(share=1, verdict=verdict, command=command("diagnose")),
-        "next": _next(advice, command("next")),
+        "next": next_answer(advice, command("next")),
         "correction": correction_of(inputs, decision, project.choices),
         "diary": diary_answer(diary or Diary(Path(), ()), inputs.unit),
         **dict(_of_bench(inputs, decision.diagnosis, verdict)),
@@ -64,13 +66,6 @@ def _project(inputs: Inputs) -> ProjectAnswer:
         machine=machine_of(inputs.settings, settings),
         trouble="",
         changed_since_fit="",
-    )
-
-
-def _next(advice: Next, command: str) -> NextAnswer:
-    offers = offers_of(advice, lambda place: None)
-    return NextAnswer(
-        share=1, offers=offers, ordinary=advice.blind, nothing=not offers, command=command
     )
 
 
@@ -107,6 +102,7 @@ def _about(inputs: Inputs, command: str) -> dict[str, object]:
         "files": [dict(zip(("what", "name", "digest"), each, strict=True)) for each in said],
         "versions": ", ".join(f"{name} {version(name)}" for name in PACKAGES),
         "command": command,
+        "compared": conclusion(compare(inputs), inputs.unit),
     }
 
 

@@ -3,7 +3,7 @@
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from math import erf, sqrt
-from typing import Annotated
+from typing import Annotated, Literal
 
 import numpy as np
 
@@ -40,6 +40,8 @@ SETTLE, CONFIRM, FIND, REREAD, EXPLORE = "settle", "confirm", "find", "reread", 
 AGAIN = 10.0  # minutes that another round costs when this round did not settle it
 DISTINGUISHED = 0.75 * ENOUGH  # lambda from which a pair counts as distinguished
 MOST_PARTED = 6
+Worth = Literal["settles", "helps", "nothing_would"]
+LIKELY = 0.5  # a chance from which on a measurement is said to settle the question
 QUESTIONS = {"cannot_tell": SETTLE, "one_suspect": CONFIRM, "nothing_provable": FIND}
 
 
@@ -116,6 +118,19 @@ class Next:
     proposals: Annotated[tuple[Proposal, ...], key("next")]
     # as many more marks as patience allows
     blind: Annotated[Proposal | None, key("more_marks")]
+
+    @in_json
+    def state(self) -> Worth:
+        """What the best of them is good for."""
+        return worth(self.proposals[0] if self.proposals else None)
+
+
+def worth(best: Proposal | None) -> Worth:
+    """Return what a measurement is good for; None: nothing can be proposed."""
+    if best is None:
+        return "nothing_would"
+    settles = best.question != FIND and (best.chance or 0.0) >= LIKELY
+    return "settles" if settles else "helps"
 
 
 def propose(

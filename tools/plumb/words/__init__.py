@@ -2,17 +2,21 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Literal
+
+Kind = Literal["good", "open", "bad"]  # of a state: the colour of its headline
 
 
 @dataclass(frozen=True)
 class Rows:
     """A table; the first `left` columns and those in `words` (-1 is the last) hold words, the rest
-    numbers."""
+    numbers. The note stands below it."""
 
     header: Sequence[str]
     rows: Sequence[Sequence[str]]
     left: int = 1
     words: Sequence[int] = ()
+    note: str = ""
 
 
 @dataclass(frozen=True)

@@ -28,8 +28,9 @@ def test_the_published_marks_are_as_far_off_as_published():
 
 def test_the_true_settings_explain_marks_that_others_cut():
     marks = Measurements(marks_on(TRUE, BELIEVED, grid(5, 3)))
-    assert compare(Inputs(BELIEVED, marks)).rms > 3
-    assert compare(Inputs(TRUE, marks, cut_with=BELIEVED)).rms < 1e-4
+    off, near = compare(Inputs(BELIEVED, marks)), compare(Inputs(TRUE, marks, cut_with=BELIEVED))
+    assert off.rms > 3 and off.state == "off"
+    assert near.rms < 1e-4 and near.state == "near_noise"
 
 
 def test_the_error_is_measured_less_predicted():

@@ -7,7 +7,6 @@ import pytest
 from hidden_boards import board, board_cut, size_for
 from plumb.bench.boards import plan
 from plumb.bench.causes import MAKER
-from plumb.cli.compare import conclusion
 from plumb.diagnosis import Checked, diagnose
 from plumb.fit.compare import compare
 from plumb.fit.inputs import Inputs
@@ -20,6 +19,7 @@ from plumb.plan.options import ROOM_FOR_A_SECOND, many_marks, options
 from plumb.plan.planned_visits import usable
 from plumb.plan.separation import ENOUGH, Chooser
 from plumb.text.values import MM
+from plumb.words.comparison import conclusion
 from synthetic import BELIEVED, grid
 
 NINE = plan(3, 3)

@@ -20,7 +20,17 @@ from plumb.plan.options import (
     spots,
 )
 from plumb.plan.planned_visits import nowhere
-from plumb.plan.proposal import CONFIRM, EXPLORE, FIND, REREAD, SETTLE, Proposal, RoomThen, percent
+from plumb.plan.proposal import (
+    CONFIRM,
+    EXPLORE,
+    FIND,
+    REREAD,
+    SETTLE,
+    Proposal,
+    RoomThen,
+    percent,
+    worth,
+)
 from plumb.plan.separation import FRAME_CHECKS, effect_checks
 from plumb.settings.machine import GRAVITY
 from plumb.text.values import MM
@@ -150,6 +160,8 @@ def test_a_chance_is_shown_in_steps_of_five(chance, said):
 def test_the_headline_states_minutes_and_chance(question, hope):
     assert proposal(question).headline == f"4 more marks; about 9 minutes{hope}"
     assert proposal(question, None).headline == "4 more marks; about 9 minutes"
+    assert worth(proposal(question)) == worth(proposal(question, None)) == "helps"
+    assert worth(proposal(question, 0.5)) == "settles" and worth(None) == "nothing_would"
 
 
 def test_without_a_proved_effect_the_headline_states_how_much_less_could_hide():

@@ -4,17 +4,18 @@ import { type Asked, useAsked } from "../shell/asked";
 import type { Form } from "./useReadings";
 
 export type Doubt = Schemas["Doubted"];
+type Answer = Schemas["DoubtsAnswer"];
 export type OthersSay = Schemas["OthersSay"];
 const PAUSE_MS = 500;
 
 /** The previous answer stays visible, so that rings do not flicker. */
 export function useDoubts(
   form: Form | undefined,
-): Omit<Asked<unknown>, "answer"> & { doubts: Doubt[]; others: OthersSay[] } {
+): Omit<Asked<unknown>, "answer"> & Pick<Answer, "doubts" | "others" | "compared"> {
   const { file = "", digest = "" } = form ?? {};
   const isEmpty = !form?.distances.length && !form?.marks.some((mark) => mark.read);
-  const ask = () => get<Schemas["DoubtsAnswer"]>(`doubts?file=${encodeURIComponent(file)}`);
+  const ask = () => get<Answer>(`doubts?file=${encodeURIComponent(file)}`);
   const { answer, ...asked } = useAsked(isEmpty ? undefined : ask, `${file} ${digest}`, PAUSE_MS);
   const isOfForm = !isEmpty && !asked.refused && answer?.file === file;
-  return { ...asked, ...(isOfForm ? answer : { doubts: [], others: [] }) };
+  return { ...asked, ...(isOfForm ? answer : { doubts: [], others: [], compared: "" }) };
 }

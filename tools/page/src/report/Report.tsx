@@ -17,6 +17,7 @@ interface About {
   said: string;
   files: { what: string; name: string; digest: string }[];
   versions: string;
+  compared: string;
   command: string;
 }
 
@@ -33,7 +34,7 @@ export function Report({ answers }: { answers: Readonly<Record<string, unknown>>
     <Shares shared={{ ...shared, setTrouble: stays }}>
       <main class="report">
         <p class="about soft">
-          <b>{about.title}</b> {about.said}
+          <b>{about.title}</b> {about.said}. {about.compared}
         </p>
         <Verdict />
         <Numbers made={answers.correction as Schemas["CorrectionParts"]} />

@@ -85,27 +85,14 @@ export function Measure() {
       )}
       {plan && (
         <>
-          <Sum plan={plan} looking={looking} />
+          <p class="sum" role="status" aria-busy={looking}>
+            <strong>About {Math.round(plan.minutes)} minutes.</strong> {plan.sentence}
+            {looking && " Working …"}
+          </p>
           <EffectList causes={plan.causes} />
         </>
       )}
     </Screen>
-  );
-}
-
-function Sum({
-  plan: { minutes, preview },
-  looking,
-}: {
-  plan: Schemas["PlanAnswer"];
-  looking: boolean;
-}) {
-  return (
-    <p class="sum" role="status" aria-busy={looking}>
-      <strong>About {Math.round(minutes)} minutes.</strong> Of {preview.outlines.length} causes in
-      their usual size, {preview.seen} would show and {preview.named} could be named.
-      {looking && " Working …"}
-    </p>
   );
 }
 

@@ -1,9 +1,6 @@
 // Step 6: the tape's readings, typed into a grid laid out like the sheet.
 
-import type { Schemas } from "../api/client";
-import { namedLength } from "../controls/lengths";
 import { Trouble } from "../controls/Trouble";
-import { useUnits } from "../controls/units";
 import { lengthBetween } from "../readings/distances";
 import { FileOfReadings, FormPicker } from "../readings/FormPicker";
 import { Grid } from "../readings/Grid";
@@ -24,14 +21,12 @@ const TAPED =
   "Lay the tape between the two marks of each line, in this order, and type what it says. Each number is saved at once and stays open to change.";
 
 export function Readings() {
-  const units = useUnits();
   const readings = useReadings();
-  const { doubts, others, looking, refused } = useDoubts(readings.form);
+  const { doubts, others, compared, looking, refused } = useDoubts(readings.form);
   const { form } = readings;
   if (!form) return <Screen title="What does the tape say?" say="One moment …" busy />;
   const read = form.marks.filter((mark) => mark.read).length;
   const doubted = new Set(doubts.filter((doubt) => doubt.is_mark).map((doubt) => doubt.index));
-  const off = offTarget(form.marks.filter(({ index }) => !doubted.has(index)));
   const asked = form.spans.filter((span) => lengthBetween(form.distances, span)).length;
   const isTaped = form.spans.length > 0;
   const grid = <Grid form={form} readings={readings} doubts={doubts} />;
@@ -60,8 +55,7 @@ export function Readings() {
           <p class="count soft" role="status" aria-busy={looking}>
             {isTaped && `${asked} of ${form.spans.length} distances are read. `}
             {(!isTaped || read > 0) && `${read} of ${form.marks.length} marks are read.`}
-            {off > 0 && ` They are off by ${namedLength(off, units, 2)} (RMS)`}
-            {off > 0 && (doubted.size > 0 ? " without what disagrees." : ".")}
+            {compared && ` ${compared}`}
             {looking && " Looking for readings that disagree …"}
           </p>
           <Trouble>{refused && `Nothing looks for readings that disagree. ${refused}`}</Trouble>
@@ -95,14 +89,6 @@ function ToVerdict({ read, all }: { read: number; all: number }) {
       Go to the verdict
     </a>
   );
-}
-
-/** How far the marks are from where they were sent, RMS [mm]; 0 if none is read. */
-function offTarget(marks: readonly Schemas["AskedMark"][]): number {
-  const errors = marks.flatMap(({ target, place }) =>
-    place ? [(place[0] - target[0]) ** 2 + (place[1] - target[1]) ** 2] : [],
-  );
-  return Math.sqrt(errors.reduce((sum, each) => sum + each, 0) / Math.max(1, errors.length));
 }
 
 function Why() {

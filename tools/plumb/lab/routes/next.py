@@ -27,6 +27,7 @@ from plumb.plan.proposal import Next, Proposal, form_of, program_of, propose
 from plumb.text.answers import like
 from plumb.text.errors import InputError
 from plumb.text.files import numbered
+from plumb.words.proposals import HEADS, headline, taking_words
 
 router = APIRouter(tags=["next"])
 MOST_OTHERS = 7
@@ -37,10 +38,11 @@ class Taking(BaseModel):
 
     choose: int  # its number, as plumb next --choose takes it
     digest: str  # of what would be written
-    marks: int
     form: str
     program: str  # empty: nothing is cut, a tape reads marks that are there
     is_saved: bool  # it is in the folder
+    said: str
+    act: str  # on the button
     command: str
 
 
@@ -55,10 +57,11 @@ class NextAnswer(BaseModel):
     """What to measure next, or how far that is worked out."""
 
     share: float
-    offers: list[Offer]  # the best first
-    ordinary: Proposal | None  # what as many ordinary marks as patience allows would bring
-    nothing: bool  # nothing that can be proposed would tell more
     command: str
+    headline: str = ""  # empty: it is still worked out
+    offers: list[Offer] = []  # the best first
+    ordinary: Proposal | None = None  # what as many marks as patience allows would bring
+    promises: str = ""  # head of what other ways promise
 
 
 class Wanted(BaseModel):
@@ -73,16 +76,10 @@ def show_next(project: TheProject, background: TheBackground) -> NextAnswer:
     """Return what to measure next."""
     inputs = inputs_of(project)
     answer = _proposed(project, background, inputs)
-    advice = answer.result
-    offers = offers_of(advice, partial(_taking, project, inputs, advice)) if advice else []
-    said = command("next", *board_and_known(project, inputs))
-    return NextAnswer(
-        share=answer.share,
-        offers=offers,
-        ordinary=advice.blind if advice else None,
-        nothing=advice is not None and not offers,
-        command=offers[0].taking.command if offers and offers[0].taking else said,
-    )
+    advice, said = answer.result, command("next", *board_and_known(project, inputs))
+    if advice is None:
+        return NextAnswer(share=answer.share, command=said)
+    return next_answer(advice, said, partial(_taking, project, inputs, advice))
 
 
 @router.post("/next")
@@ -133,10 +130,21 @@ def _proposed(project: Project, background: Background, inputs: api.Inputs) -> A
     return background.ask("next", key_of(project), work)
 
 
-def offers_of(advice: Next, taking: Callable[[int], Taking | None]) -> list[Offer]:
+def next_answer(
+    advice: Next, command: str, taking: Callable[[int], Taking | None] = lambda place: None
+) -> NextAnswer:
     """Return the proposals; `taking` says what it writes to take one."""
     proposals = enumerate(advice.proposals[: MOST_OTHERS + 1], 1)
-    return [Offer(proposal=each, taking=taking(place)) for place, each in proposals]
+    offers = [Offer(proposal=each, taking=taking(place)) for place, each in proposals]
+    best = offers[0] if offers else None
+    return NextAnswer(
+        share=1,
+        command=best.taking.command if best and best.taking else command,
+        headline=headline(best.proposal if best else None),
+        offers=offers,
+        ordinary=advice.blind,
+        promises=HEADS[best.proposal.question] if best else "",
+    )
 
 
 @dataclass(frozen=True)
@@ -161,13 +169,10 @@ def _taking(project: Project, inputs: api.Inputs, advice: Next, place: int) -> T
     written = _written(project, advice, place)
     if written is None:
         return None
-    return like(
-        Taking,
-        written,
-        choose=place,
-        marks=len(advice.proposals[place - 1].option.visits),
-        command=_command(project, inputs, advice, written, place),
-    )
+    count = len(advice.proposals[place - 1].option.visits)
+    said, act = taking_words(count, written.form, written.program)
+    made_by = _command(project, inputs, advice, written, place)
+    return like(Taking, written, choose=place, said=said, act=act, command=made_by)
 
 
 def _written(project: Project, advice: Next, place: int) -> _Written | None:

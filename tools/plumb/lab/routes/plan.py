@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 from threading import Lock
 
@@ -25,16 +24,15 @@ from plumb.lab.rounds import (
 )
 from plumb.lab.routes.project import TheProject
 from plumb.marks.model import tape_sigma
-from plumb.plan.preview import Outline, Preview, as_read, preview
+from plumb.plan.preview import Preview, as_read, preview
 from plumb.plan.sheet_reach import SheetReach, reach_of
 from plumb.settings.machine import MachineSettings
 from plumb.text.errors import InputError
-from plumb.text.values import Unit
+from plumb.words.proposals import advised, chances, could_tell
 
 router = APIRouter(tags=["plan"])
 MOST_MARKS = 400
 MOST_SEEN = 64  # plans that are kept
-MOST_ALIKE = 2  # effects that a cause may be taken for, by name
 
 
 class LayoutAnswer(BaseModel):
@@ -67,8 +65,7 @@ class PlannedCause(BaseModel):
     """An effect under a plan: whether it would be found and named, in a sign and in words."""
 
     noun: str
-    sign: str
-    words: str
+    said: tuple[str, str]
 
 
 class PlanAnswer(BaseModel):
@@ -77,6 +74,7 @@ class PlanAnswer(BaseModel):
     preview: Preview
     causes: list[PlannedCause]
     minutes: float
+    sentence: str
     trouble: str  # why the sled cannot take this way; empty if it can
     command: str
 
@@ -120,23 +118,11 @@ def layout_advice(project: TheProject) -> AdviceAnswer:
     minutes = {layout: planned(settings, layout, ()).minutes for layout in TITLES}
     worth = {layout: (each.named, each.seen, -minutes[layout]) for layout, each in previews.items()}
     best = max(TITLES, key=lambda layout: worth[layout])
-    return AdviceAnswer(layout=best, sentence=_advice(previews, best, minutes[best], choices.unit))
-
-
-def _advice(previews: Mapping[Layout, Preview], best: Layout, minutes: float, unit: Unit) -> str:
-    first, taken = next(iter(TITLES)), previews[best]
-    if not taken.seen:
-        return (
-            f"With a tape that reads to {unit.worded(taken.sigma)} no plan here would show a cause "
-            "of its usual size. Any of them shows causes that move marks further."
-        )
-    said = (
-        f"{TITLES[best]}, about {minutes:.0f} minutes: of {len(taken.effects)} causes in their "
-        f"usual size {taken.seen} would show and {taken.named} could be named"
-    )
-    few = previews[first]
-    instead = f", instead of {few.seen} and {few.named} with {TITLES[first].lower()}"
-    return f"{said}{instead if best != first else ''}."
+    said = advised(previews[best], TITLES[best], minutes[best], choices.unit)
+    few = previews["nine"]
+    if best != "nine" and previews[best].seen:
+        said += f", instead of {few.seen} and {few.named} with {TITLES['nine'].lower()}"
+    return AdviceAnswer(layout=best, sentence=f"{said}.")
 
 
 class Desk:
@@ -181,29 +167,15 @@ def preview_plan(request: PlanRequest, project: TheProject) -> PlanAnswer:
     plan = planned(settings, request.layout, request.places)
     form, file = next_names(project)
     seen = DESK.look(settings, choices, request)
+    said = could_tell(seen)
     return PlanAnswer(
         preview=seen,
-        causes=[_cause(outline, seen) for outline in seen.outlines],
+        causes=[PlannedCause(noun=each.noun, said=chances(each)) for each in seen.outlines],
         minutes=plan.minutes,
+        sentence=f"{said[0].upper()}{said[1:]}.",
         trouble=unreachable(plan, settings),
         command=grid_command(project, possible(choices, settings), plan, form=form, program=file),
     )
-
-
-def _cause(outline: Outline, seen: Preview) -> PlannedCause:
-    nouns = {each.effect: each.noun for each in seen.outlines}
-    others = [nouns[name] for name in outline.alike if name in nouns]
-    if not outline.is_seen:
-        sign, words = "○", "would stay hidden in its usual size"
-    elif outline.is_distinct:
-        sign, words = "●", "would be found and named"
-    elif others:
-        more = f" and {len(others) - MOST_ALIKE} more" if len(others) > MOST_ALIKE else ""
-        alike = ", ".join(others[:MOST_ALIKE])
-        sign, words = "◐", f"would show, but may be taken for {alike}{more}"
-    else:
-        sign, words = "◐", "would show, but is not always told apart"
-    return PlannedCause(noun=outline.noun, sign=sign, words=words)
 
 
 @router.get("/reach")

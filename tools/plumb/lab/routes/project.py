@@ -1,7 +1,7 @@
 """The project: its files and choices, opening a file, saving a choice."""
 
 import os
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
@@ -12,6 +12,7 @@ from fastapi import APIRouter, Depends, Request, UploadFile
 from pydantic import BaseModel
 
 from plumb.diagnosis.readings import Doubted, OthersSay, look_over
+from plumb.fit.compare import compare
 from plumb.fit.inputs import Inputs, settings_in
 from plumb.lab.known import refuse_absurd_known, stated
 from plumb.lab.project import (
@@ -30,6 +31,7 @@ from plumb.settings.machine import MachineSettings
 from plumb.text.answers import like
 from plumb.text.errors import InputError, on_page
 from plumb.vm.practice import Score, score, secret_in
+from plumb.words.comparison import conclusion
 
 router = APIRouter(tags=["project"])
 # A settings' file gets a name of ours, whatever its owner calls it.
@@ -174,6 +176,7 @@ class DoubtsAnswer(BaseModel):
     digest: str  # of the form as it was read
     doubts: list[Doubted]  # corrected: from the chosen edges
     others: list[OthersSay]  # the same
+    compared: str  # how far off the marks are without these; empty: none is left
 
 
 @router.get("/doubts")
@@ -202,11 +205,30 @@ def show_doubts(project: TheProject, file: str) -> DoubtsAnswer:
         file=file,
         digest=digest,
         doubts=[_from_edges(doubt, sheet, choices.edges) for doubt in looked.doubts],
+        compared=_compared(inputs, looked.doubts),
         others=[
             replace(said, place=from_edges(said.place, sheet=sheet, corner=choices.edges))
             for said in looked.others
         ],
     )
+
+
+def _compared(inputs: Inputs, doubts: Sequence[Doubted]) -> str:
+    """Return how far off the readings are that are not doubted."""
+    off = {(each.is_mark, each.index) for each in doubts}
+    every = inputs.measurements
+    sure = replace(
+        every,
+        marks=tuple(
+            replace(mark, measured=None) if (True, i) in off else mark
+            for i, mark in enumerate(every.marks)
+        ),
+        distances=tuple(each for i, each in enumerate(every.distances) if (False, i) not in off),
+    )
+    if not sure.measured_marks and not sure.distances:
+        return ""
+    said = conclusion(compare(replace(inputs, measurements=sure)), inputs.unit)
+    return f"{said} That is without what disagrees." if off else said
 
 
 def _from_edges(doubt: Doubted, sheet: tuple[float, float], corner: str) -> Doubted:

@@ -6,7 +6,7 @@ export function EffectList({ causes }: { causes: Schemas["PlannedCause"][] }) {
     <details>
       <summary>Each cause by itself</summary>
       <ul class="tiles plain" aria-label="What these marks could tell">
-        {causes.map(({ noun, sign, words }) => (
+        {causes.map(({ noun, said: [sign, words] }) => (
           <li key={noun} class="box">
             <b>
               <span aria-hidden="true">{sign}</span> {noun}

@@ -20,13 +20,14 @@ interface NextParts {
 
 export function NextStep({ marks, next: { answer, refused } }: NextParts) {
   if (refused) return <p class="trouble">{refused}</p>;
-  if (answer?.nothing) return <p>Nothing that can be proposed would tell more.</p>;
-  const next = answer?.offers[0]?.proposal;
-  if (!next) return <Progress share={answer?.share ?? 0} label="The next measurement" />;
-  const { taking } = answer.offers[0] ?? {};
+  if (!answer?.headline)
+    return <Progress share={answer?.share ?? 0} label="The next measurement" />;
+  const [best] = answer.offers;
+  if (!best) return <p>{answer.headline}</p>;
+  const { proposal: next, taking } = best;
   return (
     <section class="next" aria-label="The next measurement">
-      <h2>Next: {next.headline}</h2>
+      <h2>{answer.headline}</h2>
       <div class="pair tiles">
         <ol>
           {next.steps.map((step) => (
@@ -45,13 +46,7 @@ export function NextStep({ marks, next: { answer, refused } }: NextParts) {
           />
         )}
       </div>
-      {taking && (
-        <p>
-          {taking.program
-            ? `${taking.program} cuts them, ${taking.form} waits for their readings.`
-            : `${taking.form} waits for them; nothing is cut.`}
-        </p>
-      )}
+      {taking && <p>{taking.said}</p>}
       <Others {...answer} />
       <details class="command">
         <summary>In a terminal</summary>
@@ -74,13 +69,13 @@ export function NextAct({ next: { answer, refused } }: { next: Asked }) {
   );
 }
 
-function Others({ offers: [, ...others], ordinary }: Pick<NextAnswer, "offers" | "ordinary">) {
+function Others({ offers: [, ...others], ordinary, promises }: NextAnswer) {
   const all = ordinary ? [...others, { proposal: ordinary, taking: null }] : others;
   if (all.length === 0) return null;
   const canTake = all.some((other) => other.taking);
   return (
     <Table
-      names={["other ways", "what it promises", ...(canTake ? [""] : [])]}
+      names={["other ways", promises, ...(canTake ? [""] : [])]}
       rows={all.map(({ proposal: { title, minutes, promise }, taking }) => [
         <>
           {title} <small>{Math.round(minutes)} minutes</small>

@@ -13,7 +13,7 @@ interface TakeParts {
 
 export function TakeMarks({ taking, title }: TakeParts) {
   const tell = useTell();
-  const { choose, digest, program, marks } = taking;
+  const { choose, digest, program, act } = taking;
   const work = async () => {
     await tell("next", { choose, digest });
     location.hash = program ? "#/cut" : "#/readings";
@@ -26,7 +26,7 @@ export function TakeMarks({ taking, title }: TakeParts) {
     );
   return (
     <Do isNext work={work}>
-      {program ? `Take these ${marks} marks; nothing moves yet` : `Take these ${marks} readings`}
+      {act}
     </Do>
   );
 }

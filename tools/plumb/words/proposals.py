@@ -1,0 +1,158 @@
+"""What to measure? The best proposal with its steps, and the other ways in a few rows."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+from plumb.diagnosis import Diagnosis
+from plumb.diagnosis.unseen import share_words
+from plumb.fit.by_hand import what_to_type
+from plumb.model.plain import noun_of, plain_before
+from plumb.plan.options import READ_ONLY
+from plumb.plan.preview import POWER, Outline, Preview
+from plumb.plan.proposal import CONFIRM, EXPLORE, FIND, REREAD, SETTLE, Next, Proposal, Worth
+from plumb.settings.machine import MachineSettings
+from plumb.text.answers import Internal, part
+from plumb.text.values import Unit
+from plumb.words import Kind, Part, Rows, Sentences
+
+KINDS: Mapping[Worth, Kind] = {"settles": "good", "helps": "open", "nothing_would": "open"}
+FEW = 5  # proposals; the JSON has all
+HEADS = {
+    SETTLE: "chance to settle",
+    CONFIRM: "chance to confirm",
+    FIND: "may act unseen then",
+    REREAD: "chance to show it",
+    EXPLORE: "",
+}
+
+
+@dataclass(frozen=True)
+class ProposalsAnswer(Next):
+    """The proposals, with what they are for."""
+
+    diagnosis: Internal[Diagnosis]
+    written: tuple[str, ...]
+
+    sentence = part("diagnosis.sentence", str)
+    suspects = part("diagnosis.suspects", tuple[str, ...])
+
+
+def headline(best: Proposal | None) -> str:
+    """Return what to measure and what to hope of it, or that nothing would tell more."""
+    return f"Next: {best.headline}." if best else "Nothing that can be proposed would tell more."
+
+
+def other_ways(advice: Next, shown: int = 1) -> list[Part]:
+    """Return the best proposals in a few rows, without the one that is shown in whole."""
+    others = [(i, each) for i, each in enumerate(advice.proposals[:FEW], 1) if i != shown]
+    if not others:
+        return []
+    question = others[0][1].question
+    rows = [
+        [f"{i}", each.option.title, f"{each.option.minutes:.0f}", each.promise]
+        for i, each in others
+    ]
+    head = ["", "other ways", "minutes", HEADS[question]]
+    return [Rows(head, rows, left=2, words=[3] if question == FIND else ())]
+
+
+def to_read(best: Proposal, steps: Sequence[str], settings: MachineSettings) -> Sentences:
+    """Return the steps of a measurement, and what is typed for VALUE."""
+    typed = what_to_type([check.name for check in best.option.checks], settings, best.unit)
+    return Sentences([*steps, typed] if typed else steps, "  ")
+
+
+def when_measured(best: Proposal, form: str) -> str:
+    """Return what to do with the readings; `form`: the file of the marks so far."""
+    if best.option.checks or len(best.option.visits):
+        return f"When {'that is' if best.option.checks else 'they are'} measured:"
+    if best.question == REREAD:
+        return f"Correct its line in {form}. Then:"
+    if best.option.kind in READ_ONLY:
+        return f"Add each reading to {form} as a [[distance]] of the same ends. Then:"
+    return "When that is measured:"
+
+
+def taking_words(marks: int, form: str, program: str) -> tuple[str, str]:
+    """Return what taking a proposal writes, and what its button says; no program: a tape reads
+    marks that are there.
+    """
+    if program:
+        said = f"{program} cuts them, {form} waits for their readings."
+        return said, f"Take these {marks} marks; nothing moves yet"
+    return f"{form} waits for them; nothing is cut.", f"Take these {marks} readings"
+
+
+# What marks could tell before a hole is cut.
+
+ALIKE = 2  # causes that a cause may be taken for, by name
+CAUSES = ("", "effect", "usual, {}", "taken up", "found from", "taken for")
+FROM = (
+    f"found from: the smallest size that is found in {100 * POWER:.0f} % of all cases, times the "
+    "usual size"
+)
+
+
+def could_tell(seen: Preview) -> str:
+    """Return how many causes marks would show, and how many could be named; no whole sentence."""
+    return (
+        f"of {len(seen.outlines)} causes in their usual size, {seen.seen} would show and "
+        f"{seen.named} could be named"
+    )
+
+
+def causes(seen: Preview, unit: Unit) -> list[Part]:
+    """Return what marks could tell, and each cause by itself."""
+    what = f"{seen.marks} marks"
+    what += f" and {seen.distances} distances" if seen.distances else ""
+    rows = [
+        [
+            str(place),
+            outline.noun,
+            unit.bare(outline.raw),
+            share_words(outline.hidden_share),
+            _smallest(outline, unit),
+            _taken_for(outline) or "-",
+        ]
+        for place, outline in enumerate(seen.outlines, 1)
+    ]
+    header = [each.format(unit.name) for each in CAUSES]
+    first = f"{what} read to {unit.worded(seen.sigma)}: {could_tell(seen)}."
+    return [Sentences([first], ""), Rows(header, rows, left=2, words=[-2, -1], note=FROM)]
+
+
+def _smallest(outline: Outline, unit: Unit) -> str:
+    if outline.smallest is None:
+        return "never"
+    first = outline.parameters[0]
+    alone = len(outline.parameters) == 1 and first.smallest is not None
+    name, size = f"{outline.effect}.{first.name}", first.smallest or 0.0
+    in_words = f" ({plain_before(name, size, unit=unit)})" if alone else ""
+    return f"x {outline.smallest:.2g}{in_words}"
+
+
+def _taken_for(outline: Outline) -> str:
+    """Return the causes that a cause may be taken for; empty if there are none."""
+    named, more = ", ".join(map(noun_of, outline.alike[:ALIKE])), len(outline.alike) - ALIKE
+    return f"{named} and {more} more" if more > 0 else named
+
+
+def chances(outline: Outline) -> tuple[str, str]:
+    """Return whether marks would show and name a cause, in a sign and in words."""
+    if not outline.is_seen:
+        return "○", "would stay hidden in its usual size"
+    if outline.is_distinct:
+        return "●", "would be found and named"
+    alike = _taken_for(outline)
+    said = f"but may be taken for {alike}" if alike else "but is not always told apart"
+    return "◐", f"would show, {said}"
+
+
+def advised(seen: Preview, title: str, minutes: float, unit: Unit) -> str:
+    """Return what the recommended marks could tell, without the full stop."""
+    if seen.seen:
+        return f"{title}, about {minutes:.0f} minutes: {could_tell(seen)}"
+    return (
+        f"With a tape that reads to {unit.worded(seen.sigma)} no plan here would show a cause of "
+        "its usual size. Any of them shows causes that move marks further"
+    )
