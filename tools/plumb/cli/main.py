@@ -229,7 +229,7 @@ class Version(argparse.Action):
 
     def __call__(self, parser: argparse.ArgumentParser, *_: object) -> None:
         """Print it and stop."""
-        version = loaded("plumb.text.version").version()
+        version = loaded("plumb.text.compiled").version()
         print(f"{parser.prog} {version}")
         parser.exit()
 

@@ -11,7 +11,7 @@ from plumb.fit.inputs import Inputs
 from plumb.fit.rounds import POSE_AXES, ZERO_AXES
 from plumb.marks.read import Round
 from plumb.model.catalogue import parameter_names, place_of
-from plumb.settings.ini import published_machine
+from plumb.settings.files import published_machine
 from plumb.settings.machine import FRAME_FIELDS
 from plumb.settings.toml import FitRecord, FittedBoard, machine_toml
 

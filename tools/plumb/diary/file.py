@@ -18,10 +18,10 @@ from plumb.fit.inputs import Inputs
 from plumb.line.memory import WrittenNumbers, as_lines, version_of, write_numbers
 from plumb.line.sender import Sender
 from plumb.text.answers import Internal, Moment, plain
+from plumb.text.compiled import version
 from plumb.text.errors import InputError, Source
 from plumb.text.files import Unlinked, opened, write_whole
 from plumb.text.locks import hold, reaches_disk
-from plumb.text.version import version
 
 NAME = "diary.jsonl"
 DIGITS = 16  # of a line's digest

@@ -19,8 +19,14 @@ from plumb.firmware.settings import (
     every_setting,
     firmware_numbers,
 )
-from plumb.settings.files import changed_client_file, parse_client_file
-from plumb.settings.ini import SOURCES, Key, groundcontrol_changes, number_for_firmware
+from plumb.settings.files import (
+    SOURCES,
+    Key,
+    changed_client_file,
+    groundcontrol_changes,
+    number_for_firmware,
+    parse_client_file,
+)
 from plumb.settings.machine import MachineSettings
 from plumb.text.errors import InputError, Source, to_do
 from plumb.text.ini import IniText

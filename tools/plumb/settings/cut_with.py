@@ -12,8 +12,7 @@ import re
 from contextlib import suppress
 from pathlib import Path
 
-from plumb.settings.files import parse_client_file
-from plumb.settings.ini import SOURCES
+from plumb.settings.files import SOURCES, parse_client_file
 from plumb.text.errors import InputError, Source
 from plumb.text.files import read_bytes
 

@@ -1,30 +1,285 @@
-"""Reading and writing settings, whatever the file's form; the front door to this room.
-
-A machine's settings come as the `groundcontrol.ini` or `webcontrol.json` of the published programs,
-or as a `machine.toml`.
+"""Settings in the files of the published programs, read and written back; a `machine.toml` is read
+from here too.
 """
 
 import json
+import math
 import re
 from collections.abc import Iterator, Mapping
-from dataclasses import replace
+from dataclasses import dataclass, replace
+from decimal import Decimal
+from difflib import get_close_matches
 from hashlib import sha256
 from pathlib import Path
-from typing import Any
+from typing import Annotated, Any, Literal
 
-from plumb.settings.ini import (
-    Key,
-    changed_ini,
-    new_value,
-    published_settings,
-    read_settings_ini,
-    same_number,
+from pydantic import BaseModel, BeforeValidator, Field
+
+from plumb.settings.machine import (
+    PUBLISHED_LIMITS,
+    SLED_WEIGHT,
+    Feed,
+    MachineSettings,
+    PublishedSettings,
+    SettingsFile,
+    is_tuned,
+    radius_in_published,
+    refuse_impossible,
+    tuned_numbers,
 )
-from plumb.settings.machine import MachineSettings, SettingsFile
 from plumb.settings.toml import Known, read_machine_toml
 from plumb.text.errors import InputError, Source
 from plumb.text.files import CODE, parsed, read_bytes, read_text
-from plumb.text.ini import IniEntry, IniText, parse_ini
+from plumb.text.ini import IniEntry, IniText, parse_ini, read_ini, with_values
+from plumb.text.values import number_in, read_table
+
+Key = tuple[str, str]  # section and key of a file
+MASLOW, ADVANCED = "Maslow Settings", "Advanced Settings"
+Typed = Annotated[float, BeforeValidator(number_in)]
+
+
+def _word(value: str) -> str:
+    if value.lower() == "quadrilateral":
+        raise ValueError(
+            "Quadrilateral means a sled on two brackets, which the lab does not know; "
+            "if your sled hangs on a ring or a linkage, write kinematicsType = Triangular"
+        )
+    return value.lower()
+
+
+def _key(section: str, name: str, usual: Any = ...) -> Any:
+    """Return where a setting is in the file; `usual`: its value in a file that lacks it."""
+    return Field(usual, title=name, description=section)
+
+
+class Published(BaseModel):
+    """The machine according to the file of a client.
+
+    Keys that have a usual value came later or belong to one program only.
+    """
+
+    kinematics: Annotated[Literal["triangular"], BeforeValidator(_word)] = _key(
+        ADVANCED, "kinematicsType"
+    )
+    motor_gap: Typed = _key(MASLOW, "motorSpacingX")
+    sheet_width: Typed = _key(MASLOW, "bedWidth")
+    sheet_height: Typed = _key(MASLOW, "bedHeight")
+    motor_offset: Typed = _key(MASLOW, "motorOffsetY")
+    rotation_radius: Typed = _key(ADVANCED, "rotationRadius")
+    gear_teeth: Typed = _key(ADVANCED, "gearTeeth")
+    link_pitch: Typed = _key(ADVANCED, "chainPitch")
+    chain_sag_correction: Typed = _key(ADVANCED, "chainSagCorrection")
+    feed: Annotated[Feed, BeforeValidator(_word)] = _key(ADVANCED, "chainOverSprocket")
+    left_tolerance: Typed = _key(ADVANCED, "leftChainTolerance", 0.0)
+    right_tolerance: Typed = _key(ADVANCED, "rightChainTolerance", 0.0)
+    chain_length: Typed = _key(ADVANCED, "chainLength", 3360.0)
+    chain_elasticity: Typed | None = _key(ADVANCED, "chainElasticity", None)
+    holey_sled_weight: Typed | None = _key(MASLOW, "sledWeight", None)
+    top_beam_tilt: Typed = _key(ADVANCED, "topBeamTilt", 0.0)
+
+
+# Which key of the file each of our settings comes from.
+SOURCES: dict[str, Key] = {
+    name: (str(field.description), str(field.title))
+    for name, field in Published.model_fields.items()
+}
+# Other keys of the same files that look like a misspelt key of this list.
+NEIGHBOURS = (
+    "chainExtendLength",
+    "sledWidth",
+    "sledHeight",
+    "sledCG",
+    "bedDepth",
+    "homeX",
+    "homeY",
+)
+
+
+def read_settings_ini(path: Source) -> MachineSettings:
+    """Return the settings of a groundcontrol.ini; it belongs to the stock controller."""
+    return published_settings(_settings_text(path))
+
+
+def published_settings(ini: IniText) -> MachineSettings:
+    """Return the settings that the entries of a client's file hold."""
+    entries = _entries(ini)
+    said = read_table(
+        Published,
+        {name: entry.value for name, entry in entries.items()},
+        ini.source,
+        place=lambda path: entries[str(path[0])].place,
+    )
+    numbers = said.model_dump()
+    weight = said.holey_sled_weight
+    settings = MachineSettings(
+        motor_gap=said.motor_gap,
+        motor_height=said.sheet_height / 2 + said.motor_offset,
+        rotation_radius=said.rotation_radius,
+        sheet_width=said.sheet_width,
+        sheet_height=said.sheet_height,
+        feed=said.feed,
+        sprocket_radius=said.gear_teeth * said.link_pitch / (2 * math.pi),
+        sled_weight=weight if weight is not None and weight > 0 else SLED_WEIGHT,
+        controller="stock",
+        published=PublishedSettings(**{name: numbers[name] for name in PUBLISHED_LIMITS}),
+    )
+
+    def place(name: str) -> str:
+        if name == "sprocket_radius":
+            return "gearTeeth x chainPitch / (2 pi)"
+        return entries["holey_sled_weight" if name == "sled_weight" else name].place
+
+    refuse_impossible(settings, ini.source, place)
+    return settings
+
+
+def _entries(ini: IniText) -> dict[str, IniEntry]:
+    """Return the entries of our settings; a misspelt key is not a missing key."""
+    entries = {}
+    for name, (section, key) in SOURCES.items():
+        entry = ini.find(key, section=section)
+        near = None if entry else _misspelt(ini, key)
+        if near:
+            what = f"unknown key; did you mean {key}?"
+            raise InputError(ini.source, what, place=near, remedy="correct it or remove the line")
+        if entry or Published.model_fields[name].is_required():
+            entries[name] = ini.needed(key, section=section)
+    return entries
+
+
+def _settings_text(path: Source) -> IniText:
+    """Return the ini file, if it holds settings."""
+    ini = read_ini(path)
+    if ini.find("numpositions", section="global"):
+        raise InputError(
+            path, "holds marks, not settings", remedy="give SETTINGS first, then MARKS"
+        )
+    sections = {section.lower() for section in ini.sections}
+    if not sections & {MASLOW.lower(), ADVANCED.lower()}:
+        raise InputError(
+            path,
+            f"has no section [{MASLOW}]",
+            remedy="give the groundcontrol.ini from your home folder or a machine.toml",
+        )
+    return ini
+
+
+def _misspelt(ini: IniText, key: str) -> str | None:
+    """Return the place of an entry whose key is unknown and nearly this key."""
+    taken = {known.lower() for _, known in SOURCES.values()}
+    taken |= {known.lower() for known in NEIGHBOURS}
+    others = {entry.key.lower(): entry for entry in ini.entries if entry.key.lower() not in taken}
+    near = get_close_matches(key.lower(), others, 1, cutoff=0.85)
+    return others[near[0]].place if near else None
+
+
+# Settings back into a `groundcontrol.ini`: the keys that change, and what cannot be said there.
+
+# The published firmware collects all digits of a number in one 32-bit integer and knows no
+# exponent; more digits would overflow silently.
+MOST_DIGITS = 9
+SAME = 1e-9  # relative; two values closer than this are the same in nine digits
+NOTHING = 1e-15  # smaller numbers mean zero for every setting there is
+
+
+@dataclass(frozen=True)
+class GroundControlChanges:
+    """Values by (section, key) as a groundcontrol.ini holds them, and what is lost on the way."""
+
+    values: dict[Key, float]
+    unsaid: tuple[str, ...]  # a sentence each
+
+
+def groundcontrol_changes(settings: MachineSettings) -> GroundControlChanges:
+    """Return the keys that express these settings for the published firmware, in its units."""
+    ours = settings.as_plumb_model()
+    published = published_machine(ours)
+    said = {
+        "motor_gap": published.motor_gap,
+        "motor_offset": published.motor_offset,
+        **tuned_numbers(ours.effects),
+        "rotation_radius": published.rotation_radius,
+    }
+    # Rounded far below what any of them means, so that 1072.6 - 609.6 is 463 again.
+    values = {SOURCES[name]: round(value, 10) for name, value in said.items()}
+    return GroundControlChanges(values=values, unsaid=tuple(_unsaid(ours)))
+
+
+def published_machine(settings: MachineSettings) -> MachineSettings:
+    """Return this machine with the published firmware, which gets of it what its numbers
+    can say.
+    """
+    ours = settings.as_plumb_model()
+    chains = tuned_numbers(ours.effects)
+    left, right = chains["left_tolerance"] / 100, chains["right_tolerance"] / 100
+    return replace(
+        ours,
+        controller="stock",
+        rotation_radius=ours.rotation_radius * radius_in_published(left, right),
+        published=PublishedSettings(**chains),
+    )
+
+
+def _unsaid(ours: MachineSettings) -> Iterator[str]:
+    """Yield everything in our model that no key of the published firmware can hold."""
+    if ours.motor_center_x:
+        yield f"the motors sit {ours.motor_center_x:g} mm off the middle: move the sheet instead"
+    for name, parameters in ours.effects.items():
+        for parameter, value in parameters.items():
+            if value and not is_tuned(name, parameter):
+                yield f"{name} {parameter} = {value:g} has no setting in the published firmware"
+
+
+def changed_ini(original_path: Source, changes: Mapping[Key, float | str]) -> bytes:
+    """Return the bytes of an ini file with some values replaced; equal numbers leave their line
+    alone.
+    """
+    ini = read_ini(original_path)
+    needed: dict[Key, str] = {}
+    for (section, key), value in changes.items():
+        new = new_value(value, original_path, place=f"[{section}] {key}")
+        entry = ini.find(key, section=section)
+        if entry is None or not same_number(entry.value, value):
+            needed[section, key] = new
+    text = with_values(ini, needed)
+    parse_ini(text, source=str(original_path))
+    return text.encode("utf-8", "surrogateescape")
+
+
+def new_value(value: float | str, source: Source, *, place: str) -> str:
+    """Return a value as a client's file has it. Raises InputError for what it cannot hold."""
+    if isinstance(value, str):
+        if any(sign in value for sign in "\r\n"):
+            what = "the new value has a line break"
+            raise InputError(source, what, place=place, remedy="write it on a single line")
+        return value
+    if not math.isfinite(value):
+        raise InputError(source, f"{value} is not a usable number", place=place)
+    return number_for_firmware(value)
+
+
+def number_for_firmware(value: float) -> str:
+    """Return a number as the published firmware can read it: no exponent, at most nine digits."""
+    if abs(value) >= 10**MOST_DIGITS:
+        raise ValueError(f"{value:g} has more digits than the published firmware can read")
+    if abs(value) < NOTHING:
+        return "0"
+    text = f"{Decimal(f'{value:.{MOST_DIGITS}g}'):f}"
+    return text.rstrip("0").rstrip(".") if "." in text else text
+
+
+def same_number(old: str, new: float | str) -> bool:
+    """Return whether a value of the file says the same already."""
+    if isinstance(new, str):
+        return old == new
+    try:
+        return math.isclose(float(old), new, rel_tol=SAME, abs_tol=NOTHING)
+    except ValueError:
+        return False
+
+
+# Settings whatever the file's form: `groundcontrol.ini`, `webcontrol.json` or `machine.toml`.
+
 
 WEBCONTROL_ENDING = ".json"
 

@@ -1,4 +1,4 @@
-"""A check that the compiled modules are those of the C++ in the same clone.
+"""What is installed: its version, and whether the compiled modules are those of the C++ beside it.
 
 A build writes the digest of each of its sources next to the modules (tools/CMakeLists.txt). In a
 clone, who edits C++ and forgets `tools/setup` would get answers of the old code: every program of
@@ -11,6 +11,7 @@ import hashlib
 import json
 import sys
 from collections.abc import Mapping
+from importlib.metadata import version as _version
 from importlib.util import find_spec
 from pathlib import Path
 
@@ -70,6 +71,16 @@ def _note() -> dict[str, str]:
     except (OSError, ValueError):
         return {}
     return {str(name): str(digest) for name, digest in note.items()}
+
+
+# The version of the package, which is that of the firmware too.
+
+PACKAGE = "plumb-maslow"
+
+
+def version() -> str:
+    """Return the version of the package that is installed."""
+    return _version(PACKAGE)
 
 
 if __name__ == "__main__":

@@ -8,8 +8,7 @@ import pytest
 from plumb.fit.compare import best_pose, compare
 from plumb.fit.inputs import Inputs
 from plumb.marks.read import Mark, Measurements, Round, join_measurements, read_marks
-from plumb.settings.files import read_settings
-from plumb.settings.ini import changed_ini, groundcontrol_changes
+from plumb.settings.files import changed_ini, groundcontrol_changes, read_settings
 from plumb.text.errors import InputError
 from published_marks import MARKS, SETTINGS
 from synthetic import BELIEVED, TRUE, distances_between, grid, marks_on

@@ -6,7 +6,7 @@ import re
 import pytest
 from plumb.firmware.settings import every_setting, format_value
 from plumb.model.predict import frame_words, library
-from plumb.settings.ini import SOURCES, groundcontrol_changes
+from plumb.settings.files import SOURCES, groundcontrol_changes
 from plumb.settings.machine import FRAME_LIMITS, PUBLISHED_LIMITS, MachineSettings
 from settings_page import page
 

@@ -18,7 +18,7 @@ import pytest
 from example_machine import ROOT
 from plumb.settings.files import read_settings
 from plumb.settings.toml import machine_toml
-from plumb.text.version import version
+from plumb.text.compiled import version
 from published_marks import MARKS, SETTINGS
 
 sys.path.insert(0, str(ROOT / "tools/bench"))

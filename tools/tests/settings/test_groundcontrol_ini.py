@@ -6,8 +6,12 @@ from pathlib import Path
 
 import plumb
 import pytest
-from plumb.settings.files import read_settings
-from plumb.settings.ini import changed_ini, groundcontrol_changes, number_for_firmware
+from plumb.settings.files import (
+    changed_ini,
+    groundcontrol_changes,
+    number_for_firmware,
+    read_settings,
+)
 from plumb.settings.machine import PublishedSettings
 from plumb.text.errors import InputError
 
