@@ -7,7 +7,6 @@ from typing import Any
 from plumb.bench.report import Report
 from plumb.cli.add import AddAnswer
 from plumb.cli.calibrate import CalibrateAnswer
-from plumb.cli.check import JobAnswer
 from plumb.cli.diagnose import DiagnosisAnswer
 from plumb.cli.effects import Library
 from plumb.cli.forward import PlacesAnswer
@@ -20,12 +19,13 @@ from plumb.cli.report import ReportAnswer
 from plumb.cli.resume import ResumeAnswer
 from plumb.cli.send import SendAnswer
 from plumb.cli.settings import SettingLines
-from plumb.cli.slip import SlipAnswer
 from plumb.fit.compare import Comparison
 from plumb.text.answers import schema_of
 from plumb.vm.practice import Score
+from plumb.words.job import JobAnswer
 from plumb.words.proposals import ProposalsAnswer
 from plumb.words.recheck import RecheckAnswer
+from plumb.words.recover import SlipAnswer
 
 
 @dataclass(frozen=True)

@@ -2,72 +2,31 @@
 
 import argparse
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 
+from plumb.cli import screen
 from plumb.cli.arguments import PROGRAM, add_shared, file, length, unit_of
 from plumb.cli.inputs import inputs_of, picture_form
 from plumb.cli.output import refuse_twins, say_failure, write_outputs
-from plumb.cli.screen import (
-    BAD,
-    GOOD,
-    bar,
-    free_name,
-    headline,
-    next_step,
-    print_json,
-    sentences,
-    table,
-)
+from plumb.cli.screen import bar, free_name, in_text, next_step, print_json
 from plumb.cure.live_board import refuse_other_origin
 from plumb.fit.inputs import Inputs, settings_in
-from plumb.job.bits import INCH, Tools
-from plumb.job.check import CheckedJob, Error, Part, check_job
+from plumb.job.bits import Tools
+from plumb.job.check import CheckedJob, check_job
 from plumb.job.dry_run import comment_of, outline_of, program_in
-from plumb.job.findings import HALTS, IGNORED, SINKS, WAITS, Finding, Hanging, Slower, Times
 from plumb.job.fixes import FixedLine, fixed, has_habit
 from plumb.job.resume import JobMachine
-from plumb.job.wood import Piece
-from plumb.model.predict import CANNOT_HANG, REACH_WORDS
 from plumb.pictures.drawing import BAD as WRONG
 from plumb.pictures.drawing import GOOD as CUT
 from plumb.pictures.drawing import NOWHERE, QUIET, Corners, Dot, Panel, Ways, draw, shades_of
-from plumb.settings.machine import GRAVITY, MachineSettings
-from plumb.text.answers import Internal, in_json, part
-from plumb.text.values import MM, Unit, time_text
+from plumb.settings.machine import MachineSettings
+from plumb.text.values import Unit
+from plumb.words.job import KINDS, JobAnswer, all_of, changes_said, headline
 
 NAMED = 30  # parts that get their number in the picture
-
-
-@dataclass(frozen=True)
-class JobAnswer:
-    """Expectations of a program."""
-
-    checked: Internal[CheckedJob]
-    written: list[str]
-    changed: tuple[FixedLine, ...]  # by --fix
-
-    good = part("checked.is_good", bool)
-    halted_at = part("checked.done.halted_at", int | None, "A line.")
-    seconds = part("checked.times.whole", float)
-    cutting_seconds = part("checked.times.cutting", float)
-    rapid_seconds = part("checked.times.rapid", float)
-    asked_seconds = part("checked.times.asked", float, "The cutting at the feeds of the program.")
-    capped_seconds = part(
-        "checked.times.capped", float, "The cutting at the feeds of the program, none above $15."
-    )
-    findings = part("checked.findings", tuple[Finding, ...])
-    slower = part("checked.slower", tuple[Slower, ...])
-    hanging = part("checked.hanging", Hanging | None, "Null where nothing is cut.")
-    parts = part("checked.parts", tuple[Part, ...])
-    piece = part("checked.piece", Piece | None, "Null where nothing is cut.")
-
-    @in_json
-    def moves(self) -> int:
-        """The number of moves in the program."""
-        return len(self.checked.done.moves)
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -100,10 +59,28 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.json:
         print_json(JobAnswer(checked, list(files), changes))
     else:
-        if arguments.fix:
-            print(f"{_changed(changes, arguments)}\n")
-        print(as_text(checked, arguments, unit))
-    return 0 if checked.is_good else 1
+        print("\n\n".join(_text(checked, changes, arguments, unit)))
+    return int(checked.state == "wrong")
+
+
+def _text(
+    checked: CheckedJob, changes: Sequence[FixedLine], arguments: argparse.Namespace, unit: Unit
+) -> list[str]:
+    """Return what was changed, what is wrong, the job, its parts, and what to do next."""
+    name, said = Path(arguments.job).name, []
+    if arguments.fix:
+        fixed_name = Path(arguments.fix).name
+        head, lines = changes_said(changes, name, fixed_name)
+        said, name = ["\n".join([head, *filter(None, in_text([lines]))])], fixed_name
+    verdict = screen.headline(headline(checked, name), KINDS[checked.state])
+    said += [verdict, *in_text(all_of(checked, unit))]
+    if has_habit(checked.findings):
+        fix = ["check", arguments.job, arguments.settings, "--fix", free_name("mended", ".nc")]
+        said.append(next_step("To write an equal program that this machine runs:", fix))
+    if arguments.outline:
+        words = "See where it will cut, with the bit above the sheet:"
+        said.append(next_step(words, ["send", arguments.outline]))
+    return said
 
 
 def _checked(
@@ -164,9 +141,8 @@ def sheet_of(checked: CheckedJob, settings: MachineSettings, name: str) -> Panel
     # Straight down is no line from above.
     down = [way[0] for way in of["bad"] if np.ptp(way, axis=0).max() < POINT]
     dots = [Dot(x, y, colour=WRONG) for x, y in down]
-    verdict = "nothing is wrong" if checked.is_good else "something is wrong"
     return Panel(
-        title=f"{Path(name).name}: {verdict}",
+        title=headline(checked, Path(name).name),
         good=checked.is_good,
         ways=[
             Ways(of["rapid"], QUIET, 0.6, "--"),
@@ -238,189 +214,3 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="write a program that cuts the same on this machine, and list what was changed",
     )
     add_shared(parser, "--force", "--units", "--json")
-
-
-# What `plumb check` says to people.
-
-SHOWN = 12  # lines with the same fault
-PARTS = 12  # parts in the table
-
-
-def as_text(checked: CheckedJob, arguments: argparse.Namespace, unit: Unit) -> str:
-    """Return the check for people: what is wrong, the job, its parts, what to do next."""
-    name = Path(arguments.fix or arguments.job).name
-    paragraphs = [headline(_verdict(checked, name), GOOD if checked.is_good else BAD)]
-    wrong = _wrong(checked)
-    if wrong:
-        paragraphs.append(sentences(wrong))
-    paragraphs.append(_job(checked, unit))
-    if checked.parts:
-        paragraphs.append(_parts(checked, unit))
-    notes = _notes(checked, unit)
-    if notes:
-        paragraphs.append(sentences(notes))
-    if has_habit(checked.findings):
-        words = "To write an equal program that this machine runs:"
-        name = free_name("mended", ".nc")
-        fix = ["check", arguments.job, arguments.settings, "--fix", name]
-        paragraphs.append(next_step(words, fix))
-    if arguments.outline:
-        words = "See where it will cut, with the bit above the sheet:"
-        paragraphs.append(next_step(words, ["send", arguments.outline]))
-    return "\n\n".join(filter(None, paragraphs))
-
-
-def _changed(changes: Sequence[FixedLine], arguments: argparse.Namespace) -> str:
-    """Return what was changed: each pair of lines once, with its first line."""
-    name = Path(arguments.fix).name
-    if not changes:
-        return f"Nothing in {Path(arguments.job).name} had to change; {name} holds the same."
-    alike: dict[tuple[str, str], list[FixedLine]] = {}
-    for each in changes:
-        alike.setdefault((each.before, each.after), []).append(each)
-    said = []
-    for (before, after), those in alike.items():
-        lines = _lines([each.line for each in those])
-        said.append(f"line {lines}: {before} -> {after or 'nothing'} ({those[0].why})")
-    more = len(said) - SHOWN
-    said = said[:SHOWN] + ([f"and {more} more; --json has all"] if more > 0 else [])
-    head = f"{name} cuts the same, with {_count(len(changes), 'line')} changed:"
-    return f"{head}\n{sentences(said)}"
-
-
-def _verdict(checked: CheckedJob, name: str) -> str:
-    if checked.is_good:
-        return f"Nothing is wrong with {name}."
-    lines = {line for finding in checked.findings if finding.is_wrong for line in finding.lines}
-    if not lines:
-        return f"{name} cuts where this machine is not usable."
-    return f"{_count(len(lines), 'line')} of {name} {'is' if len(lines) == 1 else 'are'} wrong."
-
-
-def _wrong(checked: CheckedJob) -> list[str]:
-    """Return each wrong line, and where no sled should cut."""
-    wrong = [finding for finding in checked.findings if finding.is_wrong]
-    halts = {HALTS: "the machine halts: "}
-    said = [f"{_where(each)}: {halts.get(each.kind, '')}{each.says}" for each in wrong[:SHOWN]]
-    if len(wrong) > SHOWN:
-        said.append(f"and {len(wrong) - SHOWN} more; --json has all")
-    if checked.done.halted_at is not None:
-        said.append(f"behind line {checked.done.halted_at} nothing was looked at")
-    for bad in checked.hanging.bad if checked.hanging else ():
-        who = "the sled" if bad.verdict == REACH_WORDS[CANNOT_HANG] else "a chain is"
-        said.append(
-            f"from line {bad.first} on, {100 * bad.share:.1f} % of the cuts lie where {who} "
-            f"{bad.verdict}"
-        )
-    return said
-
-
-def _where(finding: Finding) -> str:
-    if finding.count == 1:
-        return f"line {finding.line}"
-    return f"{finding.count} lines from line {finding.line} on"
-
-
-def _job(checked: CheckedJob, unit: Unit) -> str:
-    times = checked.times
-    rows = [
-        ["time", time_text(times.whole), "without the operator's pauses"],
-        ["cutting", time_text(times.cutting), _without_limits(times)],
-    ]
-    piece, hanging = checked.piece, checked.hanging
-    if piece is not None:
-        rows.append(["deepest", unit.worded(piece.deepest), f"at line {piece.line}"])
-        rows.append(["removed", _volume(piece.removed, unit), f"with {_bits(piece, unit)}"])
-    if hanging is not None:
-        slack, tight = hanging.tension
-        push = f"by a push of 1 kg on the bit, most at line {hanging.give_line}"
-        rows.append(["chains", f"{slack:.0f} to {tight:.0f} N", "slackest and tightest"])
-        rows.append(["give", unit.worded(GRAVITY * hanging.give), push])
-    return table(["the job", "", ""], rows, words=[1, 2])
-
-
-def _without_limits(times: Times) -> str:
-    """Return how long the cutting would take without acceleration, arcs, z and chains."""
-    asked, capped = time_text(times.asked), time_text(times.capped)
-    at_feeds = f"{asked} at the feeds asked for"
-    return at_feeds if asked == capped else f"{at_feeds}, {capped} with none above $15"
-
-
-def _volume(volume: float, unit: Unit) -> str:
-    """Return a volume [mm3] in the unit that fits the lengths on the screen."""
-    if unit == MM:
-        return f"{volume / 1000:.1f} cm3"
-    return f"{volume / INCH**3:.2f} cubic inches"
-
-
-def _bits(piece: Piece, unit: Unit) -> str:
-    several = " and ".join(sorted({unit.brief(bit.diameter) for bit in piece.bits}))
-    return f"a bit of {several}" + ("" if piece.is_said else ", the usual; --bit says otherwise")
-
-
-def _parts(checked: CheckedJob, unit: Unit) -> str:
-    header = ["part", "lines", "size", "deep"]
-    header += ["width", "height", "askew"] if checked.has_errors else []
-    rows = []
-    for number, each in enumerate(checked.parts, start=1):
-        width, height = each.size
-        row = [str(number), f"{each.first_line}-{each.last_line}"]
-        row += [f"{unit.bare(width, 1)} x {unit.bare(height, 1)}", unit.bare(-each.deepest)]
-        if checked.has_errors:
-            errors = (each.width_error, each.height_error, each.skew)
-            row += [_error(error, unit) for error in errors]
-        rows.append(row)
-    more = len(rows) - PARTS
-    words = [f"Sizes by the middle of the bit, {unit.name}."]
-    if checked.has_errors:
-        words.append(
-            "Width and height: how much too large the part will come out; askew: how far its top "
-            "lies too far right. Behind +-: what the marks leave open, 95 %."
-        )
-    if more > 0:
-        words.append(f"And {more} more parts; --json has all.")
-    return f"{table(header, rows[:PARTS])}\n\n{sentences(words, mark='')}"
-
-
-def _error(error: Error | None, unit: Unit) -> str:
-    return "-" if error is None else f"{unit.signed(error.mm)} +-{unit.bare(error.within)}"
-
-
-def _notes(checked: CheckedJob, unit: Unit) -> list[str]:
-    notes = [
-        f"{_count(each.moves, 'move')} slower than the program asks, by {each.because}: line "
-        f"{each.line} asks for {_feed(each.asked, unit)} {unit.name}/min and gets "
-        f"{_feed(each.feed, unit)}"
-        for each in checked.slower
-    ]
-    notes += [
-        f"the machine waits for you at line {_lines(each.lines)}"
-        for each in checked.findings
-        if each.kind == WAITS
-    ]
-    notes += [f"line {each.line}: {each.says}" for each in checked.findings if each.kind == SINKS]
-    notes += [
-        f"{each.says} means nothing to this machine and is passed over: "
-        f"{_count(each.count, 'line')}"
-        for each in checked.findings
-        if each.kind == IGNORED
-    ]
-    if not checked.has_errors and checked.parts:
-        notes.append("to know how well the parts will fit, give --marks with this machine's marks")
-    if checked.hanging is not None:
-        notes += checked.hanging.assumed
-    return notes
-
-
-def _feed(feed: float, unit: Unit) -> str:
-    """Return a feed [mm/min] in the unit of lengths."""
-    return f"{feed:.0f}" if unit == MM else f"{feed / INCH:.1f}"
-
-
-def _lines(numbers: Sequence[int]) -> str:
-    first = ", ".join(map(str, numbers[:SHOWN]))
-    return first if len(numbers) <= SHOWN else f"{first} and {len(numbers) - SHOWN} more"
-
-
-def _count(number: int, noun: str) -> str:
-    return f"{number} {noun}" + ("" if number == 1 else "s")

@@ -5,13 +5,12 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from datetime import date
 from math import dist
-from typing import Any
 
 import numpy as np
 
 from plumb.cli.arguments import unit_of
 from plumb.cli.output import STDOUT, say_failure, write_outputs
-from plumb.cli.screen import headline, next_step, print_json, sentences, table
+from plumb.cli.screen import headline, in_text, next_step, print_json, sentences
 from plumb.diary.file import HOME, keep
 from plumb.fit.inputs import settings_in
 from plumb.job.home import (
@@ -23,7 +22,6 @@ from plumb.job.home import (
     hole_program,
     home_file,
     home_fit,
-    lost_sign,
     new_home_mark,
     place_of,
     read_home_marks,
@@ -36,6 +34,7 @@ from plumb.text.answers import Internal, in_json, json_of
 from plumb.text.errors import InputError
 from plumb.text.locks import alone
 from plumb.text.values import Unit
+from plumb.words.recover import asked_signs, fit_sentence, home_marks, kept, restored
 
 
 @dataclass(frozen=True)
@@ -100,12 +99,7 @@ def _keep(arguments: argparse.Namespace, answer: HomeAnswer) -> None:
     mark = new_home_mark(answer.settings, name, place, date=f"{date.today():%Y-%m-%d}")
     answer.kept[name] = mark
     answer.lines = hole_program(mark)
-    answer.said = [
-        f"Home mark {name} is kept at {_place(place, answer.unit)}, with the chains "
-        f"{_chains(mark)}.",
-        "Make the hole with the program, in what cannot move: the frame, or a board on it. A hole "
-        "in a sheet serves until the sheet is moved.",
-    ]
+    answer.said = kept(mark, answer.unit)
 
 
 def _restore(arguments: argparse.Namespace, answer: HomeAnswer) -> None:
@@ -114,11 +108,7 @@ def _restore(arguments: argparse.Namespace, answer: HomeAnswer) -> None:
     shown = place_of(answer.settings, mark).tolist()
     where = f"home mark {mark.name}"
     answer.lines = repair_program(np.array(mark.chains), where=where)
-    answer.said = [
-        f"With the bit in home mark {mark.name}, the chains are {_chains(mark)}.",
-        f"Put the bit into it, send {answer.lines[-1]}, and the machine shows "
-        f"{_place(shown, answer.unit)}.",
-    ]
+    answer.said = restored(mark, shown, answer.lines[-1], answer.unit)
     for touched in touches_of(arguments):
         other = answer.kept.get(touched.name)
         if other is None:
@@ -172,7 +162,7 @@ def _text(arguments: argparse.Namespace, answer: HomeAnswer) -> str:
     if not answer.said:
         return _listed(arguments, answer)
     parts = [headline(answer.said[0]), sentences(answer.said[1:], mark="")]
-    parts += [_fit_text(fit, answer.unit) for fit in answer.fits]
+    parts += [sentences([fit_sentence(fit, answer.unit)], mark="") for fit in answer.fits]
     parts += [sentences(answer.asked, mark="")] if answer.asked else []
     if arguments.output:
         parts.append(next_step("Send it:", ["send", arguments.output]))
@@ -185,41 +175,11 @@ def _text(arguments: argparse.Namespace, answer: HomeAnswer) -> str:
 
 def _listed(arguments: argparse.Namespace, answer: HomeAnswer) -> str:
     """Return all home marks, or how to begin."""
-    if not answer.marks:
+    said = in_text([home_marks([*answer.kept.values()], answer.unit)])
+    if not answer.kept:
         keeping = ["recover", arguments.settings, "--keep=left=-900,250", "-o", "left.nc"]
-        return f"There is no home mark yet.\n\n{next_step('Keep a hole:', keeping)}"
-    rows = [[mark.name, _place(mark.place, answer.unit), _chains(mark)] for mark in answer.marks]
-    heads = ["home mark", f"place [{answer.unit.name}]", "chains [mm]"]
-    return table(heads, rows, words=[1, 2])
-
-
-def _fit_text(fit: HomeFit, unit: Unit) -> str:
-    x, y = fit.error
-    error = f"{unit.signed(x)}, {unit.signed(y)} {unit.name}"
-    if fit.fits:
-        said = (
-            f"Home mark {fit.name} fits: its hole is {error} from where the machine shows it, and "
-            f"two touches by hand differ by up to {unit.worded(fit.limit)}."
-        )
-    else:
-        left, right = fit.chains
-        said = (
-            f"Home mark {fit.name} does not fit: its hole is {error} from where the machine shows "
-            f"it, more than the {unit.worded(fit.limit)} of two touches by hand. Its chains are "
-            f"{unit.signed(left)} (left) and {unit.signed(right)} {unit.name} (right) longer than "
-            "the machine believes. Check that the bit was in the right holes, and that neither "
-            "hole has moved."
-        )
-    return sentences([said], mark="")
-
-
-def _place(place: Any, unit: Unit) -> str:
-    return f"{unit.bare(place[0])}, {unit.bare(place[1])}"
-
-
-def _chains(mark: HomeMark | ShownMark) -> str:
-    """Return both chains as the machine takes them, in mm whatever lengths are shown in."""
-    return f"L{mark.chains[0]:.3f} R{mark.chains[1]:.3f}"
+        said.append(next_step("Keep a hole:", keeping))
+    return "\n\n".join(said)
 
 
 def touches_of(arguments: argparse.Namespace) -> tuple[HomeTouch, ...]:
@@ -245,12 +205,3 @@ def home_mark(settings: str, name: str) -> HomeMark:
         known = f"it has {', '.join(marks)}" if marks else "there is none yet: plumb recover --keep"
         raise InputError(f"{path}: no home mark {name!r}; {known}")
     return marks[name]
-
-
-def asked_signs(touches: Sequence[HomeTouch]) -> list[str]:
-    """Return a question about each touch that seems to have lost a minus sign."""
-    return [
-        f"Touch {touch.name}: has {name} lost its sign? The other sign lies near the hole."
-        for touch in touches
-        if (name := lost_sign(touch))
-    ]

@@ -7,15 +7,13 @@ from typing import Annotated
 
 from plumb.cli.arguments import PROGRAM, add_shared, count, place, unit_of
 from plumb.cli.output import STDOUT, say_failure, write_outputs
-from plumb.cli.screen import next_step, print_json, sentences
+from plumb.cli.screen import in_text, next_step, print_json
 from plumb.fit.inputs import settings_in
 from plumb.job.dry_run import comment_of, program_in
-from plumb.job.resume import JobMachine, Resumed, resume_at_line, resume_at_place
+from plumb.job.resume import JobMachine, resume_at_line, resume_at_place
 from plumb.text.answers import key
 from plumb.text.errors import InputError
-from plumb.text.values import INCHES, Unit
-
-SHOWN = 8  # passes that are named
+from plumb.words.job import goes_on
 
 
 @dataclass(frozen=True)
@@ -49,25 +47,11 @@ def run(arguments: argparse.Namespace) -> int:
         passes = resumed.entry.passes if resumed.entry else ()
         print_json(ResumeAnswer(resumed.first, resumed.begins, passes, (arguments.output,)))
         return 0
-    print(sentences(_report(resumed, name, unit_of(arguments)), mark=""))
+    print(*in_text([goes_on(resumed, name, unit_of(arguments))]))
     if arguments.output != STDOUT:
         check = ["check", arguments.output, arguments.settings]
         print(f"\n{next_step('Look at it before you send it:', check)}")
     return 0
-
-
-def _report(resumed: Resumed, name: str, unit: Unit) -> list[str]:
-    x, y, z = resumed.begins
-    where = f"X{unit.bare(x)} Y{unit.bare(y)}" + (" inch" if unit == INCHES else "")
-    if resumed.entry is None:
-        return [f"{name} goes on with line {resumed.first}, from {where}, where the bit was free."]
-    where = f"{where}, {unit.worded(-z)} deep"
-    said = [f"{name} goes on in the middle of line {resumed.first}, at {where}."]
-    others = [line for line in resumed.entry.passes if line != resumed.first]
-    if others:
-        named = ", ".join(map(str, others[:SHOWN])) + (" and more" if others[SHOWN:] else "")
-        said.append(f"It cuts there again at line {named}: --line picks that pass.")
-    return said
 
 
 # The arguments of `plumb resume`.

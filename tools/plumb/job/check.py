@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import Literal
 
 import numpy as np
 import scipy
@@ -33,6 +34,7 @@ from plumb.model.predict import FOUND, NAMES, Array, lengths, places_with_slopes
 from plumb.settings.machine import MachineSettings
 from plumb.text.answers import Internal
 
+Fitness = Literal["clean", "doubtful", "wrong"]
 SENT, PARTED, TAKEN = 0.45, 0.6, 0.85  # shares of the time after which a long program is so far
 
 
@@ -60,10 +62,17 @@ class CheckedJob:
         return self.over_sheet.sampled(STEP)
 
     @property
+    def state(self) -> Fitness:
+        """Whether something spoils a part or stops the machine, or deserves a look."""
+        spoiled = any(finding.is_wrong for finding in self.findings)
+        if spoiled or (self.hanging and self.hanging.bad):
+            return "wrong"
+        return "doubtful" if any(finding.is_doubt for finding in self.findings) else "clean"
+
+    @property
     def is_good(self) -> bool:
         """Whether nothing spoils a part or stops the machine."""
-        spoiled = any(finding.is_wrong for finding in self.findings)
-        return not spoiled and not (self.hanging and self.hanging.bad)
+        return self.state != "wrong"
 
 
 def check_job(

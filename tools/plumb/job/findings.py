@@ -40,6 +40,11 @@ class Finding:
         """The number of lines that have it."""
         return len(self.lines)
 
+    @property
+    def is_doubt(self) -> bool:
+        """Whether it deserves a look though nothing is spoiled."""
+        return self.kind == SINKS
+
     @computed_field(alias="wrong")
     @property
     def is_wrong(self) -> bool:

@@ -210,7 +210,7 @@ def test_the_command_prints_all_findings(ask, run, tmp_path):
     code, answer = ask("check", POCKET, SETTINGS, "--marks", MARKS, *drawn)
     assert code == 0 and answer["good"] and answer["written"] == [str(picture), str(outline)]
     assert answer["parts"][0]["width_error"]["within"] > 0
-    assert b"pocket.nc: nothing is wrong" in picture.read_bytes()
+    assert b"Nothing is wrong with pocket.nc." in picture.read_bytes()
     assert "G0 Z5.000" in outline.read_text()
     _, capped = ask("check", POCKET, SETTINGS, "--set", "15=500")
     assert capped["asked_seconds"] == answer["asked_seconds"]
@@ -237,7 +237,7 @@ def test_the_command_ends_with_1_where_something_is_wrong(ask, run, tmp_path):
     assert code == 1 and not answer["good"] and answer["hanging"] is None
     assert [each["line"] for each in answer["findings"] if each["wrong"]] == [2, 3]
     run("check", job, SETTINGS, "--picture", tmp_path / "job.svg")
-    assert b"job.nc: something is wrong" in (tmp_path / "job.svg").read_bytes()
+    assert b"2 lines of job.nc are wrong." in (tmp_path / "job.svg").read_bytes()
     code, said, _ = run("check", job, SETTINGS)
     assert code == 1 and "2 lines of job.nc are wrong." in said
     assert "- line 2: the machine halts: this machine does no G41" in said
@@ -287,7 +287,7 @@ SLOT = ("G0 Z3", "G0 X100 Y50", "G1 Z-1 F60", "G1 X140 F600", "G0 Z3")
 
 def test_faults_are_drawn_in_their_colour():
     sheet, _ = drawn(*SLOT, "G0 Z-1", "G0 X160", "G0 Z3")
-    assert sheet.title == "job.nc: something is wrong" and not sheet.good
+    assert sheet.title == "1 line of job.nc is wrong." and not sheet.good
     assert ends(sheet.ways[-1]) == [(160.0, 50.0)] and sheet.ways[-1].colour == WRONG
 
 

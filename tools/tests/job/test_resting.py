@@ -36,7 +36,7 @@ def test_a_caution_is_not_an_error(tmp_path, capsys):
     (tmp_path / "job.nc").write_text("\n".join(["G0 Z5", *job, ""]))
     assert main(["check", str(tmp_path / "job.nc"), str(tmp_path / "machine.toml")]) == 0
     said = " ".join(capsys.readouterr().out.split())
-    assert "Nothing is wrong with job.nc." in said
+    assert "Nothing is wrong with job.nc, but look at line 4." in said
     assert "line 4: the program ends at X5.00 Y500.00, where the sled may sink" in said
     assert "a chain pulls with 137 N, and some gears hold no more than 104 N" in said
 
