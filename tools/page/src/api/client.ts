@@ -25,6 +25,11 @@ export function isSilence(error: unknown): boolean {
   return error instanceof Refusal && error.status === 0;
 }
 
+/** What went wrong, in a line. */
+export function lineOf(error: unknown): string {
+  return error instanceof Error ? error.message : String(error);
+}
+
 interface Asking extends RequestInit {
   /** How long to wait for the whole answer [ms]. */
   patienceMs: number;
@@ -37,21 +42,18 @@ async function asked<Answer>(path: string, asking: Asking): Promise<Answer> {
 /** The whole answer. A refusal becomes an error. */
 async function answered(path: string, { patienceMs, ...request }: Asking): Promise<Blob> {
   const end = begin();
-  const giveUp = new AbortController();
-  const timer = setTimeout(() => giveUp.abort(), patienceMs);
   let response: Response;
   let content: Blob;
   try {
     response = await fetch(`api/${path}`, {
       ...request,
-      signal: giveUp.signal,
+      signal: AbortSignal.timeout(patienceMs),
       headers: { ...request.headers, "X-Plumb-Token": token() },
     });
     content = await response.blob();
   } catch {
     throw new Refusal("The lab does not answer. Is plumb lab still running in its terminal?", 0);
   } finally {
-    clearTimeout(timer);
     end();
   }
   if (response.ok) return content;

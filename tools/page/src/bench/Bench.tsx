@@ -39,7 +39,7 @@ function OpenBench({ bench }: { bench: Board }) {
   const effects = [...bench.effects].sort((a, b) => rank(a) - rank(b));
   const change = (next: Choice, keep: boolean) => {
     setMoving(keep ? undefined : next);
-    if (keep) void choose({ bench: next });
+    if (keep) choose({ bench: next });
   };
   const { now, frame, previous } = live;
   const hasMarks = bench.marks.length > 0;

@@ -2,7 +2,6 @@
 import { useEffect } from "preact/hooks";
 import type { Schemas } from "../api/client";
 import { Trouble } from "../controls/Trouble";
-import { Refusal } from "../shell/doing";
 import { isReady, useMachine } from "../shell/machine";
 import { useProject } from "../shell/project";
 import { useWatched } from "../shell/watched";
@@ -68,7 +67,7 @@ export function FirstDay({ isNext, ...all }: Guide & { isNext: boolean }) {
       <Trouble>
         {silent && "The lab does not answer, so this may be old. It is asked again and again."}
       </Trouble>
-      {refused && <Refusal line={refused} />}
+      <Trouble>{refused}</Trouble>
       <ol class="plain">
         {guide.steps.map((step, index) => (
           <li

@@ -1,6 +1,6 @@
 // The phones of this lab, shown on the computer: how to pair another, and what each may do.
 import type { Schemas } from "../api/client";
-import { Refusal } from "../shell/doing";
+import { Trouble } from "../controls/Trouble";
 import { useWatched } from "../shell/watched";
 
 type Answer = Schemas["PhonesAnswer"];
@@ -46,7 +46,7 @@ export function Phones() {
           </li>
         ))}
       </ul>
-      {refused && <Refusal line={refused} />}
+      <Trouble>{refused}</Trouble>
     </details>
   );
 }

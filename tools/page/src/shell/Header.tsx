@@ -1,5 +1,6 @@
 // The header: the folder, unsaved changes, and the unit of lengths.
 import { Segments } from "../controls/Segments";
+import { useUnits } from "../controls/units";
 import { useOutbox } from "./kept";
 import { waitingPlaces } from "./outbox";
 import { SILENT, useProject } from "./project";
@@ -14,7 +15,7 @@ export function Header() {
   const { project, trouble, choose } = useProject();
   useOutbox();
   const waits = waitingPlaces().length > 0 && trouble.startsWith(SILENT);
-  const units = project.choices.units ?? "mm";
+  const units = useUnits();
   return (
     <header class="row">
       <button type="button" class="skip primary" onClick={toScreen}>
@@ -33,7 +34,7 @@ export function Header() {
         legend="Lengths in"
         options={UNITS}
         chosen={units}
-        choose={(units) => void choose({ units })}
+        choose={(units) => choose({ units })}
       />
     </header>
   );

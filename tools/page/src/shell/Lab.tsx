@@ -83,8 +83,8 @@ function Main({ step, shared, loaded, live }: MainParts) {
   useEffect(() => {
     document.title = `${step.title} · ${project.folder} · Plumb`;
     // Keyboard and screen reader users go on at the new screen.
-    if (!first.current) place.current?.focus({ preventScroll: true });
     if (!first.current) {
+      place.current?.focus({ preventScroll: true });
       scrollTo(0, 0);
       place.current?.scrollTo(0, 0);
     }

@@ -2,18 +2,18 @@
 // at the foot of a narrow one, near the thumb.
 import { useEffect, useState } from "preact/hooks";
 import { send } from "../api/client";
+import { useUnits } from "../controls/units";
 import { useDo } from "./doing";
 import { isReady, type LiveMachine, type Machine, placeWords, subject } from "./machine";
 import { Ports } from "./Ports";
 import type { Press } from "./presses";
-import { useProject } from "./project";
 import "./machine-bar.css";
 
 const UNREACHABLE = "Cannot reach the machine: use its power switch";
 
 export function MachineBar({ live }: { live: LiveMachine }) {
   const { machine, presses, press } = live;
-  const { project } = useProject();
+  const units = useUnits();
   const [, run, refusal] = useDo();
   const goOn = () => {
     presses.giveUp();
@@ -41,9 +41,7 @@ export function MachineBar({ live }: { live: LiveMachine }) {
           <strong role="status">{stateWords(machine)}</strong>
           <strong>{countWords(machine)}</strong>
           {machine.place && machine.knows_place && (
-            <span class="place soft">
-              {placeWords(machine.place, project.choices.units ?? "mm")}
-            </span>
+            <span class="place soft">{placeWords(machine.place, units)}</span>
           )}
         </p>
         {works && (

@@ -5,12 +5,12 @@ import { namedLength, shownLength } from "../controls/lengths";
 import { Progress } from "../controls/Progress";
 import { useUnits } from "../controls/units";
 import { capital } from "../controls/words";
+import { Residuals } from "../residuals/Residuals";
 import { useAnswer } from "../shell/answer";
 import { useChoosing } from "../shell/kept";
 import { useProject } from "../shell/project";
 import { Screen } from "../shell/Screen";
 import { useHeld } from "../shell/useHeld";
-import { CorrectMap } from "./correct/CorrectMap";
 import { GoBack } from "./correct/GoBack";
 import { Numbers } from "./correct/Numbers";
 import { Refused } from "./correct/Refused";
@@ -94,7 +94,7 @@ function Question(parts: Parts) {
       why={<Why made={made} />}
       command={answer.command}
       stage={
-        <CorrectMap
+        <Compared
           made={made}
           states={[made.as_set, made.accepted, made.whole].filter((each) => each !== null)}
         />
@@ -149,7 +149,7 @@ function Written(parts: Parts) {
       }
       why={<Why made={made} />}
       command={answer.command}
-      stage={<CorrectMap made={made} states={current && made.as_set ? [made.as_set] : []} />}
+      stage={<Compared made={made} states={current && made.as_set ? [made.as_set] : []} />}
       fieldsFirst
       act={
         <>
@@ -181,6 +181,13 @@ function Written(parts: Parts) {
 }
 
 type State = Schemas["State"] | null;
+
+/** What the numbers would do to the marks; no state while they are fitted to another file. */
+function Compared({ made, states }: { made: Made; states: Schemas["State"][] }) {
+  const { marks, spans, sigma } = made;
+  if (marks.length + spans.length === 0) return null;
+  return <Residuals {...{ marks, spans, states }} sigma={sigma ?? 0} opensOn="second" slides />;
+}
 
 /** The error of the marks, before and after; as a single figure where there is no before. */
 function Fall({ from, to, busy }: { from: State; to: State; busy: boolean }) {

@@ -26,10 +26,10 @@ export function Measure() {
   const { answer: plan, refused, looking } = useAsked(preview, state, MOMENT_MS);
   if (layouts.length === 0 || !project.machine)
     return <Screen title="Which marks?" say="One moment …" busy />;
-  const keep = (planned: Place[]) => void choose({ layout: "own", planned, proposed: "" });
+  const keep = (planned: Place[]) => choose({ layout: "own", planned, proposed: "" });
   const take = (layout: LayoutId) => {
     const planned = layout === "own" && saved.length === 0 ? places : saved;
-    void choose({ layout, planned, proposed: "" });
+    choose({ layout, planned, proposed: "" });
   };
   const better = layouts.find((layout) => layout.id === advice?.layout && layout.id !== id);
   return (

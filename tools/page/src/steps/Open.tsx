@@ -2,6 +2,7 @@
 import { type Project, sendFile } from "../api/client";
 import { isPhone } from "../api/here";
 import { namedLength } from "../controls/lengths";
+import { useUnits } from "../controls/units";
 import { Connection } from "../machine/Connection";
 import { BeginStep, FirstDay, useGuide } from "../machine/Guide";
 import { MachinePicture } from "../machine/MachinePicture";
@@ -49,7 +50,7 @@ export function Open() {
 }
 
 function Opened({ machine }: { machine: NonNullable<Project["machine"]> }) {
-  const unit = useProject().project.choices.units ?? "mm";
+  const unit = useUnits();
   const [width, height] = machine.sheet;
   const effects = Object.keys(machine.effects).length;
   return (

@@ -5,7 +5,6 @@ import { isReport } from "../api/answers";
 import type { Schemas } from "../api/client";
 import { Progress } from "../controls/Progress";
 import { Table } from "../controls/Table";
-import { useUnits } from "../controls/units";
 import { capital } from "../controls/words";
 import { Residuals } from "../residuals/Residuals";
 import { useDrawn } from "../residuals/useDrawn";
@@ -25,7 +24,6 @@ import "./verdict/verdict.css";
 
 export function Verdict() {
   const { project, trouble } = useProject();
-  const units = useUnits();
   const { answer, refused } = useAnswer<VerdictAnswer>("verdict");
   const writing = useWriting();
   const [isNextWanted, wantNext] = useNextWanted(project.key);
@@ -80,7 +78,7 @@ export function Verdict() {
             doubted={verdict.doubted}
             doubtedSpans={verdict.doubted_spans}
             drawn={drawn}
-            opensOn="frame"
+            opensOn="second"
           />
         )
       }
@@ -124,7 +122,6 @@ export function Verdict() {
             <SuspectCard
               key={each.title}
               card={each}
-              units={units}
               isLaid={each.title === card?.title}
               {...(verdict.marks.length > 0
                 ? { lay: () => lay(each.title === card?.title ? null : each.title) }
@@ -149,7 +146,7 @@ export function Verdict() {
           <Table class="wide change" rows={verdict.sureness} />
         </section>
       )}
-      <UnseenCauses verdict={verdict} units={units} />
+      <UnseenCauses verdict={verdict} />
       {!isReport && <TakeAlong name="report.html">Save the report</TakeAlong>}
     </Screen>
   );

@@ -17,7 +17,7 @@ export function NewSheet({ round }: { round: Round }) {
       <input
         type="checkbox"
         checked={chosen}
-        onChange={(event) => void choose({ new_sheet: event.currentTarget.checked })}
+        onChange={(event) => choose({ new_sheet: event.currentTarget.checked })}
       />
       <span>
         On another sheet than {round.last_form}

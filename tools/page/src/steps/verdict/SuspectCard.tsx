@@ -1,20 +1,21 @@
 // A suspect: its odds, its size, and whether its pattern is shown over the marks; folded away, how to settle it.
 import { Bar } from "../../controls/Bar";
-import { namedLength, type Unit } from "../../controls/lengths";
+import { namedLength } from "../../controls/lengths";
+import { useUnits } from "../../controls/units";
 import { capital } from "../../controls/words";
 import { SizeBar } from "./SizeBar";
 import type { Card } from "./words";
 
 interface CardParts {
   card: Card;
-  units: Unit;
   /** Whether its pattern is shown over the marks. */
   isLaid: boolean;
   /** Shows its pattern over the marks, if there are any. */
   lay?: () => void;
 }
 
-export function SuspectCard({ card, card: { account }, units, isLaid, lay }: CardParts) {
+export function SuspectCard({ card, card: { account }, isLaid, lay }: CardParts) {
+  const units = useUnits();
   return (
     <article class="card" aria-label={card.title}>
       <div class="head">

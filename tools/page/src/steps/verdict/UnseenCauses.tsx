@@ -1,10 +1,12 @@
 // Causes that may act although the marks do not show it, in the words of `plumb diagnose`.
-import { namedLength, type Unit } from "../../controls/lengths";
+import { namedLength } from "../../controls/lengths";
 import { Table } from "../../controls/Table";
+import { useUnits } from "../../controls/units";
 import { capital } from "../../controls/words";
 import type { VerdictParts } from "./words";
 
-export function UnseenCauses({ verdict, units }: { verdict: VerdictParts; units: Unit }) {
+export function UnseenCauses({ verdict }: { verdict: VerdictParts }) {
+  const units = useUnits();
   const { causes, silent, title, words, header } = verdict.unseen;
   if (causes.length === 0 && !silent) return null;
   return (
