@@ -86,6 +86,11 @@ class MachineLine:
         return worker.state if worker else LineState()
 
     @property
+    def subject(self) -> str:
+        """What the machine is called where a sentence begins."""
+        return "The virtual machine" if self.virtual else "The machine"
+
+    @property
     def silence(self) -> float:
         """The time since a board last reported [s]; 0 where no report is due."""
         worker = self._worker

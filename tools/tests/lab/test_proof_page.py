@@ -206,14 +206,14 @@ def test_the_form_of_a_new_sheet_says_so(client, tmp_path):
 
 
 def test_the_next_sheet_is_turned_back_once(client, tmp_path):
-    assert got(client.get("/api/rounds/marks"))["sheet_rise"] == pytest.approx(
-        math.tan(TURN) * WIDTH
-    )
+    stops, rise = "Lay it on the same stops", math.tan(TURN) * WIDTH
+    turned = f"{stops}, its right end {rise:.1f} mm higher."
+    assert got(client.get("/api/rounds/marks"))["next_sheet"] == turned
     another_sheet(tmp_path)
     chosen(tmp_path, marks=["marks.toml", "marks-2.toml"])
-    assert got(client.get("/api/rounds/marks"))["sheet_rise"] == 0
+    assert got(client.get("/api/rounds/marks"))["next_sheet"] == f"{stops}."
     chosen(tmp_path, settings="groundcontrol.ini")
-    assert got(client.get("/api/rounds/marks"))["sheet_rise"] == 0
+    assert got(client.get("/api/rounds/marks"))["next_sheet"] == f"{stops}."
 
 
 def test_proof_marks_go_by_the_sheet_that_they_are_on(client, tmp_path):

@@ -1,7 +1,6 @@
 // How the error falls: what is left now in large figures, and each step down to it with its bar.
-import { namedLength, shownLength } from "../controls/lengths";
+import { namedLength, shownLength, useUnits } from "../controls/lengths";
 import { Table } from "../controls/Table";
-import { useUnits } from "../controls/units";
 import type { Live, Stairs } from "./live";
 
 interface FallParts {

@@ -1,7 +1,14 @@
 // Lengths as people type and read them: mm or inch, comma or point, fractions of an inch.
+import { createContext } from "preact";
+import { useContext } from "preact/hooks";
+
 export type Unit = "mm" | "inch";
 /** A unit in mm. */
 export const MM: Readonly<Record<Unit, number>> = { mm: 1, inch: 25.4 };
+
+/** The chosen unit, for all components inside. */
+export const Units = createContext<Unit>("mm");
+export const useUnits = () => useContext(Units);
 
 const SIGN = /\s*(mm|inch|in|"|″|”)$/i;
 

@@ -1,8 +1,7 @@
 // A question of the guide. A button that moves something says what and how far.
 import { useState } from "preact/hooks";
 import type { Schemas } from "../api/client";
-import { namedLength, shownLength, typedLength } from "../controls/lengths";
-import { useUnits } from "../controls/units";
+import { namedLength, shownLength, typedLength, useUnits } from "../controls/lengths";
 
 interface QuestionParts {
   question: Schemas["Question"];

@@ -29,10 +29,9 @@ export function Phones() {
         </p>
       )}
       <ul class="plain">
-        {answer.phones.map(({ number, name, may_move }) => (
+        {answer.phones.map(({ number, name, may, may_move }) => (
           <li key={number} class="row">
-            <b>{name}</b>{" "}
-            {may_move ? "may also move the machine." : "may look, type readings, hold and stop."}
+            <b>{name}</b> {may}.
             <button
               type="button"
               disabled={busy}

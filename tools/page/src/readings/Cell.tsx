@@ -1,8 +1,14 @@
 // The reading of a mark, from two edges. Text stays as it was typed; half a reading is kept in this browser.
 import { useState } from "preact/hooks";
 import type { Schemas } from "../api/client";
-import { lengthText, namedLength, noLength, typedLength, type Unit } from "../controls/lengths";
-import { useUnits } from "../controls/units";
+import {
+  lengthText,
+  namedLength,
+  noLength,
+  typedLength,
+  type Unit,
+  useUnits,
+} from "../controls/lengths";
 import { useProject } from "../shell/project";
 import { halfOf, keepHalf, type Texts } from "./halves";
 import { pasted } from "./paste";

@@ -1,6 +1,5 @@
 // A reading that disagrees, beside its fields: its likely cause and, if it has a cause, a button that takes the correction.
-import { lengthText } from "../controls/lengths";
-import { useUnits } from "../controls/units";
+import { lengthText, useUnits } from "../controls/lengths";
 import { withInstead } from "./distances";
 import { useSave } from "./saves";
 import type { Doubt } from "./useDoubts";

@@ -1,11 +1,11 @@
 // The cells of the marks, in rows as on the sheet; on a phone only the open mark's, and the sheet opens others.
 import { Fragment } from "preact";
 import { Trouble } from "../controls/Trouble";
-import { Changed } from "../shell/Changed";
+import type { Kept } from "../shell/kept";
 import { Cell } from "./Cell";
 import { DoubtAt } from "./DoubtAt";
 import type { Doubt } from "./useDoubts";
-import type { Form, TypedForm } from "./useReadings";
+import type { Form, Typed, TypedForm } from "./useReadings";
 
 const FEW = 4; // marks whose cells a phone shows all at once
 
@@ -56,5 +56,21 @@ export function Grid({ form, readings, doubts }: GridParts) {
       <Changed kept={kept} />
       <Trouble>{kept.refused}</Trouble>
     </div>
+  );
+}
+
+/** The file changed on disk while you were typing: which version to keep. */
+function Changed({ kept }: { kept: Kept<Typed> }) {
+  if (!kept.changed) return null;
+  return (
+    <Trouble>
+      The file has changed on disk, and what you typed is not saved.{" "}
+      <button type="button" onClick={() => kept.settle(true)}>
+        Keep mine
+      </button>{" "}
+      <button type="button" onClick={() => kept.settle(false)}>
+        Take the file's
+      </button>
+    </Trouble>
   );
 }

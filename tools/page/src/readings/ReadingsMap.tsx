@@ -1,7 +1,6 @@
 // The readings on the sheet: an arrow from where each mark was sent to where it is.
 import { useMemo } from "preact/hooks";
-import { lengthText } from "../controls/lengths";
-import { useUnits } from "../controls/units";
+import { lengthText, useUnits } from "../controls/lengths";
 import { Sheet, Taped } from "../sheet/Sheet";
 import { useScale } from "../sheet/scale";
 import type { Pair } from "../sheet/view";

@@ -1,7 +1,6 @@
 // Distances between marks: those of the form in measuring order, then all others.
 import type { ComponentChildren } from "preact";
-import { lengthText, noLength, typedLength } from "../controls/lengths";
-import { useUnits } from "../controls/units";
+import { lengthText, noLength, typedLength, useUnits } from "../controls/lengths";
 import { useTyped } from "../controls/useTyped";
 import { DoubtAt } from "./DoubtAt";
 import { beyond, lengthBetween, withInstead, withLength } from "./distances";

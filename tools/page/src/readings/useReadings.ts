@@ -1,7 +1,6 @@
 // The form of readings: loaded, edited, and saved reading by reading.
 import { useCallback, useEffect, useRef, useState } from "preact/hooks";
-import { isSilence, lineOf, type Schemas, send } from "../api/client";
-import { READ_MS } from "../api/patience";
+import { isSilence, lineOf, READ_MS, type Schemas, send } from "../api/client";
 import { useFresh } from "../shell/fresh";
 import { type Kept, useKept } from "../shell/kept";
 import { useProject } from "../shell/project";

@@ -1,7 +1,6 @@
 // Each mark with its error, for the printed report, where you cannot point at a mark.
-import { shownLength, withMinus } from "../controls/lengths";
+import { shownLength, useUnits, withMinus } from "../controls/lengths";
 import { Table } from "../controls/Table";
-import { useUnits } from "../controls/units";
 import type { VerdictParts } from "../steps/verdict/words";
 
 export function MarkTable({ verdict }: { verdict: VerdictParts }) {

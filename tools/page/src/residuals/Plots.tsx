@@ -1,7 +1,6 @@
 // Remaining errors against what they may depend on, with what an effect would draw below them.
 import type { Schemas } from "../api/client";
-import { MM } from "../controls/lengths";
-import { useUnits } from "../controls/units";
+import { MM, useUnits } from "../controls/lengths";
 import { nearest, type Pair, pointIn, ticks, tickText } from "../sheet/view";
 import { BEYOND_NOISE } from "./Spans";
 import type { Drawn } from "./useDrawn";

@@ -1,8 +1,7 @@
 // Measured distances: a line for each, thicker for a larger error, and a table.
 import type { Schemas } from "../api/client";
-import { shownLength, signedLength } from "../controls/lengths";
+import { shownLength, signedLength, useUnits } from "../controls/lengths";
 import { Table } from "../controls/Table";
-import { useUnits } from "../controls/units";
 import type { Mark } from "../sheet/marks";
 import { useScale } from "../sheet/scale";
 import type { Pair } from "../sheet/view";

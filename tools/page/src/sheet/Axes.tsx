@@ -1,6 +1,5 @@
 // The sheet's axes and grid lines, and a legend with the scales of the sheet and its arrows.
-import { lengthText, MM } from "../controls/lengths";
-import { useUnits } from "../controls/units";
+import { lengthText, MM, useUnits } from "../controls/lengths";
 import { useScale } from "./scale";
 import { type Pair, rounded, ticks, tickText } from "./view";
 

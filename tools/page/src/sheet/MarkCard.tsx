@@ -1,7 +1,6 @@
 // Details of the mark that is pointed at.
 import { Fragment } from "preact";
-import { namedLength, shownLength, signedLength, withMinus } from "../controls/lengths";
-import { useUnits } from "../controls/units";
+import { namedLength, shownLength, signedLength, useUnits, withMinus } from "../controls/lengths";
 import type { Ends, Mark } from "./marks";
 import type { Pair } from "./view";
 

@@ -2,8 +2,7 @@
 // frame: the origin is the middle of the sheet, y runs up.
 import type { ComponentChildren } from "preact";
 import { useContext, useId, useLayoutEffect, useMemo, useRef, useState } from "preact/hooks";
-import { namedLength } from "../controls/lengths";
-import { useUnits } from "../controls/units";
+import { namedLength, useUnits } from "../controls/lengths";
 import { Axes, Legend, legendHeight, type Origin } from "./Axes";
 import { MarkCard } from "./MarkCard";
 import { BEYOND_NOISE, Marks } from "./Marks";

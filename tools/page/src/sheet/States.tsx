@@ -1,7 +1,6 @@
 // The states to compare, each with its error and a small sheet of its arrows; a press shows it.
-import { namedLength, shownLength } from "../controls/lengths";
+import { namedLength, shownLength, useUnits } from "../controls/lengths";
 import { Segments } from "../controls/Segments";
-import { useUnits } from "../controls/units";
 import type { Mark, State } from "./marks";
 import type { Pair } from "./view";
 

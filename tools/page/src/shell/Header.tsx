@@ -1,6 +1,7 @@
 // The header: the folder, unsaved changes, and the unit of lengths.
+
+import { useUnits } from "../controls/lengths";
 import { Segments } from "../controls/Segments";
-import { useUnits } from "../controls/units";
 import { useOutbox } from "./kept";
 import { waitingPlaces } from "./outbox";
 import { SILENT, useProject } from "./project";

@@ -1,8 +1,7 @@
 // The project that all screens share: what is on disk, and how a screen changes it.
 import { createContext } from "preact";
 import { useCallback, useContext, useRef, useState } from "preact/hooks";
-import { type Choices, lineOf, type Project, Refusal, send } from "../api/client";
-import { LOOK_MS } from "../api/patience";
+import { type Choices, LOOK_MS, lineOf, type Project, Refusal, send } from "../api/client";
 import { useFresh, usePolling } from "./fresh";
 import { useKept } from "./kept";
 import { openOutbox } from "./outbox";
@@ -101,8 +100,8 @@ export function useSharedProject(): Loaded {
     take,
     choose: (change: Partial<Choices>) => choices.put((value) => ({ ...value, ...change })),
     reload,
-    trouble,
+    trouble: trouble || choices.refused,
     setTrouble,
   };
-  return { shared, trouble: trouble || choices.refused, isStranger, reload };
+  return { shared, trouble, isStranger, reload };
 }

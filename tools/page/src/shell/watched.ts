@@ -1,7 +1,6 @@
 // A part of the server's state that others change too: polled, and changed by buttons.
 import { useCallback, useState } from "preact/hooks";
-import { isSilence, lineOf, send } from "../api/client";
-import { LOOK_MS } from "../api/patience";
+import { isSilence, LOOK_MS, lineOf, send } from "../api/client";
 import { useFresh, usePolling } from "./fresh";
 
 const SELDOM_MS = 3000; // so what another tab or the command line does shows up

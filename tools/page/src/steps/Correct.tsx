@@ -1,9 +1,8 @@
 // Step 8: each number before and after, accepted one by one; written, sent, read back, and undone.
 import { useRef } from "preact/hooks";
 import type { Choices, Schemas } from "../api/client";
-import { namedLength, shownLength } from "../controls/lengths";
+import { namedLength, shownLength, useUnits } from "../controls/lengths";
 import { Progress } from "../controls/Progress";
-import { useUnits } from "../controls/units";
 import { capital } from "../controls/words";
 import { Residuals } from "../residuals/Residuals";
 import { useAnswer } from "../shell/answer";
@@ -24,7 +23,7 @@ export function Correct() {
   const { project } = useProject();
   const { answer, refused } = useAnswer<CorrectionAnswer>("correction");
   const writing = useWriting();
-  const isHeld = useHeld()?.numbers.length === 0;
+  const isHeld = useHeld()?.said.length === 0;
   // The numbers stay in view while they are fitted again.
   const latest = useRef(answer?.correction);
   latest.current = answer?.correction ?? latest.current;

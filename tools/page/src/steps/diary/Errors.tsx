@@ -1,9 +1,8 @@
 // The error of each fit: before it, after it, and on marks that were not part of it.
 import type { Schemas } from "../../api/client";
 import { Bar } from "../../controls/Bar";
-import { namedLength } from "../../controls/lengths";
+import { namedLength, useUnits } from "../../controls/lengths";
 import { Table } from "../../controls/Table";
-import { useUnits } from "../../controls/units";
 
 export function Errors({ fits }: { fits: Schemas["DiaryFit"][] }) {
   const units = useUnits();

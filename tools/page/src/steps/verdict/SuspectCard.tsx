@@ -1,7 +1,6 @@
 // A suspect: its odds, its size, and whether its pattern is shown over the marks; folded away, how to settle it.
 import { Bar } from "../../controls/Bar";
-import { namedLength } from "../../controls/lengths";
-import { useUnits } from "../../controls/units";
+import { namedLength, useUnits } from "../../controls/lengths";
 import { capital } from "../../controls/words";
 import { SizeBar } from "./SizeBar";
 import type { Card } from "./words";

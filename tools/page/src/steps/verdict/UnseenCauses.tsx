@@ -1,7 +1,6 @@
 // Causes that may act although the marks do not show it, in the words of `plumb diagnose`.
-import { namedLength } from "../../controls/lengths";
+import { namedLength, useUnits } from "../../controls/lengths";
 import { Table } from "../../controls/Table";
-import { useUnits } from "../../controls/units";
 import { capital } from "../../controls/words";
 import type { VerdictParts } from "./words";
 
