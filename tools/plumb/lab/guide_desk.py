@@ -64,7 +64,7 @@ class GuideDesk:
                 self.question = None
 
         try:
-            line.begin(work).add_done_callback(self._end)
+            line.worker.do(work).add_done_callback(self._end)
         except InputError:
             self.step = ""
             raise

@@ -68,13 +68,6 @@ class ChoicesChange(BaseModel):
     read: str
 
 
-async def project_of(request: Request) -> Project:
-    """Return the project that this server serves."""
-    project = request.app.state.project
-    assert isinstance(project, Project)
-    return project
-
-
 Kept = TypeVar("Kept")
 
 
@@ -89,7 +82,7 @@ def of_lab(name: str, kind: type[Kept]) -> Callable[[Request], Kept]:
     return found
 
 
-TheProject = Annotated[Project, Depends(project_of)]
+TheProject = Annotated[Project, Depends(of_lab("project", Project))]
 
 
 @router.get("/project")
