@@ -4,24 +4,20 @@ import type { Schemas } from "../api/client";
 import { useUnits } from "../controls/units";
 import { Sheet } from "../sheet/Sheet";
 import { type Covariate, type Left, Plots } from "./Plots";
-import { endsOf, type Span, SpanLines, SpanTable } from "./Spans";
+import { endsOf, SpanLines, SpanTable } from "./Spans";
 import type { Drawn } from "./useDrawn";
 import "./residuals.css";
 
 interface ResidualsParts {
-  marks: readonly Schemas["ComparedMark"][];
-  spans: readonly Span[];
+  /** The doubted among them do not affect the scale. */
+  readings: Pick<Schemas["BenchAnswer"], "marks" | "spans" | "sigma" | "doubted" | "doubted_spans">;
   /** As set, with the frame fitted, and with effects. */
   states: readonly Left[];
   /** The state drawn below the one shown. */
   ghosts?: Left | undefined;
-  sigma: number; // [mm] of a reading
   covariates: readonly Covariate[] | undefined;
   /** The effects' patterns, over the errors that the frame leaves. */
   drawn: Drawn | undefined;
-  /** Marks whose readings disagree: they do not affect the scale. */
-  doubted: readonly number[];
-  doubtedSpans: readonly number[];
   /** The state shown at first: where the model fails, or what is left. */
   opensOn?: "frame" | "last";
 }
@@ -29,8 +25,8 @@ interface ResidualsParts {
 const FRAME = 1; // the state of the fitted frame
 
 export function Residuals(parts: ResidualsParts) {
-  const { marks, spans, states, ghosts, sigma, covariates, drawn } = parts;
-  const { doubted, doubtedSpans, opensOn = "last" } = parts;
+  const { readings, states, ghosts, covariates, drawn, opensOn = "last" } = parts;
+  const { marks, spans, sigma, doubted, doubted_spans: doubtedSpans } = readings;
   const units = useUnits();
   const [chosen, show] = useState<number>();
   const [selected, select] = useState<number>();

@@ -123,8 +123,8 @@ function Question(parts: Parts) {
         </p>
       )}
       <Numbers made={made} busy={!current} />
-      {made.stops.length > 0 && <ByHand title="Do not write these numbers" said={made.stops} />}
-      {made.cures.length > 0 && <ByHand title="By hand" said={made.cures} />}
+      <Notes made={made} weight="stop" />
+      <Notes made={made} weight="by_hand" />
       <p class="row">
         <GoBack writing={writing} />
         {writing.notWritten}
@@ -165,7 +165,7 @@ function Written(parts: Parts) {
       )}
       <Fall from={null} to={current ? made.as_set : null} busy={!current} />
       <ToMachine {...{ writing, isHeld }} isNext last={answer.last_sent} />
-      {current && made.cures.length > 0 && <ByHand title="By hand" said={made.cures} />}
+      {current && <Notes made={made} weight="by_hand" />}
       {current && made.asked.length > 0 && (
         <details>
           <summary>What would still change</summary>
@@ -201,14 +201,18 @@ function Fall({ from, to, busy }: { from: State; to: State; busy: boolean }) {
   );
 }
 
-/** Doubts about the numbers, or work on the machine that the promise depends on. */
-export function ByHand({ title, said }: { title: string; said: string[] }) {
+const TITLES = { stop: "Do not write these numbers", by_hand: "By hand" };
+
+/** Why the numbers must not be used, or work on the machine without which their promise is void. */
+export function Notes({ made, weight }: { made: Made; weight: keyof typeof TITLES }) {
+  const said = made.notes.filter((note) => note.weight === weight);
+  if (said.length === 0) return null;
   return (
-    <section class="box edge warned" aria-label={title}>
-      <h2>{title}</h2>
+    <section class="box edge warned" aria-label={TITLES[weight]}>
+      <h2>{TITLES[weight]}</h2>
       <ul>
-        {said.map((each) => (
-          <li key={each}>{capital(each)}.</li>
+        {said.map(({ text }) => (
+          <li key={text}>{capital(text)}.</li>
         ))}
       </ul>
     </section>
@@ -216,14 +220,15 @@ export function ByHand({ title, said }: { title: string; said: string[] }) {
 }
 
 export function Why({ made }: { made: Made }) {
-  const { reasons, warnings, intervals } = made;
+  const { reasons, notes, intervals } = made;
+  const doubts = notes.filter(({ weight }) => weight === "doubt" || weight === "hint");
   return (
     <>
       <p>{reasons.join(" ")}</p>
-      {warnings.length > 0 && (
+      {doubts.length > 0 && (
         <ul>
-          {warnings.map((said) => (
-            <li key={said}>{capital(said)}.</li>
+          {doubts.map(({ text }) => (
+            <li key={text}>{capital(text)}.</li>
           ))}
         </ul>
       )}
