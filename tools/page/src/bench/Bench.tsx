@@ -52,14 +52,10 @@ function OpenBench({ bench }: { bench: Board }) {
     if (hasEffects) states.push(now.fit);
     return (
       <Residuals
-        marks={bench.marks}
-        spans={bench.spans}
+        readings={bench}
         states={states}
         ghosts={hasEffects ? previous?.fit : undefined}
-        sigma={bench.sigma}
         covariates={frame && bench.covariates}
-        doubted={bench.doubted}
-        doubtedSpans={bench.doubted_spans}
         drawn={drawn}
       />
     );

@@ -2,7 +2,7 @@
 import type { Project, Schemas } from "../api/client";
 import { Table } from "../controls/Table";
 import { Shares } from "../shell/Shares";
-import { ByHand, Why } from "../steps/Correct";
+import { Notes, Why } from "../steps/Correct";
 import { NumberTable } from "../steps/correct/NumberTable";
 import { Course } from "../steps/diary/Course";
 import { Errors } from "../steps/diary/Errors";
@@ -60,8 +60,8 @@ function Numbers({ made }: { made: Schemas["CorrectionParts"] }) {
     <section>
       <h2>{made.nothing || "The numbers, before and after"}</h2>
       {made.numbers.length > 0 && <NumberTable numbers={made.numbers} />}
-      {made.stops.length > 0 && <ByHand title="Do not write these numbers" said={made.stops} />}
-      {made.cures.length > 0 && <ByHand title="By hand" said={made.cures} />}
+      <Notes made={made} weight="stop" />
+      <Notes made={made} weight="by_hand" />
       <Why made={made} />
     </section>
   );

@@ -10,19 +10,16 @@ import "./residuals.css";
 type State = Schemas["State"];
 
 interface ResidualsParts {
-  marks: readonly Schemas["ComparedMark"][];
-  spans: readonly Schemas["Span"][];
+  /** The doubted among them do not affect the scale. */
+  readings: Pick<Schemas["BenchAnswer"], "marks" | "spans" | "sigma"> &
+    Partial<Pick<Schemas["BenchAnswer"], "doubted" | "doubted_spans">>;
   /** As set, with the frame fitted, and with effects; or as set, and with new numbers. */
   states: readonly State[];
   /** The state drawn below the one shown. */
   ghosts?: State | undefined;
-  sigma: number; // [mm] of a reading
   covariates?: readonly Schemas["BenchCovariate"][] | undefined;
   /** The effects' patterns, over the errors that the frame leaves. */
   drawn?: Drawn | undefined;
-  /** Marks whose readings disagree: they do not affect the scale. */
-  doubted?: readonly number[];
-  doubtedSpans?: readonly number[];
   /** The state shown at first: where the model fails, or what is left. */
   opensOn?: "second" | "last";
   slides?: boolean;
@@ -32,8 +29,8 @@ const NONE: readonly number[] = [];
 const SECOND = 1; // the state of the fitted frame
 
 export function Residuals(parts: ResidualsParts) {
-  const { marks, spans, states, ghosts, sigma, covariates, drawn, slides } = parts;
-  const { doubted = NONE, doubtedSpans = NONE, opensOn = "last" } = parts;
+  const { readings, states, ghosts, covariates, drawn, opensOn = "last", slides } = parts;
+  const { marks, spans, sigma, doubted = NONE, doubted_spans: doubtedSpans = NONE } = readings;
   const [chosen, show] = useState<string>();
   const [selected, select] = useState<number>();
   const last = states.length - 1;

@@ -122,8 +122,8 @@ function Question(parts: Parts) {
         </p>
       )}
       <Numbers made={made} busy={!current} />
-      {made.stops.length > 0 && <ByHand title="Do not write these numbers" said={made.stops} />}
-      {made.cures.length > 0 && <ByHand title="By hand" said={made.cures} />}
+      <Notes made={made} weight="stop" />
+      <Notes made={made} weight="by_hand" />
       <p class="row">
         <GoBack writing={writing} />
         {writing.notWritten}
@@ -164,7 +164,7 @@ function Written(parts: Parts) {
       )}
       <Fall from={null} to={current ? made.as_set : null} busy={!current} />
       <ToMachine {...{ writing, isHeld }} isNext last={answer.last_sent} />
-      {current && made.cures.length > 0 && <ByHand title="By hand" said={made.cures} />}
+      {current && <Notes made={made} weight="by_hand" />}
       {current && made.asked.length > 0 && (
         <details>
           <summary>What would still change</summary>
@@ -185,7 +185,8 @@ type State = Schemas["State"] | null;
 function Compared({ made, states }: { made: Made; states: Schemas["State"][] }) {
   const { marks, spans, sigma } = made;
   if (marks.length + spans.length === 0) return null;
-  return <Residuals {...{ marks, spans, states }} sigma={sigma ?? 0} opensOn="second" slides />;
+  const readings = { marks, spans, sigma: sigma ?? 0 };
+  return <Residuals {...{ readings, states }} opensOn="second" slides />;
 }
 
 /** The error of the marks, before and after; as a single figure where there is no before. */
@@ -207,14 +208,18 @@ function Fall({ from, to, busy }: { from: State; to: State; busy: boolean }) {
   );
 }
 
-/** Doubts about the numbers, or work on the machine that the promise depends on. */
-export function ByHand({ title, said }: { title: string; said: string[] }) {
+const TITLES = { stop: "Do not write these numbers", by_hand: "By hand" };
+
+/** Why the numbers must not be used, or work on the machine without which their promise is void. */
+export function Notes({ made, weight }: { made: Made; weight: keyof typeof TITLES }) {
+  const said = made.notes.filter((note) => note.weight === weight);
+  if (said.length === 0) return null;
   return (
-    <section class="box edge warned" aria-label={title}>
-      <h2>{title}</h2>
+    <section class="box edge warned" aria-label={TITLES[weight]}>
+      <h2>{TITLES[weight]}</h2>
       <ul>
-        {said.map((each) => (
-          <li key={each}>{capital(each)}.</li>
+        {said.map(({ text }) => (
+          <li key={text}>{capital(text)}.</li>
         ))}
       </ul>
     </section>
@@ -222,14 +227,15 @@ export function ByHand({ title, said }: { title: string; said: string[] }) {
 }
 
 export function Why({ made }: { made: Made }) {
-  const { reasons, warnings, intervals } = made;
+  const { reasons, notes, intervals } = made;
+  const doubts = notes.filter(({ weight }) => weight === "doubt" || weight === "hint");
   return (
     <>
       <p>{reasons.join(" ")}</p>
-      {warnings.length > 0 && (
+      {doubts.length > 0 && (
         <ul>
-          {warnings.map((said) => (
-            <li key={said}>{capital(said)}.</li>
+          {doubts.map(({ text }) => (
+            <li key={text}>{capital(text)}.</li>
           ))}
         </ul>
       )}

@@ -3,6 +3,7 @@
 import { useRef, useState } from "preact/hooks";
 import { isReport } from "../api/answers";
 import type { Schemas } from "../api/client";
+import { Parts } from "../controls/Parts";
 import { Progress } from "../controls/Progress";
 import { Table } from "../controls/Table";
 import { capital } from "../controls/words";
@@ -18,7 +19,6 @@ import { useWriting } from "./correct/useWriting";
 import { HalfTyped } from "./verdict/HalfTyped";
 import { NextAct, NextStep } from "./verdict/NextStep";
 import { SuspectCard } from "./verdict/SuspectCard";
-import { UnseenCauses } from "./verdict/UnseenCauses";
 import type { NextAnswer, VerdictAnswer } from "./verdict/words";
 import "./verdict/verdict.css";
 
@@ -44,7 +44,7 @@ export function Verdict() {
   const likeliest = verdict?.marks.length ? verdict.cards[0] : undefined;
   const card =
     chosen === undefined ? likeliest : verdict?.cards.find(({ title }) => title === chosen);
-  const drawn = useDrawn(card?.effects.map(({ name }) => name) ?? [], bench?.board ?? "");
+  const drawn = useDrawn(card?.account.effects ?? [], bench?.board ?? "");
   if (refused)
     return (
       <Refused title="No verdict yet" refused={refused} writing={writing}>
@@ -65,18 +65,14 @@ export function Verdict() {
       title={verdict.title}
       say={verdict.sentence}
       busy={answer.share < 1 || (!bench && !trouble)}
-      why={<Why noise={verdict.noise} notes={verdict.notes} />}
+      why={<Why why={verdict.why} />}
       command={answer.command}
       stage={
         (verdict.marks.length > 0 || verdict.spans.length > 0) && (
           <Residuals
-            marks={verdict.marks}
-            spans={verdict.spans}
+            readings={verdict}
             states={verdict.states}
-            sigma={verdict.sigma}
             covariates={bench?.covariates}
-            doubted={verdict.doubted}
-            doubtedSpans={verdict.doubted_spans}
             drawn={drawn}
             opensOn="second"
           />
@@ -99,14 +95,13 @@ export function Verdict() {
         )
       }
     >
-      {verdict.slips.length > 0 && (
+      {verdict.warned.length > 0 && (
         <ul class="slips trouble">
-          {verdict.slips.map((slip) => (
-            <li key={slip}>{slip}</li>
+          {verdict.warned.map((each) => (
+            <li key={each}>{each}</li>
           ))}
         </ul>
       )}
-      {verdict.reach && <p class="trouble">{verdict.reach}.</p>}
       {!isReport && <HalfTyped />}
       <div ref={place}>{isNextWanted && <NextStep marks={verdict.marks} next={next} />}</div>
       {verdict.cards.length > 0 && (
@@ -128,8 +123,8 @@ export function Verdict() {
                 : {})}
             />
           ))}
-          {verdict.more_cards > 0 && <p>{verdict.more_cards} more are less likely.</p>}
-          {verdict.ruled_out.map(({ noun, why }) => (
+          {verdict.more && <p>{verdict.more}</p>}
+          {verdict.ruled_out.map(([noun, why]) => (
             <article key={noun} class="card">
               <div class="head">
                 <h3>{capital(noun)}</h3>
@@ -146,7 +141,12 @@ export function Verdict() {
           <Table class="wide change" rows={verdict.sureness} />
         </section>
       )}
-      <UnseenCauses verdict={verdict} />
+      {verdict.unseen.length > 0 && (
+        <section class="hidden-effects">
+          <h2>What may act too</h2>
+          <Parts parts={verdict.unseen} />
+        </section>
+      )}
       {!isReport && <TakeAlong name="report.html">Save the report</TakeAlong>}
     </Screen>
   );
@@ -163,7 +163,7 @@ function useNextWanted(folder: string): [boolean, () => void] {
   return [isWanted, want];
 }
 
-function Why({ noise, notes }: { noise: string; notes: string[] }) {
+function Why({ why: [noise, ...notes] }: { why: string[] }) {
   return (
     <>
       <p>
