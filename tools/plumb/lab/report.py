@@ -63,7 +63,7 @@ def _project(inputs: Inputs) -> ProjectAnswer:
         files={},
         choices=Choices.model_construct(settings=settings, marks=names, units=inputs.unit.name),
         choices_digest="",
-        machine=machine_of(inputs.settings, settings),
+        machine=machine_of(inputs.settings, settings, inputs.unit),
         trouble="",
         changed_since_fit="",
     )

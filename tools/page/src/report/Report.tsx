@@ -28,7 +28,6 @@ export function Report({ answers }: { answers: Readonly<Record<string, unknown>>
   const about = answers.about as About;
   const { verdict } = answers.verdict as VerdictAnswer;
   const diary = answers.diary as Schemas["DiaryAnswer"];
-  const units = project.choices.units ?? "mm";
   const shared = { project, take: stays, choose: stays, reload: stays, trouble: "" };
   return (
     <Shares shared={{ ...shared, setTrouble: stays }}>
@@ -41,7 +40,7 @@ export function Report({ answers }: { answers: Readonly<Record<string, unknown>>
         {diary.fits.length > 0 && (
           <section>
             <h2>Round by round</h2>
-            <Errors fits={diary.fits} units={units} />
+            <Errors fits={diary.fits} />
             <div class="tiles">
               {diary.courses.map((course) => (
                 <Course key={course.noun} course={course} />
@@ -49,7 +48,7 @@ export function Report({ answers }: { answers: Readonly<Record<string, unknown>>
             </div>
           </section>
         )}
-        {verdict && verdict.marks.length > 0 && <MarkTable verdict={verdict} units={units} />}
+        {verdict && verdict.marks.length > 0 && <MarkTable verdict={verdict} />}
         <Sources about={about} />
       </main>
     </Shares>

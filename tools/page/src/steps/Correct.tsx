@@ -1,16 +1,15 @@
 // Step 8: each number before and after, accepted one by one; written, sent, read back, and undone.
 import { useRef } from "preact/hooks";
 import type { Choices, Schemas } from "../api/client";
-import { namedLength, shownLength } from "../controls/lengths";
+import { namedLength, shownLength, useUnits } from "../controls/lengths";
 import { Progress } from "../controls/Progress";
-import { useUnits } from "../controls/units";
 import { capital } from "../controls/words";
+import { Residuals } from "../residuals/Residuals";
 import { useAnswer } from "../shell/answer";
 import { useChoosing } from "../shell/kept";
 import { useProject } from "../shell/project";
 import { Screen } from "../shell/Screen";
 import { useHeld } from "../shell/useHeld";
-import { CorrectMap } from "./correct/CorrectMap";
 import { GoBack } from "./correct/GoBack";
 import { Numbers } from "./correct/Numbers";
 import { Refused } from "./correct/Refused";
@@ -24,7 +23,7 @@ export function Correct() {
   const { project } = useProject();
   const { answer, refused } = useAnswer<CorrectionAnswer>("correction");
   const writing = useWriting();
-  const isHeld = useHeld()?.numbers.length === 0;
+  const isHeld = useHeld()?.said.length === 0;
   // The numbers stay in view while they are fitted again.
   const latest = useRef(answer?.correction);
   latest.current = answer?.correction ?? latest.current;
@@ -94,7 +93,7 @@ function Question(parts: Parts) {
       why={<Why made={made} />}
       command={answer.command}
       stage={
-        <CorrectMap
+        <Compared
           made={made}
           states={[made.as_set, made.accepted, made.whole].filter((each) => each !== null)}
         />
@@ -149,7 +148,7 @@ function Written(parts: Parts) {
       }
       why={<Why made={made} />}
       command={answer.command}
-      stage={<CorrectMap made={made} states={current && made.as_set ? [made.as_set] : []} />}
+      stage={<Compared made={made} states={current && made.as_set ? [made.as_set] : []} />}
       fieldsFirst
       act={
         <>
@@ -181,6 +180,13 @@ function Written(parts: Parts) {
 }
 
 type State = Schemas["State"] | null;
+
+/** What the numbers would do to the marks; no state while they are fitted to another file. */
+function Compared({ made, states }: { made: Made; states: Schemas["State"][] }) {
+  const { marks, spans, sigma } = made;
+  if (marks.length + spans.length === 0) return null;
+  return <Residuals readings={{ marks, spans, sigma }} states={states} opensOn="second" slides />;
+}
 
 /** The error of the marks, before and after; as a single figure where there is no before. */
 function Fall({ from, to, busy }: { from: State; to: State; busy: boolean }) {

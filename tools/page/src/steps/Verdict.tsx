@@ -74,7 +74,7 @@ export function Verdict() {
             states={verdict.states}
             covariates={bench?.covariates}
             drawn={drawn}
-            opensOn="frame"
+            opensOn="second"
           />
         )
       }
