@@ -11,7 +11,6 @@ from plumb.cli.diagnose import DiagnosisAnswer
 from plumb.cli.effects import Library
 from plumb.cli.forward import PlacesAnswer
 from plumb.cli.grid import PlannedGrid
-from plumb.cli.home import HomeAnswer
 from plumb.cli.inverse import ChainLengths
 from plumb.cli.reach import ReachMap
 from plumb.cli.read import MachineNumbers
@@ -25,7 +24,7 @@ from plumb.vm.practice import Score
 from plumb.words.job import JobAnswer
 from plumb.words.proposals import ProposalsAnswer
 from plumb.words.recheck import RecheckAnswer
-from plumb.words.recover import SlipAnswer
+from plumb.words.recover import HomeAnswer, SlipAnswer
 
 
 @dataclass(frozen=True)

@@ -1,11 +1,11 @@
 """Where is the sled, did a chain slip? Touched holes and home marks in words."""
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
-from plumb.job.home import HomeFit, HomeMark, HomeTouch, Point, lost_sign
+from plumb.job.home import HomeFit, HomeMark, HomeTouch, Point, lost_sign, place_of
 from plumb.job.slip import (
     CANNOT_TELL,
     LINK,
@@ -17,6 +17,7 @@ from plumb.job.slip import (
     SlipFinding,
     repair_program,
 )
+from plumb.settings.machine import MachineSettings
 from plumb.text.answers import Internal, in_json, part
 from plumb.text.values import Unit
 from plumb.words import Kind, Part, Rows, Sentences
@@ -165,24 +166,53 @@ def _percent(odds: float) -> str:
 # Home marks.
 
 
-def kept(mark: HomeMark, unit: Unit) -> list[str]:
-    """Return that a home mark is kept, and how to make its hole."""
-    return [
-        f"Home mark {mark.name} is kept at {_place(mark.place, unit)}, with the chains "
-        f"{_chains(mark)}.",
-        "Make the hole with the program, in what cannot move: the frame, or a board on it. A hole "
-        "in a sheet serves until the sheet is moved.",
-    ]
+@dataclass(frozen=True)
+class ShownMark:
+    """A home mark, and where the machine shows the bit in it today [mm]."""
+
+    name: str
+    place: list[float]
+    kept_place: Point  # where the machine was when it made the hole
+    chains: Point
+    date: str
 
 
-def restored(mark: HomeMark, shown: Sequence[float], line: str, unit: Unit) -> list[str]:
-    """Return the chains with the bit in a home mark, the line that sets them, and what is shown
-    then.
-    """
-    return [
-        f"With the bit in home mark {mark.name}, the chains are {_chains(mark)}.",
-        f"Put the bit into it, send {line}, and the machine shows {_place(shown, unit)}.",
-    ]
+@dataclass
+class HomeAnswer:
+    """Answer of the command, and the files it writes."""
+
+    settings: Internal[MachineSettings]
+    kept: Internal[dict[str, HomeMark]]
+    unit: Internal[Unit]
+    new: Internal[HomeMark | None] = None
+    used: Internal[HomeMark | None] = None  # to restore the place
+    lines: list[str] = field(default_factory=list)
+    fits: list[HomeFit] = field(default_factory=list)
+    written: list[str] = field(default_factory=list)
+
+    @in_json
+    def marks(self) -> list[ShownMark]:
+        """All home marks."""
+        shown = ((each, place_of(self.settings, each).tolist()) for each in self.kept.values())
+        return [ShownMark(each.name, at, each.place, each.chains, each.date) for each, at in shown]
+
+    @property
+    def said(self) -> list[str]:
+        """What to do with the mark that is new or used; nothing for a list of them."""
+        if mark := self.new:
+            return [
+                f"Home mark {mark.name} is kept at {_place(mark.place, self.unit)}, with the "
+                f"chains {_chains(mark)}.",
+                "Make the hole with the program, in what cannot move: the frame, or a board on it. "
+                "A hole in a sheet serves until the sheet is moved.",
+            ]
+        if mark := self.used:
+            shown = _place(place_of(self.settings, mark).tolist(), self.unit)
+            return [
+                f"With the bit in home mark {mark.name}, the chains are {_chains(mark)}.",
+                f"Put the bit into it, send {self.lines[-1]}, and the machine shows {shown}.",
+            ]
+        return []
 
 
 def fit_sentence(fit: HomeFit, unit: Unit) -> str:

@@ -9,10 +9,17 @@ import "./residuals.css";
 
 type State = Schemas["State"];
 
+interface Readings {
+  marks: readonly Schemas["ComparedMark"][];
+  spans: readonly Schemas["Span"][];
+  sigma: number | null; // [mm] of a reading
+  doubted?: readonly number[];
+  doubted_spans?: readonly number[];
+}
+
 interface ResidualsParts {
   /** The doubted among them do not affect the scale. */
-  readings: Pick<Schemas["BenchAnswer"], "marks" | "spans" | "sigma"> &
-    Partial<Pick<Schemas["BenchAnswer"], "doubted" | "doubted_spans">>;
+  readings: Readings;
   /** As set, with the frame fitted, and with effects; or as set, and with new numbers. */
   states: readonly State[];
   /** The state drawn below the one shown. */
@@ -30,7 +37,8 @@ const SECOND = 1; // the state of the fitted frame
 
 export function Residuals(parts: ResidualsParts) {
   const { readings, states, ghosts, covariates, drawn, opensOn = "last", slides } = parts;
-  const { marks, spans, sigma, doubted = NONE, doubted_spans: doubtedSpans = NONE } = readings;
+  const { marks, spans, doubted = NONE, doubted_spans: doubtedSpans = NONE } = readings;
+  const sigma = readings.sigma ?? 0;
   const [chosen, show] = useState<string>();
   const [selected, select] = useState<number>();
   const last = states.length - 1;
