@@ -10,8 +10,9 @@ from pathlib import Path
 
 from plumb.cure.add import Addition
 from plumb.cure.add import add as add_effects
-from plumb.cure.decision import Decision, decide
-from plumb.diagnosis import Checked, Diagnosis, diagnose
+from plumb.cure.decision import decide as decided
+from plumb.diagnosis import Checked
+from plumb.diagnosis import diagnose as diagnosed
 from plumb.fit.compare import Comparison, compare
 from plumb.fit.expected import refuse_absurd
 from plumb.fit.inputs import Inputs, read_inputs
@@ -20,6 +21,9 @@ from plumb.plan import Next, propose
 from plumb.settings.toml import write_machine_toml
 from plumb.text.compiled import refuse_stale
 from plumb.text.errors import InputError, Source
+from plumb.words import decision, verdict
+from plumb.words.decision import DecisionInWords as Decision
+from plumb.words.verdict import DiagnosisInWords as Diagnosis
 
 __all__ = [
     "Addition",
@@ -63,6 +67,16 @@ def read(
     inputs = read_inputs(settings, marks, cut_with=cut_with, controller=controller)
     refuse_absurd(checks, inputs.settings)
     return replace(inputs, sigma=sigma, priors=frame, checked=checks)
+
+
+def diagnose(inputs: Inputs) -> Diagnosis:
+    """Return what the model of these settings misses in the marks. Raises InputError."""
+    return verdict.in_words(diagnosed(inputs))
+
+
+def decide(inputs: Inputs, *, patch: bool = False) -> Decision:
+    """Return what to write; `patch` takes a residual patch if it helps. Raises InputError."""
+    return decision.in_words(decided(inputs, patch=patch))
 
 
 def next(inputs: Inputs, diagnosis: Diagnosis | None = None) -> Next:

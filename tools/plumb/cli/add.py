@@ -5,15 +5,8 @@ from __future__ import annotations
 import argparse
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Annotated
 
-from plumb.cli.addition import (
-    addition_text,
-    decision_verdict,
-    details_text,
-    numbers_text,
-    short_text,
-    verdict_of,
-)
 from plumb.cli.arguments import BOARD, add_shared, held_size
 from plumb.cli.compare import panel_of
 from plumb.cli.inputs import add_stated, picture_form, refuse_unfitted, stated_inputs
@@ -23,61 +16,51 @@ from plumb.cli.screen import (
     CLIENT_OF,
     about,
     add_named,
+    headline,
+    in_text,
     into_machine,
     next_step,
     print_json,
-    same_inputs,
     second_round,
     sentences,
     usual_client,
+    what_follows,
 )
 from plumb.cli.settings import WrittenFiles, add_client, add_firmware, client_files_of, client_text
 from plumb.cure.add import Addition, add
-from plumb.cure.decision import Decision, decide
+from plumb.cure.decision import decide
 from plumb.cure.live_board import refuse_other_origin
 from plumb.cure.machine_file import record_of, toml_of
 from plumb.diary.file import FIT, fit_entry, keep
-from plumb.firmware.client_files import ClientFiles
 from plumb.fit.covariates import PATCH
 from plumb.fit.inputs import Inputs
 from plumb.model.plain import noun_of
 from plumb.pictures.drawing import Panel, draw
-from plumb.text.answers import in_json
+from plumb.text.answers import meant
 from plumb.text.errors import InputError
+from plumb.text.values import Unit
+from plumb.words import Kind, Part
+from plumb.words import decision as words
+from plumb.words.states import STATES
 
 NONE = "none"  # as an effect: the frame alone
 
 
 @dataclass(frozen=True, kw_only=True)
-class WrittenMachine(WrittenFiles):
-    """Files of the new machine."""
+class Added(WrittenFiles, Addition):
+    """The addition of effects."""
 
-    @in_json
-    def unsaid(self) -> tuple[str, ...]:
-        """Limits of the firmware, a sentence each."""
-        return self.client.unsaid if self.client else ()
+    auto: Annotated[words.DecisionInWords | None, meant("Null: the effects were named.")] = None
 
 
 @dataclass(frozen=True, kw_only=True)
-class NamedAnswer(WrittenMachine, Addition):
-    """The addition of the effects that were named."""
-
-
-@dataclass(frozen=True, kw_only=True)
-class AutoAnswer(NamedAnswer):
-    """The addition of the effects that were chosen."""
-
-    auto: Decision
-
-
-@dataclass(frozen=True, kw_only=True)
-class NothingAdded(WrittenMachine):
+class NothingAdded(WrittenFiles):
     """Why nothing was added."""
 
-    auto: Decision
+    auto: words.DecisionInWords
 
 
-AddAnswer = NamedAnswer | AutoAnswer | NothingAdded
+AddAnswer = Added | NothingAdded
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -97,20 +80,14 @@ def run(arguments: argparse.Namespace) -> int:
     held = dict(arguments.hold)
     refuse_unfitted(inputs.checked, effects, held)
     result = add(inputs, effects=effects, held=held, patch=arguments.patch)
-    files: list[str] = []
-    client: ClientFiles | None = None
-    if arguments.force or not result.stops:
-        files, client = written(WantedFiles.by(arguments), inputs, result)
+    files = _allowed(arguments, inputs, result)
     if arguments.json:
-        print_json(NamedAnswer(**vars(result), written=tuple(files), client=client))
+        print_json(Added(**vars(result), **vars(files)))
     else:
-        shown = (
-            addition_text(result, result.notes, asked_patch=arguments.patch)
-            if arguments.details
-            else [numbers_text(result, result.notes)]
-        )
-        print("\n\n".join([*shown, verdict_of(result)]))
-        _print_written(result, files, client, arguments)
+        said = words.numbers(result, result.notes)
+        if arguments.details:
+            said = words.everything(result, result.notes, asked_patch=arguments.patch)
+        _print(said, words.of_named(result), _ending(arguments, result, files))
     return int(not result.pays and arguments.effect != [NONE])
 
 
@@ -119,135 +96,98 @@ def _run_auto(arguments: argparse.Namespace, inputs: Inputs) -> int:
         raise InputError("--effect auto finds the effects itself; name no others with it")
     if arguments.hold:
         raise InputError("--effect auto finds the sizes itself; hold none with it")
-    result = decide(inputs, patch=arguments.patch)
-    files: list[str] = []
-    client: ClientFiles | None = None
-    if result.addition and (arguments.force or result.state != "impossible"):
-        files, client = written(WantedFiles.by(arguments), inputs, result.addition)
+    decision = decide(inputs, patch=arguments.patch)
+    added, follows = decision.addition, STATES[decision.state]
+    files = _allowed(arguments, inputs, added) if added else WrittenFiles()
     if arguments.json:
-        why = NothingAdded(auto=result, written=tuple(files), client=client)
-        added = result.addition
-        print_json(AutoAnswer(**vars(added), **vars(why)) if added else why)
-        return int(not result.done)
-    shown = (
-        details_text(result, is_taken=True)
-        if arguments.details
-        else short_text(result, with_numbers=True)
-    )
-    print("\n\n".join([*shown, decision_verdict(result)]))
-    same = same_inputs(arguments)
-    if result.addition:
-        _print_written(result.addition, files, client, arguments)
-    elif result.state == "read_again":
-        corrected = ["add", *same, "--effect", AUTO]
-        print(f"\n{next_step('When the file is corrected:', corrected)}")
-    elif result.state == "measure_first":
-        print(f"\n{next_step('What to measure next:', ['next', *same])}")
-    return int(not result.done)
+        why = NothingAdded(auto=words.in_words(decision), **vars(files))
+        print_json(Added(**vars(added), **vars(why)) if added else why)
+    else:
+        said = words.full(decision) if arguments.details else words.short(decision)
+        after = [what_follows(follows, arguments, ["add"], "--effect", AUTO)]
+        after = _ending(arguments, added, files) if added else after
+        _print(said, (words.headline(decision), follows.kind), after)
+    return follows.code
 
 
-@dataclass(frozen=True)
-class WantedFiles:
-    """The files that are wanted of a new machine."""
+def _print(said: list[Part], verdict: tuple[str, Kind], after: list[str]) -> None:
+    print("\n\n".join([*in_text(said), headline(*verdict), *after]))
 
-    output: str | None  # the machine.toml
-    picture: str | None
-    client: str | None
-    original: str | None  # the client's file
-    firmware: str
-    settings: tuple[str, ...]  # files of settings that were read; one may be the client's
-    marks: tuple[str, ...]
-    without: tuple[str, ...]  # names of marks that took no part
 
-    @classmethod
-    def by(cls, arguments: argparse.Namespace, **other: str | None) -> WantedFiles:
-        """Return what was typed, but for what is given otherwise."""
-        named = ("output", "picture", "client", "original")
-        typed = {name: getattr(arguments, name, None) for name in named}
-        settings = (arguments.settings, arguments.cut_with)
-        return cls(
-            **{**typed, **other},
-            firmware=arguments.firmware,
-            settings=tuple(filter(None, settings)),
-            marks=tuple(arguments.marks),
-            without=tuple(arguments.without),
-        )
+def _allowed(arguments: argparse.Namespace, inputs: Inputs, result: Addition) -> WrittenFiles:
+    """Write the files that were asked for, if nothing speaks against the numbers."""
+    if result.stops and not arguments.force:
+        return WrittenFiles()
+    return written(arguments, inputs, result)
 
 
 def written(
-    wanted: WantedFiles, inputs: Inputs, result: Addition
-) -> tuple[list[str], ClientFiles | None]:
-    """Write the files; their names, and what belongs to the client."""
+    arguments: argparse.Namespace, inputs: Inputs, result: Addition, **usual: str | None
+) -> WrittenFiles:
+    """Write the machine, its picture and what belongs to its client, all or none; `usual` holds
+    what was not typed.
+    """
+    given = {**vars(arguments), **usual}
+    output, picture, original = given["output"], given.get("picture"), given["original"]
+    settings = [*filter(None, [arguments.settings, arguments.cut_with])]
     client = client_files_of(
-        wanted.client,
-        wanted.original,
+        given["client"],
+        original,
         result.settings,
-        lines=wanted.output and str(Path(wanted.output).with_suffix(".nc")),
-        firmware=wanted.firmware,
-        originals=wanted.settings,
+        lines=output and str(Path(output).with_suffix(".nc")),
+        firmware=arguments.firmware,
+        originals=settings,
     )
-    files = _files(wanted, inputs, result)
-    refuse_twins(*files, *(client.files if client else ()))
-    files |= client.files if client else {}
-    original = [wanted.original] if wanted.original else []
-    write_outputs(files, inputs=[*wanted.settings, *wanted.marks, *original])
-    if wanted.output:
-        machine, settings = Path(wanted.output).name, files[wanted.output].decode()
-        entry = fit_entry(
-            result, inputs, machine=machine, settings=settings, firmware=wanted.firmware
-        )
-        say_failure(keep(wanted.output, FIT, entry))
-    return list(files), client
-
-
-def _print_written(
-    result: Addition, files: list[str], client: ClientFiles | None, arguments: argparse.Namespace
-) -> None:
-    if result.stops and not arguments.force:
-        print("\nNothing is written. --force writes these numbers all the same.")
-        return
-    if files:
-        print(f"\nWritten: {', '.join(files)}")
-    if client:
-        print(client_text(client))
-    if arguments.output == STDOUT:
-        return
-    if client and arguments.output:
-        print(f"\n{second_round(arguments, [arguments.output, *client.files], result.unit)}")
-    elif arguments.output:
-        print(f"\n{_for_the_machine(arguments)}")
-    else:
-        print(f"\n{next_step('Write it:', add_named(arguments, arguments.effect))}")
-
-
-def _for_the_machine(arguments: argparse.Namespace) -> str:
-    """Return how a machine.toml comes into the machine, where no client was named."""
-    client = usual_client(arguments)
-    if arguments.firmware != "plumb":
-        return sentences(["Give --client: it is what brings the published firmware its numbers."])
-    if client[1] == "none":
-        return into_machine(arguments.output)
-    is_client = Path(arguments.settings).suffix.lower() in CLIENT_OF
-    original = ["--original", arguments.settings] if is_client else client[2:]
-    words = ["settings", arguments.output, *client[:2], *original]
-    sent = str(Path(arguments.output).with_suffix(".nc"))
-    return next_step("For the machine:", [*words, "-o", sent])
-
-
-def _files(wanted: WantedFiles, inputs: Inputs, result: Addition) -> dict[str, bytes]:
-    """Return the machine and its picture, complete before the first is written."""
     files: dict[str, bytes] = {}
-    if wanted.output:
-        files[wanted.output] = toml_of(
+    if output:
+        files[output] = toml_of(
             result,
             source=inputs.measurements.source,
-            firmware=wanted.firmware,
-            record=record_of(result, inputs, without=wanted.without),
+            firmware=arguments.firmware,
+            record=record_of(result, inputs, without=arguments.without),
         )
-    if wanted.picture:
-        form = picture_form(wanted.picture)
-        files[wanted.picture] = fall_of(result, form=form)
-    return files
+    if picture:
+        files[picture] = fall_of(result, form=picture_form(picture))
+    refuse_twins(*files, *(client.files if client else ()))
+    files |= client.files if client else {}
+    write_outputs(files, inputs=[*settings, *arguments.marks, *filter(None, [original])])
+    if output:
+        machine, text, firmware = Path(output).name, files[output].decode(), arguments.firmware
+        entry = fit_entry(result, inputs, machine=machine, settings=text, firmware=firmware)
+        say_failure(keep(output, FIT, entry))
+    return WrittenFiles(written=tuple(files), client=client)
+
+
+def _ending(arguments: argparse.Namespace, result: Addition, files: WrittenFiles) -> list[str]:
+    """Return what was written, and what the owner does now."""
+    if result.stops and not arguments.force:
+        return ["Nothing is written. --force writes these numbers all the same."]
+    if arguments.output:
+        return after_writing(arguments, files, result.unit)
+    drawn = [f"Written: {', '.join(files.written)}"] if files.written else []
+    return [*drawn, next_step("Write it:", add_named(arguments, arguments.effect))]
+
+
+def after_writing(arguments: argparse.Namespace, files: WrittenFiles, unit: Unit) -> list[str]:
+    """Return which files a new machine has, and what the owner does with them."""
+    machine, client = files.written[0], files.client
+    said = sentences([f"Written: {', '.join(files.written)}"], mark="")
+    if machine == STDOUT:
+        return [said]
+    if client:
+        named = [machine, *client.files]
+        return [f"{said}\n{client_text(client)}", second_round(arguments, named, unit)]
+    usual = usual_client(arguments)
+    if arguments.firmware != "plumb":
+        why = "Give --client: it is what brings the published firmware its numbers."
+        return [said, sentences([why])]
+    if usual[1] == "none":
+        return [said, into_machine(machine), second_round(arguments, [machine], unit)]
+    is_client = Path(arguments.settings).suffix.lower() in CLIENT_OF
+    original = ["--original", arguments.settings] if is_client else usual[2:]
+    command = ["settings", machine, *usual[:2], *original]
+    sent = str(Path(machine).with_suffix(".nc"))
+    return [said, next_step("For the machine:", [*command, "-o", sent])]
 
 
 def fall_of(result: Addition, *, form: str = "png") -> bytes:

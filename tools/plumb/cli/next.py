@@ -24,6 +24,7 @@ from plumb.plan.proposal import form_of, program_of, worth
 from plumb.settings.machine import MachineSettings
 from plumb.text.errors import InputError
 from plumb.words import proposals as words
+from plumb.words.verdict import in_words
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -37,7 +38,8 @@ def run(arguments: argparse.Namespace) -> int:
     read = [arguments.settings, *arguments.marks, *named]
     write_outputs(files, inputs=read)
     if arguments.json:
-        print_json(words.ProposalsAnswer(**vars(advice), diagnosis=diagnosis, written=tuple(files)))
+        verdict = in_words(diagnosis)
+        print_json(words.ProposalsAnswer(**vars(advice), diagnosis=verdict, written=tuple(files)))
     else:
         facts = in_text(words.other_ways(advice, place))
         chosen = advice.proposals[place - 1] if advice.proposals else None

@@ -11,13 +11,13 @@ from plumb.cli.output import STDOUT, write_outputs
 from plumb.cli.screen import bar, headline, print_json, same_inputs, sentences
 from plumb.cure.add import Addition
 from plumb.cure.decision import Decision, decide
-from plumb.diagnosis.answer import Diagnosis
 from plumb.diary.file import folder_of, has_diary, read_diary
 from plumb.lab.report import report
 from plumb.lab.rounds import command
 from plumb.plan import Next, Proposal, propose
-from plumb.text.answers import Internal, part
+from plumb.text.answers import Internal, in_json, part
 from plumb.text.errors import InputError
+from plumb.words.verdict import DiagnosisInWords, in_words, sentence
 
 ENDINGS = (".html", ".htm")
 
@@ -30,11 +30,15 @@ class ReportAnswer:
     advice: Internal[Next]
     written: tuple[str, ...]
 
-    diagnosis = part("decision.diagnosis", Diagnosis)
     addition = part(
         "decision.addition", Addition | None, "Null: nothing is fitted to a wrong reading."
     )
     next = part("advice.proposals", tuple[Proposal, ...])
+
+    @in_json
+    def diagnosis(self) -> DiagnosisInWords:
+        """Verdict on the marks."""
+        return in_words(self.decision.diagnosis)
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -52,7 +56,7 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.json:
         print_json(ReportAnswer(decision, advice, (arguments.output,)))
     else:
-        print(headline(decision.diagnosis.sentence))
+        print(headline(sentence(decision.diagnosis)))
         if arguments.output != STDOUT:
             print(f"\n{sentences([f'Written: {arguments.output}'], mark='')}")
     return 0

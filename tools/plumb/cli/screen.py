@@ -26,6 +26,7 @@ from plumb.text.commands import GOES_ON, quoted
 from plumb.text.files import numbered
 from plumb.text.values import MM, Unit
 from plumb.words import Part, Rows, Sentences
+from plumb.words.states import ADD, AGAIN, Follows
 
 WIDEST = 80  # [characters]
 PATIENCE = 2.0  # [s] before a bar shows how far the work is
@@ -264,6 +265,20 @@ def add_named(arguments: argparse.Namespace, effects: Sequence[str]) -> list[str
 def auto_words(arguments: argparse.Namespace) -> list[str]:
     """Return the command that adds what is most likely and writes the files."""
     return add_named(arguments, [AUTO])
+
+
+def what_follows(
+    follows: Follows, arguments: argparse.Namespace, again: Sequence[str], *more: str
+) -> str:
+    """Return what comes after an answer, with its command; `again` and `more` are the words before
+    and behind the board that ask the same again.
+    """
+    if not follows.command:
+        return sentences([follows.said], mark="")
+    if follows.command == ADD:
+        return next_step(follows.said, auto_words(arguments))
+    before, behind = (again, more) if follows.command == AGAIN else ([follows.command], ())
+    return next_step(follows.said, [*before, *same_inputs(arguments), *behind])
 
 
 def into_machine(machine: str) -> str:

@@ -161,8 +161,8 @@ def typed_json(files: ClientFiles | None) -> dict[str, str]:
 class WrittenFiles:
     """The files that were written, and what the owner does with them."""
 
-    written: tuple[str, ...]
-    client: Internal[ClientFiles | None]
+    written: tuple[str, ...] = ()
+    client: Internal[ClientFiles | None] = None
 
     @in_json
     def steps(self) -> tuple[str, ...]:
@@ -173,6 +173,11 @@ class WrittenFiles:
     def typed(self) -> dict[str, str]:
         """Values to type into the client, by `section: key`."""
         return typed_json(self.client)
+
+    @in_json
+    def unsaid(self) -> tuple[str, ...]:
+        """Limits of the firmware, a sentence each."""
+        return self.client.unsaid if self.client else ()
 
 
 # The options that name the client and the firmware that files are for.

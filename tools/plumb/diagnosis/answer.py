@@ -1,8 +1,7 @@
 """The answer of a diagnosis: what the marks prove, and what they do not."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
-from math import inf
 from typing import Annotated
 
 import numpy as np
@@ -20,27 +19,23 @@ from plumb.diagnosis.spots import Spot
 from plumb.fit.inputs import Stated
 from plumb.fit.problem import Checked
 from plumb.model.catalogue import place_of
-from plumb.model.plain import plainly
 from plumb.text.answers import Internal, among, in_json, key, meant, part
 from plumb.text.values import Unit
 
 VERDICTS = ("nothing_provable", "one_suspect", "cannot_tell", "not_in_library", "slip")
 Verdict = Annotated[str, among(VERDICTS)]
 
-# What follows from each state of a diagnosis: a sentence, and the command with the same board; none
-# where the question is asked again, or where there is none left.
-ADD, NEXT = ("add", "--effect", "auto"), ("next",)
-STEPS: Mapping[str, tuple[str, tuple[str, ...]]] = {
-    "read_again": ("When the file is corrected:", ()),
-    "measure_first": ("What to measure next:", NEXT),
-    "good": ("Nothing to change: cut your jobs.", ()),
-    "frame_only": ("Fit the frame:", ADD),
-    "several_causes": ("Add what is known:", ADD),
-    "one_cause": ("Add it:", ADD),
-    "impossible": ("What to measure next:", NEXT),
-    "cannot_tell": ("What to measure next:", NEXT),
-    "unknown_cause": ("What to measure next:", NEXT),
-}
+STATES = (
+    "read_again",
+    "measure_first",
+    "good",
+    "frame_only",
+    "several_causes",
+    "unknown_cause",
+    "cannot_tell",
+    "one_cause",
+    "impossible",
+)
 
 
 @dataclass(frozen=True)
@@ -84,10 +79,6 @@ class Together:
     def possible(self) -> bool:
         """Whether the intervals of all sizes reach what a real machine may have."""
         return all(size.possible for sizes in self.sizes.values() for size in sizes)
-
-    def explained_share(self, rms_before: float) -> float:
-        """Share of the squared error that the frame leaves [mm RMS] and this takes away."""
-        return max(0.0, 1 - (self.rms_after / rms_before) ** 2) if rms_before else 0.0
 
 
 @dataclass(frozen=True)
@@ -146,19 +137,21 @@ class Diagnosis:
     sigma_degrees = part("noise.degrees", float | None, "Of freedom; null: it was not estimated.")
 
     @in_json
-    def state(self) -> Annotated[str, among(list(STEPS))]:
-        """What the marks come to, and what follows."""
-        return _state(self)
-
-    @in_json
-    def title(self) -> str:
-        """What the marks come to, in a few words."""
-        return _title(self)
-
-    @in_json
-    def sentence(self) -> str:
-        """The verdict for people."""
-        return verdict_sentence(self)
+    def state(self) -> Annotated[str, among(STATES)]:
+        """What the marks come to: the first of these that holds."""
+        if self.outliers:
+            return "read_again"
+        if self.left_open.is_too_much:
+            return "measure_first"
+        if self.is_good:
+            return "good"
+        if self.verdict == "nothing_provable":
+            return "frame_only"
+        if self.verdict == "not_in_library":
+            return "several_causes" if self.is_finding else "unknown_cause"
+        if self.verdict == "cannot_tell":
+            return "cannot_tell"
+        return "one_cause" if self.explanations[0].possible else "impossible"
 
     @property
     def is_finding(self) -> bool:
@@ -188,13 +181,6 @@ class Diagnosis:
         """Place of the sheet about which the machine does what no effect draws."""
         return self.readings.posterior.with_fields.spot
 
-    def called(self, together: Together) -> str:
-        """Return an explanation by the nouns of its effects, for people."""
-        is_unknown = self.verdict == "not_in_library" and self.field_chance > LIKELIER
-        if is_unknown and not together.effects:
-            return "only what no known effect draws"
-        return plainly(together.effects)
-
     @property
     def pattern_mm(self) -> float:
         """Error with the effects to go on with, beyond noise [mm RMS]."""
@@ -206,208 +192,6 @@ class Diagnosis:
         """The effects in the explanations, best first."""
         names = (name for together in self.explanations for name in together.effects)
         return tuple(dict.fromkeys(names))
-
-
-# The last step of a diagnosis: its verdict in at most forty words for people.
-
-TAKES_MOST = 0.6  # share of the error that is left where causes take most of its square
-SHOWN = 8  # explanations that a screen names; a Diagnosis holds all
-MOST_WORDS = 40
-MOST_NAMED = 2  # causes in a sentence
-
-
-def _takes_most(explained: Explanation, frame: Explanation) -> bool:
-    return explained.rms < TAKES_MOST * frame.rms
-
-
-def verdict_sentence(diagnosis: Diagnosis) -> str:
-    """Return the verdict in a sentence or two."""
-    return _SENTENCES[diagnosis.verdict](diagnosis)
-
-
-def _state(diagnosis: Diagnosis) -> str:
-    if diagnosis.outliers:
-        return "read_again"
-    if diagnosis.left_open.is_too_much:
-        return "measure_first"
-    if diagnosis.is_good:
-        return "good"
-    if diagnosis.verdict == "nothing_provable":
-        return "frame_only"
-    if diagnosis.verdict == "not_in_library":
-        return "several_causes" if diagnosis.is_finding else "unknown_cause"
-    if diagnosis.verdict == "cannot_tell":
-        return "cannot_tell"
-    return "one_cause" if diagnosis.explanations[0].possible else "impossible"
-
-
-def _title(diagnosis: Diagnosis) -> str:
-    if diagnosis.outliers:
-        return "A reading disagrees: look at it first"
-    if diagnosis.disagreements:
-        return "The rounds do not go together"
-    if diagnosis.is_good:
-        return "Cured" if diagnosis.is_cured else "As good as these marks can show"
-    if diagnosis.verdict == "nothing_provable":
-        may_act = diagnosis.nothing_chance <= LIKELIER
-        return "Something may act" if may_act else "The frame may be all of it"
-    if diagnosis.is_finding:
-        return diagnosis.sentence.partition(".")[0]
-    if diagnosis.verdict == "not_in_library":
-        known = diagnosis.field_chance <= LIKELIER
-        odds = odds_words(diagnosis.field_chance)
-        return "Something is left over" if known else f"Something unknown acts, odds {odds}"
-    if diagnosis.verdict == "one_suspect":
-        return f"It is most likely {diagnosis.called(diagnosis.explanations[0])}"
-    return "Several things could be it"
-
-
-def _outlier(diagnosis: Diagnosis) -> str:
-    names = list(dict.fromkeys(outlier.called for outlier in diagnosis.outliers))
-    shown = names[:MOST_NAMED]
-    more = f" and {len(names) - len(shown)} more" if len(names) > len(shown) else ""
-    which = "One reading disagrees" if len(diagnosis.outliers) == 1 else "Some readings disagree"
-    against = {outlier.against for outlier in diagnosis.outliers}
-    what = against.pop() if len(against) == 1 else "every explanation or with their repeats"
-    what = "their repeats" if what == "its repeats" and len(diagnosis.outliers) > 1 else what
-    return f"{which} with {what}: look at {', '.join(shown)}{more} again before anything else."
-
-
-def _nothing_provable(diagnosis: Diagnosis) -> str:
-    left = _left(diagnosis.rms_before, diagnosis.noise_rms, diagnosis.unit)
-    if diagnosis.is_good:
-        good = "as good as these marks can show"
-        said = (
-            f"Cured: the machine is now {good}" if diagnosis.is_cured else f"The machine is {good}"
-        )
-        return f"{said}. With the frame fitted {left}."
-    said = (
-        "The marks show no cause: all that is wrong may be the frame's numbers."
-        if diagnosis.nothing_chance > LIKELIER
-        else "Something may act, but the marks do not show what."
-    )
-    return f"{said} With the frame fitted {left}."
-
-
-def _not_in_library(diagnosis: Diagnosis) -> str:
-    if diagnosis.is_finding:
-        return _finding(diagnosis)
-    nearest = diagnosis.explanations[0] if diagnosis.explanations else None
-    left = _left(
-        nearest.rms_after if nearest else diagnosis.rms_before,
-        nearest.noise_rms if nearest else diagnosis.noise_rms,
-        diagnosis.unit,
-    )
-    what = _unknown(diagnosis)
-    if nearest is None or not nearest.effects:
-        return f"{what}. With the frame fitted {left}."
-    return f"{what}. What comes nearest is {_named(nearest.effects)}: with that {left}."
-
-
-COUNTS = {2: "Two", 3: "Three", 4: "Four"}  # more are written as a number
-
-
-def _finding(diagnosis: Diagnosis) -> str:
-    """Return how the error falls, and what stays that no effect draws."""
-    falls, unit = diagnosis.falls, diagnosis.unit
-    share = "Most" if diagnosis.takes_most else "Part"
-    which = f"{share} of it is {plainly(diagnosis.likely)}"
-    if len(falls) > 1:
-        which = f"{COUNTS.get(len(falls), len(falls))} things are wrong at once"
-    steps = ", ".join(
-        unit.bare(each) for each in [diagnosis.rms_before, *(f.rms for f in falls[:-1])]
-    )
-    said = f"{which}. The error falls from {steps} to {unit.worded(falls[-1].rms)} RMS"
-    return f"{said}; a pattern of {unit.worded(diagnosis.pattern_mm)} stays that no effect draws."
-
-
-def _unknown(diagnosis: Diagnosis) -> str:
-    """Return why the library does not explain the marks, without the full stop."""
-    if diagnosis.disagreements:
-        return "The rounds do not go together"
-    if diagnosis.field_chance < UNKNOWN:
-        return "Even the likeliest cause leaves more than noise would"
-    does = "does" if diagnosis.field_chance > LIKELIER else "may do"
-    return (
-        f"The machine {does} something that the library does not know: the odds are "
-        f"{odds_words(diagnosis.field_chance)}"
-    )
-
-
-def _left(rms: float, by_noise: float, unit: Unit) -> str:
-    """Return what a fit leaves, and what it would leave of noise alone."""
-    return f"{unit.worded(rms)} RMS is left; noise alone leaves {unit.worded(by_noise)}"
-
-
-def _one_suspect(diagnosis: Diagnosis) -> str:
-    (first,), unit = diagnosis.explanations, diagnosis.unit
-    causes = "The cause is" if len(first.effects) == 1 else "The causes are"
-    return (
-        f"{causes} most likely {_named(first.effects)}: the odds are {odds_words(first.share)}. "
-        f"The error falls from {unit.bare(diagnosis.rms_before)} to "
-        f"{unit.worded(first.rms_after)} RMS; noise alone leaves {unit.worded(first.noise_rms)}."
-    )
-
-
-def _cannot_tell(diagnosis: Diagnosis) -> str:
-    first, second, *others = diagnosis.explanations
-    sure = [
-        name
-        for name in first.effects
-        if all(name in each.effects for each in diagnosis.explanations)
-    ]
-    if sure:
-        causes = "One cause is" if len(sure) == 1 else "Two causes are"
-        causes = causes if len(sure) <= MOST_NAMED else "The causes are"
-        said = f"{causes} most likely {_named(sure)}. In addition: "
-    else:
-        said = "The marks cannot tell yet. Most likely it is "
-    said += f"{_open(first, sure)}, at odds of {odds_words(first.share)}"
-    if len({*first.effects, *second.effects} - {*sure}) <= MOST_NAMED:
-        said += f", or {_open(second, sure)}, at {odds_words(second.share)}"
-    else:
-        others = [second, *others]
-    are = "is" if len(others) == 1 else "are"
-    return f"{said}. {len(others)} more {are} possible." if others else f"{said}."
-
-
-def _open(together: Together, sure: Sequence[str]) -> str:
-    """Return an account but for what is sure."""
-    effects = [name for name in together.effects if name not in sure]
-    return _named(effects) if effects or not sure else "nothing else"
-
-
-MOST_ODDS = 100.0  # beyond which they were not checked
-FINE_ODDS = 20.0  # beyond which they are said in tens
-
-
-def odds_words(share: float) -> str:
-    """Return how likely something is, as odds against all else."""
-    odds = share / (1 - share) if share < 1 else inf
-    if odds > MOST_ODDS:
-        return f"over {MOST_ODDS:.0f} to 1"
-    if odds < 1 / MOST_ODDS:
-        return f"under 1 to {MOST_ODDS:.0f}"
-    larger = max(odds, 1 / odds)
-    if 1.25 <= larger < 1.75:
-        sides = "3", "2"
-    else:
-        sides = f"{round(larger, -1 if larger > FINE_ODDS else 0):.0f}", "1"
-    return " to ".join(sides if odds >= 1 else sides[::-1])
-
-
-def _named(effects: Sequence[str]) -> str:
-    """Effects by their nouns; by their number where there are many."""
-    return plainly(effects) if len(effects) <= MOST_NAMED else f"{len(effects)} causes at once"
-
-
-_SENTENCES = {
-    "slip": _outlier,
-    "nothing_provable": _nothing_provable,
-    "not_in_library": _not_in_library,
-    "one_suspect": _one_suspect,
-    "cannot_tell": _cannot_tell,
-}
 
 
 # The verdict: a reading of the posterior, by a table of odds.
@@ -422,6 +206,7 @@ _SENTENCES = {
 UNKNOWN = 0.2
 NOTHING = 1 / 3
 MISFIT = 0.03  # chance below which noise never leaves what even the best account leaves
+TAKES_MOST = 0.6  # share of the error that is left where causes take most of its square
 
 
 @dataclass(frozen=True)
@@ -467,6 +252,10 @@ def _likelier(posterior: Posterior, first: Listed) -> Account:
     if first.share > LIKELIER:
         return first.account
     return next(account for account in posterior.accounts if not account.effects)
+
+
+def _takes_most(explained: Explanation, frame: Explanation) -> bool:
+    return explained.rms < TAKES_MOST * frame.rms
 
 
 def is_silent(nothing_chance: float) -> bool:

@@ -1,5 +1,6 @@
 """The steps of the guide. Each takes a Visit, and says whether it is done."""
 
+import math
 from collections.abc import Callable, Collection
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -80,6 +81,13 @@ class GuideVisit:
             return str(error).partition("the machine says: ")[2] or str(error)
         return ""
 
+    def is_stopped(self, *lines: str) -> bool:
+        """Do the same, and say what the machine said; whether it refused them."""
+        alarm = self.move(*lines)
+        if alarm:
+            self.talk.say(f"The machine stopped: {alarm}")
+        return bool(alarm)
+
 
 def read_machine(visit: GuideVisit) -> bool:
     """Read the machine's numbers into machine.toml. Nothing moves."""
@@ -150,13 +158,15 @@ def tell_numbers(visit: GuideVisit) -> bool:
         # People measure the height from the sheet's edge, the frame counts it from its middle.
         below = settings.sheet_height / 2 if known.name == "motor_height" else 0.0
         now = frame[known.name] - below
-        frame[known.name] = below + talk.length(known.question, now, known.low, known.high)
-        visit.progress.sigmas[known.name] = talk.length(
-            "How far may that be wrong", known.sigma, 0.1, 100.0
+        frame[known.name] = below + talk.number(known.question, known.low, known.high, usual=now)
+        visit.progress.sigmas[known.name] = talk.number(
+            "How far may that be wrong", 0.1, 100.0, usual=known.sigma
         )
     now = settings.sled_weight / GRAVITY
     question = "Weight of the sled with router and bricks"
-    frame["sled_weight"] = GRAVITY * talk.mass(question, now, LIGHTEST, HEAVIEST)
+    frame["sled_weight"] = GRAVITY * talk.number(
+        question, LIGHTEST, HEAVIEST, usual=now, kind="mass"
+    )
     visit.progress.sigmas["sled_weight"] = GRAVITY * WEIGHT_SIGMA
     changed = replace(settings, **frame_of(frame))
     lines = gcode(firmware_numbers(changed)).decode().splitlines()
@@ -201,23 +211,19 @@ def set_chains(visit: GuideVisit) -> bool:
         moves = f"The {side.upper()} motor pays out {length} of chain. Keep the chain on the teeth."
         if not talk.agrees(moves, f"Pay out {length} of the {side} chain"):
             return False
-        alarm = visit.move(line)
-        if alarm:
-            talk.say(f"The machine stopped: {alarm}")
+        if visit.is_stopped(line):
             return False
     return True
 
 
 def _turn_to_twelve(visit: GuideVisit, side: str) -> None:
     """Turn a sprocket by what the owner types, until a tooth points straight up."""
-    letter = side[0].upper()
-    while True:
-        size = visit.talk.turn(side, TURN)
-        if size == 0:
-            return
-        alarm = visit.move("G91", f"B09 {letter}{size:.2f} F300", "G90")
-        if alarm:
-            visit.talk.say(f"The machine stopped: {alarm}")
+    question = (
+        f"Turn the {side} sprocket until a tooth points straight up; minus turns it back. Length "
+        "of chain"
+    )
+    while size := visit.talk.number(question, -TURN, TURN, kind="turn"):
+        visit.is_stopped("G91", f"B09 {side[0].upper()}{size:.2f} F300", "G90")
 
 
 def first_mark(visit: GuideVisit) -> bool:
@@ -241,9 +247,7 @@ def first_mark(visit: GuideVisit) -> bool:
     act = f"Lower the bit by {unit.brief(DIMPLE)} and raise it by {unit.brief(HEIGHT_AFTER)}"
     if not talk.agrees(moves, act):
         return False
-    alarm = visit.move("G91", f"G1 Z-{DIMPLE:g} F100", f"G0 Z{HEIGHT_AFTER:g}", "G90")
-    if alarm:
-        talk.say(f"The machine stopped: {alarm}")
+    if visit.is_stopped("G91", f"G1 Z-{DIMPLE:g} F100", f"G0 Z{HEIGHT_AFTER:g}", "G90"):
         return False
     return _judge_mark(visit, settings)
 
@@ -251,33 +255,28 @@ def first_mark(visit: GuideVisit) -> bool:
 def _judge_mark(visit: GuideVisit, settings: MachineSettings) -> bool:
     """Say how far the first mark is off, and whether that is normal."""
     unit = visit.talk.unit
-    half_width, half_height = settings.sheet_width / 2, settings.sheet_height / 2
-    left = visit.talk.length(
-        "From the sheet's left edge to the mark",
-        half_width,
-        half_width - FARTHEST,
-        half_width + FARTHEST,
+    ways = (("left", settings.sheet_width / 2), ("top", settings.sheet_height / 2))
+    off = math.hypot(
+        *(
+            visit.talk.number(
+                f"From the sheet's {edge} edge to the mark",
+                middle - FARTHEST,
+                middle + FARTHEST,
+                usual=middle,
+            )
+            - middle
+            for edge, middle in ways
+        )
     )
-    top = visit.talk.length(
-        "From the sheet's top edge to the mark",
-        half_height,
-        half_height - FARTHEST,
-        half_height + FARTHEST,
-    )
-    off = float(np.hypot(left - half_width, top - half_height))
     priors = expected_priors(visit.progress.sigmas)
     normal = 2 * expected_error(settings, priors, at=np.zeros((1, 2))).frame
-    if off <= normal:
-        visit.talk.say(
-            f"The mark is {unit.worded(off, 1)} from the middle. Up to {unit.worded(normal, 0)} is "
-            "normal."
-        )
-    else:
-        visit.talk.say(
-            f"The mark is {unit.worded(off, 1)} from the middle; more than the "
-            f"{unit.worded(normal, 0)} that your numbers allow. Measure the motors again, and look "
-            "whether a chain sits a tooth off."
-        )
+    said = f"The mark is {unit.worded(off, 1)} from the middle"
+    visit.talk.say(
+        f"{said}. Up to {unit.worded(normal, 0)} is normal."
+        if off <= normal
+        else f"{said}; more than the {unit.worded(normal, 0)} that your numbers allow. Measure the "
+        "motors again, and look whether a chain sits a tooth off."
+    )
     return off <= normal
 
 

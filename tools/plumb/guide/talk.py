@@ -17,7 +17,7 @@ class LeftError(Exception):
     """The owner leaves; what is done stays done."""
 
 
-Kind = Literal["go", "yes", "choice", "length", "turn", "mass"]
+Kind = Literal["go", "choice", "length", "turn", "mass"]
 YES, NO = "y", "n"
 
 
@@ -27,12 +27,20 @@ class Question:
 
     kind: Kind
     text: str
-    act: str = ""  # what a yes moves, in a few words
-    answers: tuple[tuple[str, str], ...] = ()  # letter and words
+    answers: tuple[tuple[str, str], ...] = ()  # letter and words; none: a number is the answer
     usual: float | None = None
     low: float = 0.0
     high: float = 0.0
     number: int = 0
+
+    def fits(self, reply: str) -> bool:
+        """Return whether a reply answers it."""
+        if self.answers:
+            return reply in dict(self.answers)
+        try:
+            return self.low <= float(reply) <= self.high
+        except ValueError:
+            return False
 
 
 @dataclass(frozen=True)
@@ -47,29 +55,27 @@ class Talk:
         """Return whether the owner says yes to what will move; `act` says it in a few words, for a
         button.
         """
-        return self.put(Question("go", what, act=act)) == YES
+        return self.put(Question("go", what, ((YES, act), (NO, "Not now")))) == YES
 
     def says_yes(self, question: str) -> bool:
         """Return whether the owner says yes to what moves nothing."""
-        return self.put(Question("yes", question)) == YES
+        return self.choice(question, {YES: "Yes", NO: "No"}) == YES
 
     def choice(self, question: str, answers: dict[str, str]) -> str:
         """Return the letter of one of the answers."""
-        return self.put(Question("choice", question, answers=tuple(answers.items())))
+        return self.put(Question("choice", question, tuple(answers.items())))
 
-    def length(self, question: str, usual: float, low: float, high: float) -> float:
-        """Return a length [mm] from low to high."""
-        return float(self.put(Question("length", question, usual=usual, low=low, high=high)))
-
-    def turn(self, side: str, most: float) -> float:
-        """Return how far the owner lets a sprocket turn [mm of chain]; 0: a tooth points straight
-        up.
-        """
-        return float(self.put(Question("turn", side, low=-most, high=most)))
-
-    def mass(self, question: str, usual: float, low: float, high: float) -> float:
-        """Return a mass [kg] from low to high."""
-        return float(self.put(Question("mass", question, usual=usual, low=low, high=high)))
+    def number(
+        self,
+        question: str,
+        low: float,
+        high: float,
+        *,
+        usual: float | None = None,
+        kind: Kind = "length",
+    ) -> float:
+        """Return a length [mm] or a mass [kg] from low to high."""
+        return float(self.put(Question(kind, question, usual=usual, low=low, high=high)))
 
 
 # What a short jog says of an axis' wires: what moved, which way, and what the machine noticed.

@@ -32,6 +32,11 @@ ROUTERS = tuple(
     import_module(f"{routes.__name__}.{each.name}").router for each in iter_modules(routes.__path__)
 )
 
+REFUSALS = (
+    *(InputError, ValueError, ChangedError, RequestValidationError),
+    *(OSError, HTTPException, Exception),
+)
+
 
 def lab_app(folder: Path, *, address: Address, token: str, paired: Phones | None = None) -> ASGIApp:
     """Return the lab of a folder, for a server on this address whose page knows the token."""
@@ -52,53 +57,34 @@ def lab_app(folder: Path, *, address: Address, token: str, paired: Phones | None
     app.state.guide_desk = GuideDesk()
     for router in ROUTERS:
         app.include_router(router, prefix="/api")
-    app.add_exception_handler(InputError, _refusal)
-    app.add_exception_handler(ValueError, _refusal)
-    app.add_exception_handler(ChangedError, _changed)
-    app.add_exception_handler(RequestValidationError, _misunderstood)
-    app.add_exception_handler(OSError, _unable)
-    app.add_exception_handler(HTTPException, _unknown)
-    app.add_exception_handler(Exception, _failed)
+    for kind in REFUSALS:
+        app.add_exception_handler(kind, _refused)
     app.add_middleware(GZipMiddleware)
     app.mount("/", StaticFiles(directory=PAGE, html=True))
     return Guard(app, address=address, token=token, phones=paired)
 
 
-async def _refusal(request: Request, error: Exception) -> JSONResponse:
-    """Return what cannot be used, in a line."""
-    return JSONResponse({"error": on_page(error)}, 422)
+async def _refused(request: Request, error: Exception) -> JSONResponse:
+    """Return why a request was refused, in a line."""
+    line, status = _reason(error)
+    return JSONResponse({"error": line}, status, getattr(error, "headers", None))
 
 
-async def _changed(request: Request, error: Exception) -> JSONResponse:
-    """Return a file that another program changed."""
-    return JSONResponse({"error": str(error)}, 409)
-
-
-async def _misunderstood(request: Request, error: Exception) -> JSONResponse:
-    """Return a request that does not have the form of the schema."""
-    assert isinstance(error, RequestValidationError)
-    first = error.errors()[0]
-    place = ".".join(str(part) for part in first["loc"][1:])
-    return JSONResponse({"error": f"{place}: {first['msg']}"}, 422)
-
-
-async def _unable(request: Request, error: Exception) -> JSONResponse:
-    """Return a disk that is full, a folder that is gone: the page tries again later."""
-    assert isinstance(error, OSError)
-    place = f"{Path(error.filename).name}: " if isinstance(error.filename, str) else ""
-    return JSONResponse({"error": f"{place}{error.strerror or error}"}, 507)
-
-
-async def _unknown(request: Request, error: Exception) -> JSONResponse:
-    """Return a route or a file that is not there, or a body that is none."""
-    assert isinstance(error, HTTPException)
-    return JSONResponse({"error": str(error.detail)}, error.status_code, error.headers)
-
-
-async def _failed(request: Request, error: Exception) -> JSONResponse:
-    """Return a fault of the lab itself; the terminal shows where."""
-    line = f"the lab has a fault ({type(error).__name__}); its terminal shows where"
-    return JSONResponse({"error": line}, 500)
+def _reason(error: Exception) -> tuple[str, int]:
+    match error:
+        case ChangedError():  # by another program
+            return str(error), 409
+        case RequestValidationError():  # not of the form of the schema
+            first = error.errors()[0]
+            return f"{'.'.join(str(part) for part in first['loc'][1:])}: {first['msg']}", 422
+        case InputError() | ValueError():
+            return on_page(error), 422
+        case OSError():  # a disk that is full, a folder that is gone: the page tries again later
+            place = f"{Path(error.filename).name}: " if isinstance(error.filename, str) else ""
+            return f"{place}{error.strerror or error}", 507
+        case HTTPException():  # no such route or file, or a body that is none
+            return str(error.detail), error.status_code
+    return f"the lab has a fault ({type(error).__name__}); its terminal shows where", 500
 
 
 def schema() -> str:

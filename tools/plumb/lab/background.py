@@ -11,6 +11,7 @@ from dataclasses import dataclass, field, replace
 from threading import Lock
 from typing import Generic, TypeVar, cast
 
+from plumb.cure.decision import Decision, decide
 from plumb.cure.live_board import BoardView, LiveBoard
 from plumb.diagnosis.diagnosis import find
 from plumb.diagnosis.outliers import Doubts, Outlier, sure_readings
@@ -77,6 +78,24 @@ class Background:
         if not task.future.done():
             return Answer(min(task.share, NEARLY), None)
         return Answer(1.0, cast(Result, task.future.result()))
+
+    def decided(
+        self,
+        kind: str,
+        key: str,
+        inputs: Inputs,
+        work: Callable[[Decision, Progress], Result],
+        *,
+        more: str = "",
+    ) -> Answer[Result]:
+        """Return the same of work that begins with the decision on these inputs, worked out once
+        for all kinds. `key` is of the inputs, `more` of what the work depends on besides.
+        """
+        first = self.ask("decision", key, lambda progress: decide(inputs))
+        if first.result is None:
+            return Answer(first.share, None)
+        decision = first.result
+        return self.ask(kind, f"{key}\n{more}", lambda progress: work(decision, progress))
 
 
 # The board of the bench, kept warm: read once, and again when a file or a choice has changed.

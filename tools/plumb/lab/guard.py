@@ -17,7 +17,7 @@ from starlette.datastructures import Headers, MutableHeaders
 from starlette.responses import JSONResponse
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
-from plumb.lab.phones import COOKIE, PAIR, Phones, may_ask
+from plumb.lab.phones import BY_HAND, COOKIE, PAIR, Phones, may_ask
 
 LARGEST_BODY = 6_000_000  # bytes; a file of marks may have five million
 LARGEST_HEADER = 16_384  # bytes, all of them together
@@ -129,8 +129,7 @@ class Guard:
         if phone is None:
             return Refusal(401, "this phone is not paired: scan the code on the computer")
         if not may_ask(phone, method, scope["path"]):
-            line = "this phone may look, type readings, hold and stop; allow more on the computer"
-            return Refusal(403, line)
+            return Refusal(403, f"this phone may {BY_HAND}; allow more on the computer")
         return None
 
     def _knows_token(self, scope: Scope, headers: Headers) -> bool:

@@ -12,7 +12,7 @@ from pathlib import Path
 from threading import Lock
 
 from plumb.guide.steps import GuideVisit, Step, take
-from plumb.guide.talk import NO, YES, LeftError, Question, Talk, progress_in
+from plumb.guide.talk import LeftError, Question, Talk, progress_in
 from plumb.lab.machine_line import MachineLine
 from plumb.line.sender import Sender, StoppedError
 from plumb.text.errors import InputError, on_page
@@ -64,7 +64,7 @@ class GuideDesk:
                 self.question = None
 
         try:
-            line.begin(work).add_done_callback(self._end)
+            line.worker.do(work).add_done_callback(self._end)
         except InputError:
             self.step = ""
             raise
@@ -74,7 +74,7 @@ class GuideDesk:
         with self._lock:
             if self.question is None or self.question.number != number:
                 raise InputError("this question is no longer asked: look at what the guide says")
-            if not _fits(self.question, reply):
+            if not self.question.fits(reply):
                 raise InputError(f"{reply!r} is not an answer to this question")
             self.question, self._reply = None, reply
 
@@ -131,15 +131,3 @@ def _why(error: BaseException) -> str:
     if isinstance(error, StoppedError):
         return "Stop was pressed: the machine has stopped, and this step is open."
     return on_page(error)
-
-
-def _fits(question: Question, reply: str) -> bool:
-    """Return whether a reply answers a question."""
-    if question.kind in ("go", "yes"):
-        return reply in (YES, NO)
-    if question.kind == "choice":
-        return reply in dict(question.answers)
-    try:
-        return question.low <= float(reply) <= question.high
-    except ValueError:
-        return False

@@ -3,7 +3,6 @@
 import os
 import re
 from collections.abc import Callable, Iterator, Mapping
-from concurrent.futures import Future
 from contextlib import contextmanager
 from dataclasses import dataclass
 from threading import Lock
@@ -84,6 +83,11 @@ class MachineLine:
         """The state of the line and the machine."""
         worker = self._worker
         return worker.state if worker else LineState()
+
+    @property
+    def subject(self) -> str:
+        """What the machine is called where a sentence begins."""
+        return "The virtual machine" if self.virtual else "The machine"
 
     @property
     def silence(self) -> float:
@@ -169,13 +173,6 @@ class MachineLine:
         """Return all numbers that the machine lists now. Raises InputError."""
         self.do(self.worker.read_numbers)
         return self.state.numbers
-
-    def begin(self, work: Callable[[Sender], None]) -> Future[None]:
-        """Begin work that may take long. Raises InputError while that cannot be.
-
-        The future is done when the line takes other work again, or is lost.
-        """
-        return self.worker.do(work)
 
     @contextmanager
     def resting(self) -> Iterator[None]:

@@ -28,6 +28,7 @@ WAIT_S = 60.0  # until the next try after these
 FAR = ("192.0.2.1", 9)  # an unused address: the route to it shows this computer's own address
 # What every phone may change; a question changes nothing.
 HANDS = re.compile(r"PUT /api/(readings|distances)|POST /api/machine/(hold|stop)")
+BY_HAND = "look, type readings, hold and stop"  # the same in words
 PAIR, ME = "/api/phones/pair", "/api/phones/me"  # all else of phones is the computer's
 
 
@@ -38,6 +39,11 @@ class Phone:
     number: int
     name: str
     may_move: bool
+
+    @in_json
+    def may(self) -> str:
+        """What it may do, in words."""
+        return "may also move the machine" if self.may_move else f"may {BY_HAND}"
 
 
 @dataclass(frozen=True)

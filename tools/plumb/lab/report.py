@@ -39,7 +39,7 @@ def report(
 ) -> bytes:
     """Return the page as a file, with what was decided for a board and what to measure next;
     `command` says how a command is called on this board."""
-    verdict = verdict_of(inputs, decision.diagnosis, decision)
+    verdict = verdict_of(inputs, decision)
     project, about = _project(inputs), _about(inputs, command("report"))
     answers = {
         "project": project,
@@ -63,7 +63,7 @@ def _project(inputs: Inputs) -> ProjectAnswer:
         files={},
         choices=Choices.model_construct(settings=settings, marks=names, units=inputs.unit.name),
         choices_digest="",
-        machine=machine_of(inputs.settings, settings),
+        machine=machine_of(inputs.settings, settings, inputs.unit),
         trouble="",
         changed_since_fit="",
     )
@@ -77,7 +77,7 @@ def _of_bench(
     warm = WarmBoard.of(inputs, live, diagnosis.outliers)
     yield "bench", {"board": "", "covariates": covariates_of(warm)}
     for card in verdict.cards if verdict.marks else ():
-        names = [effect.name for effect in card.effects]
+        names = list(card.account.effects)
         if names:
             yield f"bench/drawn?{'&'.join(f'effects={name}' for name in names)}", draw(names, warm)
 

@@ -2,13 +2,13 @@
 
 import math
 from collections.abc import Collection, Sequence
-from typing import TypeVar
+from typing import Any, TypeVar
 
-from pydantic import BaseModel
+from pydantic import BaseModel, ConfigDict
 
 from plumb.cure.live_board import BoardView
 from plumb.diagnosis.outliers import NOTHING_DOUBTED, Doubts
-from plumb.fit.compare import Comparison
+from plumb.fit.compare import ComparedMark, Comparison
 from plumb.fit.fit import Fit
 from plumb.marks.read import Measurements
 from plumb.model.predict import Array
@@ -27,6 +27,17 @@ class Span(BaseModel):
     measured: float
 
 
+class Readings(BaseModel):
+    """The readings of a board, and those to be looked at again."""
+
+    model_config = ConfigDict(json_schema_serialization_defaults_required=True)
+    marks: tuple[ComparedMark, ...] = ()
+    spans: list[Span] = []
+    sigma: float = 0.0  # [mm] of a reading
+    doubted: list[int] = []  # marks that no fit sees
+    doubted_spans: list[int] = []
+
+
 class State(BaseModel):
     """The readings against a machine: as it is set, or fitted [mm]; None for a reading that took
     no part in the fit.
@@ -40,7 +51,20 @@ class State(BaseModel):
     chains: list[Ends]
 
 
-def spans_of(measurements: Measurements) -> list[Span]:
+def readings_of(
+    measurements: Measurements, raw: Comparison, sigma: float, doubts: Doubts = NOTHING_DOUBTED
+) -> dict[str, Any]:
+    """Return the fields of Readings; `sigma` [mm] of a reading."""
+    return {
+        "marks": raw.marks,
+        "spans": _spans(measurements),
+        "sigma": sigma,
+        "doubted": list(doubts.marks),
+        "doubted_spans": list(doubts.spans),
+    }
+
+
+def _spans(measurements: Measurements) -> list[Span]:
     """Return the distances with the places of their ends."""
     places: dict[str, Pair] = {}
     for mark in measurements.marks:

@@ -58,7 +58,7 @@ def serve(
 
 
 def _settings(app: ASGIApp) -> uvicorn.Config:
-    """Return how patient the server is; connections.py says with how many."""
+    """Return how patient the server is; Connection says with how many."""
     return uvicorn.Config(
         app,
         http=Connection,
@@ -140,9 +140,8 @@ def _kept_token(path: Path) -> str:
 # a new connection ends the oldest that was answered and rests, or else the oldest that takes a
 # file of the page and does not read it.
 
-HEADERS_S = (
-    10.0  # from the connection, or from the first byte of a further request, to the whole header
-)
+# [s] from the connection, or from the first byte of a further request, to the whole header.
+HEADERS_S = 10.0
 MOST_SILENT = 24  # connections that have not asked anything yet
 MOST_CONNECTIONS = 64
 

@@ -28,3 +28,13 @@ class Sentences:
 
 
 Part = Rows | Sentences
+
+
+def filled(*parts: Part) -> list[Part]:
+    """Return the parts that hold anything."""
+    return [each for each in parts if (each.rows if isinstance(each, Rows) else each.lines)]
+
+
+def paragraph(*lines: str) -> Sentences:
+    """Return sentences without a mark, those that are not empty."""
+    return Sentences([*filter(None, lines)], "")

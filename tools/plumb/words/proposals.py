@@ -3,8 +3,6 @@
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from plumb.diagnosis import Diagnosis
-from plumb.diagnosis.unseen import share_words
 from plumb.fit.by_hand import what_to_type
 from plumb.model.plain import noun_of, plain_before
 from plumb.plan.options import READ_ONLY
@@ -14,6 +12,7 @@ from plumb.settings.machine import MachineSettings
 from plumb.text.answers import Internal, part
 from plumb.text.values import Unit
 from plumb.words import Kind, Part, Rows, Sentences
+from plumb.words.verdict import DiagnosisInWords, share_words
 
 KINDS: Mapping[Worth, Kind] = {"settles": "good", "helps": "open", "nothing_would": "open"}
 FEW = 5  # proposals; the JSON has all
@@ -30,7 +29,7 @@ HEADS = {
 class ProposalsAnswer(Next):
     """The proposals, with what they are for."""
 
-    diagnosis: Internal[Diagnosis]
+    diagnosis: Internal[DiagnosisInWords]
     written: tuple[str, ...]
 
     sentence = part("diagnosis.sentence", str)

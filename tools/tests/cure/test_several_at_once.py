@@ -12,6 +12,7 @@ from plumb.cure.decision import decide
 from plumb.fit.inputs import Inputs, read_inputs
 from plumb.marks.read import Mark, Measurements
 from plumb.settings.toml import write_machine_toml
+from plumb.words.verdict import sentence
 from synthetic import csv_of
 
 BOARDS = Path(__file__).resolve().parents[1] / "data/boards"
@@ -23,17 +24,17 @@ def cured(name):
 
 def test_three_effects_of_a_real_machine_are_named_and_written():
     result = cured("real-25")
-    assert {*result.named} == {"sled_swing", "frame_flex", "chain_sag"}
+    assert {*result.diagnosis.likely} == {"sled_swing", "frame_flex", "chain_sag"}
     falls = [each.rms for each in result.diagnosis.falls]
     assert falls == pytest.approx([0.92, 0.68, 0.50], abs=0.02)
-    assert "Three things are wrong at once" in result.diagnosis.sentence
-    assert "no effect draws" in result.diagnosis.sentence
+    assert "Three things are wrong at once" in sentence(result.diagnosis)
+    assert "no effect draws" in sentence(result.diagnosis)
     assert result.done and result.addition.after.left_out_rms < 0.65
 
 
 def test_the_best_predicting_effects_are_written_beside_a_bump():
     result = cured("several-11")
-    assert {*result.named} == {"frame_flex", "sled_swing", "sheet_skew"}
+    assert {*result.diagnosis.likely} == {"frame_flex", "sled_swing", "sheet_skew"}
     assert result.done and result.addition.after.left_out_rms < 0.35
 
 
@@ -100,6 +101,7 @@ def test_calibrate_ends_when_there_is_nothing_to_do(here, capsys):
     (here / "marks.csv").write_text(csv_of(marks_of(0.0, 1)))
     assert main(["calibrate", "machine.toml", "marks.csv"]) == 0
     said = " ".join(capsys.readouterr().out.split())
-    assert said.endswith("Your machine is as good as these marks can show. Nothing to change.")
+    good = "Your machine is as good as these marks can show."
+    assert said.endswith(f"{good} Nothing to change: cut your jobs.")
     assert "Over the sheet expect errors of 0." in said
     assert {each.name for each in here.iterdir()} == {"machine.toml", "marks.csv"}

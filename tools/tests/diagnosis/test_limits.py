@@ -17,6 +17,7 @@ from plumb.fit.observations import observe
 from plumb.fit.problem import PRIORS, Checked
 from plumb.marks.read import Distance, Measurements
 from plumb.text.errors import InputError
+from plumb.words.decision import reason
 from scipy import stats
 from synthetic import BELIEVED, distances_between, grid, marks_on
 
@@ -104,7 +105,7 @@ def test_no_command_fits_too_few_marks():
     marks = cut(Hidden(), plan(3, 1), seed=3, settings=MAKER).measurements
     result = decide(Inputs(MAKER, marks))
     assert result.addition is None and result.chosen == () and not result.done
-    said = result.reason
+    said = reason(result)
     assert "leave 1.2 mm open" in said and "2.5 mm by" in said
 
 

@@ -3,8 +3,8 @@
 from types import SimpleNamespace
 
 import pytest
-from plumb.diagnosis.answer import odds_words, verdict_sentence
 from plumb.text.values import MM
+from plumb.words.verdict import odds_words, sentence
 
 LONG = "chain_plane", "chain_zero", "sheet_skew"  # effects with the longest nouns
 PAIR = LONG[:2]
@@ -15,7 +15,7 @@ def account(*effects, share=0.5):
 
 
 def said_of(verdict, *explanations, nothing=0.7, field=0.0, disagreements=()):
-    said = verdict_sentence(
+    said = sentence(
         SimpleNamespace(
             verdict=verdict,
             unit=MM,
@@ -103,5 +103,5 @@ def test_odds_are_as_fine_as_they_are_known(share, words):
 def test_the_sentence_counts_the_slips(count, words):
     names = [f"mark {name}" for name in "AB"[:count]]
     slips = [SimpleNamespace(called=name, against="every explanation") for name in names]
-    said = verdict_sentence(SimpleNamespace(verdict="slip", outliers=slips))
+    said = sentence(SimpleNamespace(verdict="slip", outliers=slips))
     assert said.startswith(words) and "A" in said

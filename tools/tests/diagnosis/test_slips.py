@@ -10,9 +10,9 @@ from plumb.bench.causes import MAKER, Hidden, causes_of
 from plumb.cure.add import add
 from plumb.cure.decision import decide
 from plumb.diagnosis import diagnose
-from plumb.diagnosis.answer import verdict_sentence
 from plumb.fit.inputs import Inputs
 from plumb.marks.read import Distance, Measurements, Round
+from plumb.words.verdict import sentence
 from synthetic import read_elsewhere
 
 PITCH, STRETCH = causes_of("chain_pitch")[1], causes_of("chain_stretch")[0]
@@ -75,7 +75,7 @@ def test_a_slip_in_a_repeat_does_not_count_as_noise(tape_sigma):
     assert diagnosis.verdict == "slip" and diagnosis.noise.sigma < 0.6
     assert [slip.name for slip in diagnosis.outliers] == [slipped.marks[-2].name]
     assert diagnosis.outliers[0].length == pytest.approx(10, abs=1.5)
-    assert "disagrees with its repeats" in verdict_sentence(diagnosis)
+    assert "disagrees with its repeats" in sentence(diagnosis)
     assert decide(Inputs(MAKER, slipped)).addition is None
 
 

@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from plumb.cli.addition import addition_text
+from plumb.cli.screen import in_text
 from plumb.cure.add import add
 from plumb.cure.machine_file import toml_of
 from plumb.fit.fit import fit
@@ -19,6 +19,7 @@ from plumb.settings.files import read_settings
 from plumb.settings.toml import write_machine_toml
 from plumb.text.answers import json_of
 from plumb.text.errors import InputError
+from plumb.words.decision import everything
 from synthetic import BELIEVED, EFFECTS, TRUE, grid, marks_on
 
 HIDDEN = {"sled_friction": {"drag": 7.0}, "tape_scale": {"strain": 0.0004}}
@@ -63,7 +64,7 @@ def test_a_lab_effect_is_named_with_its_cure_and_pays():
     assert len(result.cures) == 1
     for said in (
         result.cures[0],
-        "\n".join(addition_text(result, result.notes)),
+        "\n".join(in_text(everything(result, result.notes))),
         toml_of(result, source="marks.toml").decode(),
     ):
         said = " ".join(said.replace("#", " ").split())

@@ -29,12 +29,7 @@ class PreparedOwner:
         assert letter in answers
         return letter
 
-    def length(self, question, usual, low, high):
+    def number(self, question, low, high, *, usual=None, kind="length"):
         size = float(self._ask(question))
         assert low <= size <= high
         return size
-
-    mass = length
-
-    def turn(self, side, most):
-        return self.length(side, None, -most, most)

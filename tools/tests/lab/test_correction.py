@@ -63,7 +63,7 @@ def test_a_machine_that_is_as_good_as_its_marks_can_show_is_left_as_it_is(client
     type_in(client, "marks.toml", (0.3, -0.4), (-0.5, 0.1), (0.2, 0.5), (-0.1, -0.3))
     made = shown(client)["correction"]
     assert (made["nothing"], made["instead"]["screen"]) == ("Nothing to change", "verdict")
-    assert made["said"] == "Your machine is as good as these marks can show. Nothing to change."
+    assert made["said"] == "Your machine is as good as these marks can show."
     write_correction(client, 422)
     verdict = awaited(client, "verdict", lambda answer: answer["verdict"])["verdict"]
     assert verdict["title"] == "As good as these marks can show"

@@ -141,7 +141,7 @@ def test_the_whole_day(day, tmp_path):
         guide = got(day.get("/api/guide"))
         assert guide["trouble"] == "", guide
         moving = [question for question in questions if question["kind"] == "go"]
-        assert all(question["act"] for question in moving)
+        assert all(question["answers"][0][1] for question in moving)
     assert progress_in(tmp_path).done == [step.name for step in STEPS] and guide["open"] == ""
     choices = got(day.get("/api/project"))["choices"]
     assert choices["settings"] == "machine.toml"
@@ -160,7 +160,7 @@ def test_nothing_moves_before_a_yes_and_a_no_leaves_the_step_open(day, tmp_path)
     take(day, "read")
     before = machine_of(day).chains
     (question,) = take(day, "wires", {"LEFT motor winds": "n"})
-    assert question["act"] == "Wind 20 mm of the left chain in"
+    assert question["answers"][0] == ["y", "Wind 20 mm of the left chain in"]
     assert machine_of(day).chains == pytest.approx(before, abs=0.02)
     assert progress_in(tmp_path).done == ["read"]
 

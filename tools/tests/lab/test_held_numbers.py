@@ -81,7 +81,7 @@ def test_a_clients_file_is_compared_by_what_its_client_sends(client, folder):
     got(client.post("/api/settings", files=files))
     held = got(client.get("/api/machine/held"))
     assert not held["is_written_here"]
-    assert [each["number"] for each in held["numbers"]] == [37, 160, 170]
+    assert [row[1].split()[0] for row in held["said"]] == ["$37", "$160", "$170"]
 
 
 @pytest.fixture

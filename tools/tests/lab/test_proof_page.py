@@ -13,6 +13,7 @@ from playwright.sync_api import expect
 from plumb.diary.file import read_diary
 from plumb.marks.form import read_form
 from plumb.model.predict import known_effects
+from plumb.words import round as round_words
 
 PATIENCE = 300_000  # [ms] of a busy computer
 JUDGED = ".judged"
@@ -205,15 +206,17 @@ def test_the_form_of_a_new_sheet_says_so(client, tmp_path):
     )
 
 
-def test_the_next_sheet_is_turned_back_once(client, tmp_path):
-    assert got(client.get("/api/rounds/marks"))["sheet_rise"] == pytest.approx(
-        math.tan(TURN) * WIDTH
-    )
+def test_the_next_sheet_is_turned_back_once(client, tmp_path, monkeypatch):
+    rise = math.tan(TURN) * WIDTH
+    monkeypatch.setattr(round_words, "LEAST_MM", 0.9 * rise)
+    stops = "Lay it on the same stops"
+    turned = f"{stops}, its right end {rise:.1f} mm higher."
+    assert got(client.get("/api/rounds/marks"))["next_sheet"] == turned
     another_sheet(tmp_path)
     chosen(tmp_path, marks=["marks.toml", "marks-2.toml"])
-    assert got(client.get("/api/rounds/marks"))["sheet_rise"] == 0
+    assert got(client.get("/api/rounds/marks"))["next_sheet"] == f"{stops}."
     chosen(tmp_path, settings="groundcontrol.ini")
-    assert got(client.get("/api/rounds/marks"))["sheet_rise"] == 0
+    assert got(client.get("/api/rounds/marks"))["next_sheet"] == f"{stops}."
 
 
 def test_proof_marks_go_by_the_sheet_that_they_are_on(client, tmp_path):

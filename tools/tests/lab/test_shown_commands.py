@@ -19,7 +19,7 @@ from folder import (
     write_correction,
 )
 from plumb.cli.main import build_parser, main
-from plumb.diagnosis.answer import odds_words
+from plumb.words.verdict import odds_words
 
 # A gap that is wrong, so that it changes every fit; a ring that no fit moves unless it is known.
 KNOWN = {

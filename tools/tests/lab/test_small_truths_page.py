@@ -123,7 +123,7 @@ def lost(lab, page, cable):
     path = cable.path
     page.goto(lab.url)
     got(lab.client().post("/api/machine/board", json={"port": path}))
-    connected = page.get_by_role("heading", name=f"{path} is connected")
+    connected = page.get_by_role("heading", name=f"The machine at {path}")
     expect(connected).to_be_visible()
     expect(bar(page)).to_contain_text("stands")
     cable.pull_out()

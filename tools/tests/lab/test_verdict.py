@@ -23,15 +23,15 @@ def test_the_cards_and_what_could_hide_are_those_of_the_diagnosis(client, tmp_pa
     verdict = finished(client, "verdict")["verdict"]
     diagnosis = api.diagnose(api.read(tmp_path / "groundcontrol.ini", tmp_path / "marks.toml"))
     assert verdict["apart"].startswith("On the sheet the likely causes differ by 2.1 mm in")
-    assert len(verdict["cards"]) + verdict["more_cards"] == len(diagnosis.explanations)
+    assert len(verdict["cards"]) == len(diagnosis.explanations) and verdict["more"] == ""
     first, card = diagnosis.explanations[0], verdict["cards"][0]
-    left = (first.rms_after / diagnosis.rms_before) ** 2
-    assert card["share"] == pytest.approx(1 - left)
-    size, shown = first.sizes[first.effects[0]][0], card["effects"][0]["sizes"][0]
+    taken = 1 - (first.rms_after / diagnosis.rms_before) ** 2
+    assert dict(card["facts"])["explains"].startswith(f"{100 * taken:.0f} % of what the frame")
+    size, shown = first.sizes[first.effects[0]][0], card["account"]["parameters"][0]
     assert (shown["value"], shown["low"], shown["high"]) == (size.value, size.low, size.high)
     hidden = [each for each in diagnosis.could_hide if each.effect not in diagnosis.suspects]
     largest = max(each.mm or 0 for each in hidden)
-    assert verdict["unseen"]["causes"][0]["mm"] == pytest.approx(largest)
+    assert verdict["unseen"][0]["rows"][0][1] == f"{largest:.1f} mm"
 
 
 def test_each_state_has_all_marks_with_what_is_left_of_them(client, tmp_path):
@@ -59,7 +59,7 @@ def test_a_changed_reading_is_never_answered_by_the_verdict_before(client, tmp_p
     after = finished(client, "verdict")["verdict"]
     assert before["title"] == "Several things could be it"
     assert after["title"] == "A reading disagrees: look at it first"
-    assert after["slips"] and [state["title"] for state in after["states"]] == ["as set"]
+    assert after["warned"] and [state["title"] for state in after["states"]] == ["as set"]
 
 
 def test_too_few_marks_are_refused_in_one_line(client, tmp_path):

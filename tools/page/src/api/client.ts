@@ -1,6 +1,5 @@
 // Requests to the server, typed by its schema. A refusal becomes an error with the server's message.
 import { answers } from "./answers";
-import { READ_MS, SAVE_MS, WORK_MS } from "./patience";
 import { begin } from "./rest";
 
 import type { components } from "./schema";
@@ -9,6 +8,18 @@ import { token } from "./token";
 export type Schemas = components["schemas"];
 export type Project = Schemas["ProjectAnswer"];
 export type Choices = Schemas["Choices"];
+
+// How long the page waits for an answer. A request that never ends would block what waits for it and hold a connection
+// that others need.
+
+/** Polling [ms]. */
+export const LOOK_MS = 10_000;
+/** Single reads [ms]. */
+export const READ_MS = 60_000;
+/** Saving what was typed or chosen [ms]. */
+export const SAVE_MS = 30_000;
+/** Computations, and answers from the machine [ms]. */
+export const WORK_MS = 180_000;
 
 /** The server refused. Status 409: another tab or program has saved in the meantime. */
 export class Refusal extends Error {
@@ -25,6 +36,11 @@ export function isSilence(error: unknown): boolean {
   return error instanceof Refusal && error.status === 0;
 }
 
+/** What went wrong, in a line. */
+export function lineOf(error: unknown): string {
+  return error instanceof Error ? error.message : String(error);
+}
+
 interface Asking extends RequestInit {
   /** How long to wait for the whole answer [ms]. */
   patienceMs: number;
@@ -37,21 +53,18 @@ async function asked<Answer>(path: string, asking: Asking): Promise<Answer> {
 /** The whole answer. A refusal becomes an error. */
 async function answered(path: string, { patienceMs, ...request }: Asking): Promise<Blob> {
   const end = begin();
-  const giveUp = new AbortController();
-  const timer = setTimeout(() => giveUp.abort(), patienceMs);
   let response: Response;
   let content: Blob;
   try {
     response = await fetch(`api/${path}`, {
       ...request,
-      signal: giveUp.signal,
+      signal: AbortSignal.timeout(patienceMs),
       headers: { ...request.headers, "X-Plumb-Token": token() },
     });
     content = await response.blob();
   } catch {
     throw new Refusal("The lab does not answer. Is plumb lab still running in its terminal?", 0);
   } finally {
-    clearTimeout(timer);
     end();
   }
   if (response.ok) return content;

@@ -2,16 +2,7 @@
 // says so to tests and screenshots.
 import { options } from "preact";
 
-const PRESSES = [
-  "pointerdown",
-  "click",
-  "keydown",
-  "input",
-  "change",
-  "submit",
-  "hashchange",
-  "resize",
-];
+const PRESSES = "pointerdown click keydown input change submit hashchange resize".split(" ");
 const page = document.documentElement;
 let works = 0; // under way
 let stirs = 0; // so far

@@ -1,7 +1,7 @@
 // The bench for effects: add and remove them, and see at once how much error is left.
 import { useMemo, useRef, useState } from "preact/hooks";
+import { useUnits } from "../controls/lengths";
 import { Trouble } from "../controls/Trouble";
-import { useUnits } from "../controls/units";
 import { Residuals } from "../residuals/Residuals";
 import { useDrawn } from "../residuals/useDrawn";
 import { Do } from "../shell/doing";
@@ -39,7 +39,7 @@ function OpenBench({ bench }: { bench: Board }) {
   const effects = [...bench.effects].sort((a, b) => rank(a) - rank(b));
   const change = (next: Choice, keep: boolean) => {
     setMoving(keep ? undefined : next);
-    if (keep) void choose({ bench: next });
+    if (keep) choose({ bench: next });
   };
   const { now, frame, previous } = live;
   const hasMarks = bench.marks.length > 0;
@@ -52,14 +52,10 @@ function OpenBench({ bench }: { bench: Board }) {
     if (hasEffects) states.push(now.fit);
     return (
       <Residuals
-        marks={bench.marks}
-        spans={bench.spans}
+        readings={bench}
         states={states}
         ghosts={hasEffects ? previous?.fit : undefined}
-        sigma={bench.sigma}
         covariates={frame && bench.covariates}
-        doubted={bench.doubted}
-        doubtedSpans={bench.doubted_spans}
         drawn={drawn}
       />
     );

@@ -1,6 +1,5 @@
 // An effect that can be added: its checkbox, and a slider for each of its sizes.
-import { shownLength } from "../controls/lengths";
-import { useUnits } from "../controls/units";
+import { shownLength, useUnits } from "../controls/lengths";
 import type { Choice, Effect, Fit } from "./live";
 import { SizeSlider } from "./SizeSlider";
 

@@ -1,7 +1,6 @@
 // How the error falls: what is left now in large figures, and each step down to it with its bar.
-import { namedLength, shownLength, type Unit } from "../controls/lengths";
+import { namedLength, shownLength, useUnits } from "../controls/lengths";
 import { Table } from "../controls/Table";
-import { useUnits } from "../controls/units";
 import type { Live, Stairs } from "./live";
 
 interface FallParts {
@@ -19,12 +18,13 @@ export function Fall({ live, stairs }: FallParts) {
         <output class="large">{fit ? namedLength(fit.fit_rms, units, 2) : "…"}</output> left
       </p>
       {fit && <p class="soft">Noise alone leaves {shownLength(fit.noise_rms ?? 0, units, 2)}.</p>}
-      {stairs && <Staircase stairs={stairs} units={units} />}
+      {stairs && <Staircase stairs={stairs} />}
     </section>
   );
 }
 
-function Staircase({ stairs, units }: { stairs: Stairs; units: Unit }) {
+function Staircase({ stairs }: { stairs: Stairs }) {
+  const units = useUnits();
   const highest = Math.max(...stairs.stairs.map((stair) => stair.fit_rms), 1e-9);
   const number = (mm: number | null) => (mm === null ? "–" : shownLength(mm, units, 2));
   return (

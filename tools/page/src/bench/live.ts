@@ -1,6 +1,6 @@
 // The bench's questions to the server: the fit of a choice, the stairs to it, and what an effect would draw.
 import { useEffect, useRef, useState } from "preact/hooks";
-import { type Schemas, send } from "../api/client";
+import { lineOf, type Schemas, send } from "../api/client";
 import { useAsked } from "../shell/asked";
 
 export type Bench = Schemas["BenchAnswer"];
@@ -59,7 +59,7 @@ async function fitNewest(
       setNow({ choice, fit: await send<Fit>("POST", "bench/fit", choice) });
       setRefusal("");
     } catch (error) {
-      setRefusal(error instanceof Error ? error.message : String(error));
+      setRefusal(lineOf(error));
     }
   }
 }

@@ -4,8 +4,8 @@ import type { ComponentChildren } from "preact";
 export function Trouble({ children }: { children?: ComponentChildren }) {
   if (!children) return null;
   return (
-    <p class="trouble" role="alert">
+    <span class="trouble" role="alert">
       {children}
-    </p>
+    </span>
   );
 }

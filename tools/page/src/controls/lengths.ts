@@ -1,6 +1,14 @@
 // Lengths as people type and read them: mm or inch, comma or point, fractions of an inch.
+import { createContext } from "preact";
+import { useContext } from "preact/hooks";
+
 export type Unit = "mm" | "inch";
-const INCH = 25.4;
+/** A unit in mm. */
+export const MM: Readonly<Record<Unit, number>> = { mm: 1, inch: 25.4 };
+
+/** The chosen unit, for all components inside. */
+export const Units = createContext<Unit>("mm");
+export const useUnits = () => useContext(Units);
 
 const SIGN = /\s*(mm|inch|in|"|″|”)$/i;
 
@@ -19,7 +27,7 @@ export function typedLength(text: string, chosen: Unit): number | undefined {
   const size =
     decimal !== undefined ? Number(decimal) : Number(whole ?? 0) + Number(above) / Number(below);
   if (!Number.isFinite(size)) return undefined;
-  return (minus ? -size : size) * (unit === "inch" ? INCH : 1);
+  return (minus ? -size : size) * MM[unit];
 }
 
 /** Why a text is not a length, and how to type one; empty for a length or no text. */
@@ -30,10 +38,20 @@ export function noLength(text: string, unit: Unit): string {
 
 /** A length [mm] in the chosen unit, without the unit's name. Inches get one more decimal. */
 export function shownLength(mm: number, unit: Unit, digits = 1): string {
-  return unit === "inch" ? (mm / INCH).toFixed(digits + 1) : mm.toFixed(digits);
+  return (mm / MM[unit]).toFixed(unit === "inch" ? digits + 1 : digits);
 }
 
-/** The same with the unit. */
+/** A difference [mm]: with its sign, and a minus as wide as the figures. */
+export function signedLength(mm: number, unit: Unit): string {
+  return `${mm > 0 ? "+" : ""}${withMinus(shownLength(mm, unit, 2))}`;
+}
+
+/** A text of numbers with each minus as wide as the figures. */
+export function withMinus(text: string): string {
+  return text.replaceAll("-", "\u2212");
+}
+
+/** A length [mm] with the unit. */
 export function namedLength(mm: number, unit: Unit, digits = 1): string {
   return `${shownLength(mm, unit, digits)} ${unit}`;
 }
@@ -41,9 +59,9 @@ export function namedLength(mm: number, unit: Unit, digits = 1): string {
 /** A length [mm] as a person would type it: inches as a fraction where possible, no needless zeros. */
 export function lengthText(mm: number, unit: Unit): string {
   if (unit === "mm") return String(Number(mm.toFixed(2)));
-  const sixtyFourths = Math.round((Math.abs(mm) / INCH) * 64);
-  if (Math.abs((Math.abs(mm) / INCH) * 64 - sixtyFourths) > 0.01) {
-    return String(Number((mm / INCH).toFixed(3)));
+  const sixtyFourths = Math.round((Math.abs(mm) / MM.inch) * 64);
+  if (Math.abs((Math.abs(mm) / MM.inch) * 64 - sixtyFourths) > 0.01) {
+    return String(Number((mm / MM.inch).toFixed(3)));
   }
   let [above, below] = [sixtyFourths % 64, 64];
   const whole = (sixtyFourths - above) / 64;

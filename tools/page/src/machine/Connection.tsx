@@ -1,10 +1,9 @@
 // Connects a machine: a board at a port, or a virtual machine to try; afterwards its settings can be read.
 import { useState } from "preact/hooks";
-import { get, send } from "../api/client";
-import { LOOK_MS } from "../api/patience";
+import { get, LOOK_MS, send } from "../api/client";
 import { later } from "../api/rest";
 import { Do } from "../shell/doing";
-import { type Machine, subject, useMachine } from "../shell/machine";
+import { type Machine, useMachine } from "../shell/machine";
 import { Ports } from "../shell/Ports";
 import { useProject, useTell } from "../shell/project";
 import { Firmware } from "./Firmware";
@@ -12,11 +11,7 @@ import "./connection.css";
 
 export function Connection() {
   const machine = useMachine();
-  if (machine.kind === "none") return <Ways />;
-  return <Connected machine={machine} />;
-}
-
-function Ways() {
+  if (machine.kind !== "none") return <Connected machine={machine} />;
   return (
     <div class="ways tiles">
       <section class="box">
@@ -102,7 +97,10 @@ function Connected({ machine }: { machine: Machine }) {
   const isLost = machine.phase === "lost";
   return (
     <section class="connected box">
-      <h2>{connectionWords(machine)}</h2>
+      <h2>
+        {machine.subject}
+        {machine.kind === "board" && ` at ${machine.name}`}
+      </h2>
       {isLost ? (
         <p>What you cut and typed is kept. Connect it again in the bar below.</p>
       ) : (
@@ -126,15 +124,4 @@ function Connected({ machine }: { machine: Machine }) {
       )}
     </section>
   );
-}
-
-function connectionWords(machine: Machine): string {
-  if (machine.phase === "lost") return `The line to ${machine.name} is lost`;
-  if (machine.phase === "connecting") return `${nameOf(machine)} is being connected`;
-  return `${nameOf(machine)} is connected`;
-}
-
-/** With its port, which is shown only here. */
-function nameOf(machine: Machine): string {
-  return machine.kind === "board" ? `The machine at ${machine.name}` : subject(machine);
 }

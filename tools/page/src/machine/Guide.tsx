@@ -2,42 +2,28 @@
 import { useEffect } from "preact/hooks";
 import type { Schemas } from "../api/client";
 import { Trouble } from "../controls/Trouble";
-import { Refusal } from "../shell/doing";
 import { isReady, useMachine } from "../shell/machine";
 import { useProject } from "../shell/project";
-import { useWatched } from "../shell/watched";
+import { useWatched, type Watched } from "../shell/watched";
 import { GuideQuestion } from "./GuideQuestion";
 import "./guide.css";
 
-type Answer = Schemas["GuideAnswer"];
-
 const LOOK_MS = 300; // while a step is under way
 
-/** The server's state of the guide, and its actions. */
-export interface Guide {
-  guide: Answer | undefined;
-  press: (path: string, body?: unknown) => void;
-  busy: boolean;
-  silent: boolean;
-  refused: string;
-}
+type Guide = Watched<Schemas["GuideAnswer"]>;
 
 export function useGuide(): Guide {
   const { reload } = useProject();
-  const { state, silent, press, busy, refused } = useWatched<Answer>("guide", isUnderWay, LOOK_MS);
-  const here = state?.here;
+  const guide: Guide = useWatched("guide", ({ here }) => here !== "", LOOK_MS);
+  const here = guide.state?.here;
   useEffect(() => {
     if (here) return () => void reload(); // what the step wrote
   }, [here, reload]);
-  return { guide: state, press, busy, silent, refused };
-}
-
-function isUnderWay(guide: Answer): boolean {
-  return guide.here !== "";
+  return guide;
 }
 
 /** The button that begins the open step. */
-export function BeginStep({ guide, press, busy }: Guide) {
+export function BeginStep({ state: guide, press, busy }: Guide) {
   const ready = isReady(useMachine());
   const step = guide?.steps.find(({ name }) => name === guide.open);
   if (!guide || guide.here || !step) return null;
@@ -55,7 +41,7 @@ export function BeginStep({ guide, press, busy }: Guide) {
 
 /** `isNext`: the screen's button begins the open step. */
 export function FirstDay({ isNext, ...all }: Guide & { isNext: boolean }) {
-  const { guide, press, busy, silent, refused } = all;
+  const { state: guide, press, busy, silent, refused } = all;
   const ready = isReady(useMachine());
   if (!guide) return null;
   const place = guide.steps.findIndex((step) => step.name === guide.open);
@@ -68,7 +54,7 @@ export function FirstDay({ isNext, ...all }: Guide & { isNext: boolean }) {
       <Trouble>
         {silent && "The lab does not answer, so this may be old. It is asked again and again."}
       </Trouble>
-      {refused && <Refusal line={refused} />}
+      <Trouble>{refused}</Trouble>
       <ol class="plain">
         {guide.steps.map((step, index) => (
           <li

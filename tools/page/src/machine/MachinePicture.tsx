@@ -30,6 +30,14 @@ export function MachinePicture({ machine, marked, words = "" }: PictureParts) {
   const { place, knows_place, kind } = useMachine();
   const sled: [number, number] =
     place && knows_place && kind !== "none" ? [place[0], -place[1]] : [-width / 8, -height / 16];
+  const ends = {
+    motor_gap: [-gap / 2, -up - 150, gap / 2, -up - 150],
+    motor_height: [width / 2 - 60, -height / 2, width / 2 - 60, -up],
+    rotation_radius: [sled[0], sled[1], sled[0] + ring, sled[1]],
+    sheet: [-width / 2, height / 2 + 90, width / 2, height / 2 + 90],
+    sled_weight: [sled[0], sled[1], sled[0], sled[1] + 330],
+    chain: [gap / 4, -up / 2, gap / 4, -up / 2],
+  } as const;
   return (
     <svg
       class="machine-picture"
@@ -55,7 +63,7 @@ export function MachinePicture({ machine, marked, words = "" }: PictureParts) {
       <circle class="sled" cx={sled[0]} cy={sled[1]} r={230} />
       <circle class="ring" cx={sled[0]} cy={sled[1]} r={ring} />
       <circle class="bit" cx={sled[0]} cy={sled[1]} r={16} />
-      {marked && <Marked {...{ marked, words, width, height, gap, up, ring, sled }} />}
+      {marked && <Marked ends={ends[marked]} {...{ marked, words, sled }} />}
     </svg>
   );
 }
@@ -63,24 +71,11 @@ export function MachinePicture({ machine, marked, words = "" }: PictureParts) {
 interface MarkedParts {
   marked: Distance;
   words: string;
-  width: number;
-  height: number;
-  gap: number;
-  up: number;
-  ring: number;
-  sled: [number, number];
+  ends: readonly [number, number, number, number];
+  sled: readonly [number, number];
 }
 
-function Marked({ marked, words, width, height, gap, up, ring, sled }: MarkedParts) {
-  const ends: Record<Distance, [number, number, number, number]> = {
-    motor_gap: [-gap / 2, -up - 150, gap / 2, -up - 150],
-    motor_height: [width / 2 - 60, -height / 2, width / 2 - 60, -up],
-    rotation_radius: [sled[0], sled[1], sled[0] + ring, sled[1]],
-    sheet: [-width / 2, height / 2 + 90, width / 2, height / 2 + 90],
-    sled_weight: [sled[0], sled[1], sled[0], sled[1] + 330],
-    chain: [gap / 4, -up / 2, gap / 4, -up / 2],
-  };
-  const [x1, y1, x2, y2] = ends[marked];
+function Marked({ marked, words, ends: [x1, y1, x2, y2], sled }: MarkedParts) {
   const [x, y] = [(x1 + x2) / 2, (y1 + y2) / 2];
   const level = y1 === y2 && marked !== "rotation_radius";
   const below = marked === "rotation_radius" || marked === "sled_weight";

@@ -1,6 +1,6 @@
 // The phones of this lab, shown on the computer: how to pair another, and what each may do.
 import type { Schemas } from "../api/client";
-import { Refusal } from "../shell/doing";
+import { Trouble } from "../controls/Trouble";
 import { useWatched } from "../shell/watched";
 
 type Answer = Schemas["PhonesAnswer"];
@@ -29,10 +29,9 @@ export function Phones() {
         </p>
       )}
       <ul class="plain">
-        {answer.phones.map(({ number, name, may_move }) => (
+        {answer.phones.map(({ number, name, may, may_move }) => (
           <li key={number} class="row">
-            <b>{name}</b>{" "}
-            {may_move ? "may also move the machine." : "may look, type readings, hold and stop."}
+            <b>{name}</b> {may}.
             <button
               type="button"
               disabled={busy}
@@ -46,7 +45,7 @@ export function Phones() {
           </li>
         ))}
       </ul>
-      {refused && <Refusal line={refused} />}
+      <Trouble>{refused}</Trouble>
     </details>
   );
 }

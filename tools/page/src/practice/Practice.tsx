@@ -1,8 +1,7 @@
 // Practice: reveals the errors of a virtual machine once you have calibrated it.
 import { useState } from "preact/hooks";
 import { type Schemas, send } from "../api/client";
-import { namedLength, shownLength } from "../controls/lengths";
-import { useUnits } from "../controls/units";
+import { namedLength, shownLength, useUnits } from "../controls/lengths";
 import { Do } from "../shell/doing";
 import { useProject } from "../shell/project";
 import { Screen } from "../shell/Screen";

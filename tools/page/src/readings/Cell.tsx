@@ -1,35 +1,38 @@
 // The reading of a mark, from two edges. Text stays as it was typed; half a reading is kept in this browser.
 import { useState } from "preact/hooks";
 import type { Schemas } from "../api/client";
-import { lengthText, namedLength, noLength, typedLength, type Unit } from "../controls/lengths";
-import { type HalfPlace, halfOf, keepHalf, type Texts } from "./halves";
-import type { Place } from "./useReadings";
+import {
+  lengthText,
+  namedLength,
+  noLength,
+  typedLength,
+  type Unit,
+  useUnits,
+} from "../controls/lengths";
+import { useProject } from "../shell/project";
+import { halfOf, keepHalf, type Texts } from "./halves";
+import { pasted } from "./paste";
+import type { Form, Place, TypedForm } from "./useReadings";
 
-interface CellParts {
+export interface CellParts {
   mark: Schemas["AskedMark"];
-  value: Place | undefined;
-  units: Unit;
-  /** Names of the two edges, like "left". */
-  from: readonly [string, string];
-  /** The edges that it is typed from. */
-  edges: string;
-  /** Its key among the half readings. */
-  place: HalfPlace;
+  form: Form;
+  readings: TypedForm;
   doubted: boolean;
-  /** A phone shows the cell that is open, where there are many. */
-  isOpen: boolean;
   /** An earlier mark has the same name. */
   again: boolean;
   /** Goes on to the mark after it. */
   next: () => void;
-  change: (value: Place | undefined) => void;
-  /** Takes pasted spreadsheet columns; returns whether the text was some. */
-  paste: (text: string) => boolean;
 }
 
-export function Cell(parts: CellParts) {
-  const { mark, value, units, from, edges, place, doubted, isOpen, again, next, change, paste } =
-    parts;
+export function Cell({ mark, form, readings, doubted, again, next }: CellParts) {
+  const { kept, open } = readings;
+  const { edges, file, marks } = form;
+  const { index } = mark;
+  const from = edges.split("-").reverse() as [string, string]; // across, upright
+  const place = { key: useProject().project.key, file, index };
+  const value = kept.value[index];
+  const units = useUnits();
   const [texts, setTexts] = useState<Texts | undefined>(() => halfOf(place, edges));
   const saysValue = texts && (value ? means(texts, value, units) : !complete(texts, units));
   const said = saysValue ? texts : undefined;
@@ -42,19 +45,27 @@ export function Cell(parts: CellParts) {
     const read = complete(typed, units);
     const isHalf = !read && typed.some((each) => each.trim() !== "");
     // Half a reading does not count, and the number before it no longer does either.
-    if (read || value) change(read);
+    if (read || value)
+      kept.put(({ [index]: _, ...others }) => (read ? { ...others, [index]: read } : others));
     keepHalf(place, isHalf ? { edges, texts: typed } : undefined);
   };
+  /** Takes columns of a spreadsheet; returns whether the text was some. */
+  const paste = (text: string) => {
+    const more = pasted(text, marks, index, units);
+    if (more) kept.put((typed) => ({ ...typed, ...more }));
+    return more !== undefined;
+  };
+  // A phone shows the cell that is open, where there are many.
   return (
     <fieldset
-      class={`cell ${doubted ? "doubted" : ""} ${isOpen ? "open" : ""}`}
-      id={`mark-${mark.index}`}
+      class={`cell ${doubted ? "doubted" : ""} ${index === open ? "open" : ""}`}
+      id={`mark-${index}`}
     >
       <legend class="name">{name}</legend>
       {([0, 1] as const).map((axis) => {
         const text = shown[axis] ?? "";
         const reason = lacks([shown[0] ?? "", shown[1] ?? ""], axis, from, units);
-        const reasonId = `mark-${mark.index}-${axis}`;
+        const reasonId = `mark-${index}-${axis}`;
         return (
           <span key={axis} class="half">
             <input

@@ -1,8 +1,7 @@
 // A reading that disagrees, beside its fields: its likely cause and, if it has a cause, a button that takes the correction.
-import { lengthText } from "../controls/lengths";
-import { useUnits } from "../controls/units";
+import { lengthText, useUnits } from "../controls/lengths";
 import { withInstead } from "./distances";
-import { useDistances } from "./useDistances";
+import { useSave } from "./saves";
 import type { Doubt } from "./useDoubts";
 import type { Form, TypedForm } from "./useReadings";
 
@@ -14,14 +13,16 @@ interface DoubtParts {
 
 export function DoubtAt({ doubt, form, readings }: DoubtParts) {
   const units = useUnits();
-  const saveDistances = useDistances(form, readings.take);
+  const save = useSave(form, readings.take);
   if (!doubt) return null;
   const { is_mark, index, sentence, corrected } = doubt;
   const distance = form.distances[index];
   const correct = ([first = 0, second = 0]: number[]) => {
     if (is_mark) readings.kept.put((typed) => ({ ...typed, [index]: [first, second] }));
     else if (distance)
-      void saveDistances((all) => withInstead(all, distance, { ...distance, length: first }));
+      void save("distances", ({ distances }) => ({
+        distances: withInstead(distances, distance, { ...distance, length: first }),
+      }));
   };
   const look = () => {
     if (is_mark) readings.pick(index);

@@ -1,7 +1,9 @@
 // Chooses the form to type into, or imports a file of readings.
 import { sendFile } from "../api/client";
+import { Do } from "../shell/doing";
+import { useMachine } from "../shell/machine";
 import { PickFile } from "../shell/PickFile";
-import { useProject } from "../shell/project";
+import { useProject, useTell } from "../shell/project";
 import type { Form } from "./useReadings";
 
 interface FormPickerParts {
@@ -53,5 +55,22 @@ export function FileOfReadings({ form, choose }: FormPickerParts) {
       <summary>Readings from a file</summary>
       {picker}
     </details>
+  );
+}
+
+/** Marks to read again without cutting; on a virtual machine they are read at once. */
+export function ReadAgain({ form }: { form: Form }) {
+  const tell = useTell();
+  const machine = useMachine();
+  if (form.again === 0) return null;
+  return (
+    <div class="read-again">
+      <p>These marks are on the sheet already. Lay the tape anew for each reading.</p>
+      {machine.kind === "virtual" && (
+        <Do isNext work={() => tell("machine/readings", { form: form.file })}>
+          Let a tape read the {form.again} marks again
+        </Do>
+      )}
+    </div>
   );
 }

@@ -1,14 +1,11 @@
 // The cells of the marks, in rows as on the sheet; on a phone only the open mark's, and the sheet opens others.
 import { Fragment } from "preact";
 import { Trouble } from "../controls/Trouble";
-import { useUnits } from "../controls/units";
-import { Changed } from "../shell/Changed";
-import { useProject } from "../shell/project";
+import type { Kept } from "../shell/kept";
 import { Cell } from "./Cell";
 import { DoubtAt } from "./DoubtAt";
-import { pasted } from "./paste";
 import type { Doubt } from "./useDoubts";
-import type { Form, TypedForm } from "./useReadings";
+import type { Form, Typed, TypedForm } from "./useReadings";
 
 const FEW = 4; // marks whose cells a phone shows all at once
 
@@ -19,11 +16,9 @@ interface GridParts {
 }
 
 export function Grid({ form, readings, doubts }: GridParts) {
-  const { key } = useProject().project;
-  const { kept, open, pick } = readings;
+  const { kept, pick } = readings;
   const { edges, file, marks } = form;
-  const [upright, across] = edges.split("-") as [string, string];
-  const units = useUnits();
+  const [upright, across] = edges.split("-");
   const order = [...marks].sort(
     ({ target: [x, y] }, { target: [x2, y2] }) => y2 - y || x - x2, // a repeat comes after its first
   );
@@ -46,34 +41,14 @@ export function Grid({ form, readings, doubts }: GridParts) {
       {order.map((mark, i) => {
         const { index, name } = mark;
         const doubt = doubts.find((each) => each.is_mark && each.index === index);
-        const cell = (
-          <Cell
-            isOpen={index === open}
-            mark={mark}
-            value={kept.value[index]}
-            units={units}
-            from={[across, upright]}
-            edges={edges}
-            place={{ key, file, index }}
-            doubted={doubt !== undefined}
-            again={order.findIndex((other) => other.name === name) < i}
-            next={() => next(index)}
-            change={(value) =>
-              kept.put((typed) => {
-                const { [index]: _, ...others } = typed;
-                return value ? { ...others, [index]: value } : others;
-              })
-            }
-            paste={(text) => {
-              const more = pasted(text, marks, index, units);
-              if (more) kept.put((typed) => ({ ...typed, ...more }));
-              return more !== undefined;
-            }}
-          />
-        );
         return (
           <Fragment key={`${file}/${index}/${edges}`}>
-            {cell}
+            <Cell
+              {...{ mark, form, readings }}
+              doubted={doubt !== undefined}
+              again={order.findIndex((other) => other.name === name) < i}
+              next={() => next(index)}
+            />
             <DoubtAt {...{ doubt, form, readings }} />
           </Fragment>
         );
@@ -81,5 +56,21 @@ export function Grid({ form, readings, doubts }: GridParts) {
       <Changed kept={kept} />
       <Trouble>{kept.refused}</Trouble>
     </div>
+  );
+}
+
+/** The file changed on disk while you were typing: which version to keep. */
+function Changed({ kept }: { kept: Kept<Typed> }) {
+  if (!kept.changed) return null;
+  return (
+    <Trouble>
+      The file has changed on disk, and what you typed is not saved.{" "}
+      <button type="button" onClick={() => kept.settle(true)}>
+        Keep mine
+      </button>{" "}
+      <button type="button" onClick={() => kept.settle(false)}>
+        Take the file's
+      </button>
+    </Trouble>
   );
 }

@@ -1,9 +1,9 @@
 // The readings on the sheet: an arrow from where each mark was sent to where it is.
 import { useMemo } from "preact/hooks";
-import { lengthText } from "../controls/lengths";
-import { useUnits } from "../controls/units";
+import { lengthText, useUnits } from "../controls/lengths";
 import { Sheet, Taped } from "../sheet/Sheet";
 import { useScale } from "../sheet/scale";
+import type { Pair } from "../sheet/view";
 import type { Form } from "./useReadings";
 
 interface MapParts {
@@ -62,6 +62,12 @@ export function ReadingsMap({ form, doubted, open, pick }: MapParts) {
   );
 }
 
+interface EdgesParts {
+  size: Pair;
+  zero: Pair;
+  to: Pair | undefined;
+}
+
 /** The edges that the tape measures from, and how it lies to a mark. */
 function Edges({ size: [width, height], zero: [x, y], to }: EdgesParts) {
   const { at } = useScale();
@@ -80,11 +86,3 @@ function Edges({ size: [width, height], zero: [x, y], to }: EdgesParts) {
     </>
   );
 }
-
-interface EdgesParts {
-  size: Pair;
-  zero: Pair;
-  to: Pair | undefined;
-}
-
-type Pair = readonly [number, number];

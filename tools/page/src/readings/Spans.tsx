@@ -1,11 +1,10 @@
 // Distances between marks: those of the form in measuring order, then all others.
 import type { ComponentChildren } from "preact";
-import { lengthText, noLength, typedLength } from "../controls/lengths";
-import { useUnits } from "../controls/units";
+import { lengthText, noLength, typedLength, useUnits } from "../controls/lengths";
 import { useTyped } from "../controls/useTyped";
 import { DoubtAt } from "./DoubtAt";
 import { beyond, lengthBetween, withInstead, withLength } from "./distances";
-import { useDistances } from "./useDistances";
+import { useSave } from "./saves";
 import type { Doubt } from "./useDoubts";
 import type { Form, TypedForm } from "./useReadings";
 
@@ -16,7 +15,7 @@ interface SpansParts {
 }
 
 export function Spans({ form, readings, doubts }: SpansParts) {
-  const save = useDistances(form, readings.take);
+  const save = useSave(form, readings.take);
   const { file, spans, distances } = form;
   const others = beyond(distances, spans);
   if (spans.length + others.length === 0) return null;
@@ -36,11 +35,12 @@ export function Spans({ form, readings, doubts }: SpansParts) {
             length={measured?.length}
             doubt={doubt && <DoubtAt {...{ doubt, form, readings }} />}
             keep={(length) =>
-              void save((all) =>
-                isAsked || !measured
-                  ? withLength(all, span, length)
-                  : withInstead(all, measured, ...(length ? [{ ...measured, length }] : [])),
-              )
+              void save("distances", ({ distances: all }) => ({
+                distances:
+                  isAsked || !measured
+                    ? withLength(all, span, length)
+                    : withInstead(all, measured, ...(length ? [{ ...measured, length }] : [])),
+              }))
             }
           />
         );

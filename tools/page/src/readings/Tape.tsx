@@ -42,7 +42,7 @@ export function Tape({ form, take }: TapeParts) {
           <select
             value={project.choices.edges}
             onChange={(event) =>
-              void choose({ edges: event.currentTarget.value as NonNullable<Choices["edges"]> })
+              choose({ edges: event.currentTarget.value as NonNullable<Choices["edges"]> })
             }
           >
             {EDGES.map(([corner, said]) => (

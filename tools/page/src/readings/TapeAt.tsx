@@ -1,14 +1,12 @@
 // The tape at a mark as it was read, and what the other marks say. Nothing is expected before both edges are read.
 import { useRef } from "preact/hooks";
-import { lengthText, shownLength } from "../controls/lengths";
-import { useUnits } from "../controls/units";
+import { lengthText, MM, shownLength, useUnits } from "../controls/lengths";
 import { ticks, tickText } from "../sheet/view";
 import type { OthersSay } from "./useDoubts";
 import type { Form } from "./useReadings";
 
 const [WIDE, HIGH] = [220, 34]; // [px]
 const WINDOWS = { mm: 25, inch: 25.4 }; // [mm] of tape in view
-const UNITS = { mm: 1, inch: 25.4 };
 const FINE = { mm: 1, inch: 1 / 16 };
 
 interface TapeAtParts {
@@ -58,7 +56,7 @@ export function TapeAt({ form, open, others }: TapeAtParts) {
 /** A piece of tape around a reading, pale where the others expect it. */
 function Strip({ read, by, within }: { read: number; by: number | undefined; within: number }) {
   const units = useUnits();
-  const [unit, wide] = [UNITS[units], WINDOWS[units]];
+  const [unit, wide] = [MM[units], WINDOWS[units]];
   const [low, high] = [read - wide / 2, read + wide / 2];
   const x = (mm: number) => (WIDE * (mm - low)) / wide;
   const fine = FINE[units];

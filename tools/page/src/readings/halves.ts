@@ -1,4 +1,6 @@
 // Half readings, and texts that are not yet lengths: kept in this browser until complete. They do not count.
+import { store, stored } from "../api/stored";
+
 const PREFIX = "plumb-half:";
 export type Texts = readonly [string, string];
 
@@ -16,33 +18,25 @@ interface Half {
 
 /** What was typed for a mark, from these edges. */
 export function halfOf({ key, file, index }: HalfPlace, edges: string): Texts | undefined {
-  const half = stored(key)[`${file}:${index}`];
+  const half = halvesOf(key)[`${file}:${index}`];
   return half?.edges === edges ? half.texts : undefined;
 }
 
 /** Stores half a reading, or removes it if there is none. */
 export function keepHalf({ key, file, index }: HalfPlace, half: Half | undefined): void {
-  const { [`${file}:${index}`]: _, ...others } = stored(key);
+  const { [`${file}:${index}`]: _, ...others } = halvesOf(key);
   const all = half ? { ...others, [`${file}:${index}`]: half } : others;
-  try {
-    localStorage.setItem(PREFIX + key, JSON.stringify(all));
-  } catch {
-    // Without storage it is kept as long as the tab is open.
-  }
+  store(PREFIX + key, all);
 }
 
 /** The marks of a folder with half a reading here. */
 export function allHalves(key: string): { file: string; index: number }[] {
-  return Object.keys(stored(key)).map((name) => {
+  return Object.keys(halvesOf(key)).map((name) => {
     const [file = "", index = ""] = name.split(":");
     return { file, index: Number(index) };
   });
 }
 
-function stored(key: string): Record<string, Half> {
-  try {
-    return JSON.parse(localStorage.getItem(PREFIX + key) ?? "{}");
-  } catch {
-    return {}; // a browser that forbids the storage
-  }
+function halvesOf(key: string): Record<string, Half> {
+  return stored(PREFIX + key) ?? {};
 }

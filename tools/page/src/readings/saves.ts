@@ -1,5 +1,5 @@
 // Saves of a form: its readings, distances and tape. Each waits for the one before.
-import { type Schemas, send } from "../api/client";
+import { lineOf, type Schemas, send } from "../api/client";
 import { useProject } from "../shell/project";
 import { Succession } from "../shell/succession";
 
@@ -13,11 +13,11 @@ export function savesOf(file: string): Succession<Form> {
   return saves;
 }
 
-/** Saves a part of a form, based on the form after the previous saves; returns whether it was accepted. */
+/** Saves a part of a form, which may go by the form that the saves before it left. */
 export function useSave(
   form: Form,
   take: (form: Form) => void,
-): (path: string, part: (now: Form) => object) => Promise<boolean> {
+): (path: string, part: (now: Form) => object) => Promise<void> {
   const { setTrouble, reload } = useProject();
   const { file } = form;
   return async (path, part) => {
@@ -27,11 +27,9 @@ export function useSave(
       take(await savesOf(file).save(form, put));
       setTrouble("");
       await reload();
-      return true;
     } catch (error) {
       await reload(); // to show what was saved elsewhere
-      setTrouble(error instanceof Error ? error.message : String(error));
-      return false;
+      setTrouble(lineOf(error));
     }
   };
 }

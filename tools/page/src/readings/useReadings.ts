@@ -1,10 +1,10 @@
 // The form of readings: loaded, edited, and saved reading by reading.
 import { useCallback, useEffect, useRef, useState } from "preact/hooks";
-import { get, isSilence, type Schemas, send } from "../api/client";
+import { isSilence, lineOf, READ_MS, type Schemas, send } from "../api/client";
+import { useFresh } from "../shell/fresh";
 import { type Kept, useKept } from "../shell/kept";
 import { useProject } from "../shell/project";
 import { same } from "../shell/rebase";
-import { Turns } from "../shell/turns";
 import { type Form, savesOf } from "./saves";
 import { type OpenMark, useOpenMark } from "./useOpenMark";
 
@@ -28,55 +28,45 @@ const AGAIN_MS = 3000; // after a server that did not answer
 export function useReadings(first = ""): TypedForm {
   const { project, setTrouble, reload: reloadProject } = useProject();
   const [file, setFile] = useState(first);
-  const [form, setForm] = useState<Form>();
-  const [silences, setSilences] = useState(0);
-  const newest = useRef<Form | undefined>(undefined);
-  const turns = useRef(new Turns()).current;
+  const [silent, setSilent] = useState(false);
+  const shown = useRef(""); // the file
   const refused = useRef(""); // the error of a load
-  const show = useCallback((answer: Form) => {
-    newest.current = answer;
+  const path = `readings?file=${encodeURIComponent(file)}`;
+  const fresh = useFresh<Form>(path, READ_MS, (answer) => {
+    shown.current = answer.file;
     savesOf(answer.file).learn(answer);
-    setForm((before) => (same(before, answer) ? before : answer));
-  }, []);
-  const take = useCallback(
-    (answer: Form) => {
-      if (newest.current?.file !== answer.file) return;
-      // A save has finished since: this answer is out of date.
-      turns.overtake();
-      show(answer);
-    },
-    [turns, show],
+  });
+  const { state: form, load: ask } = fresh;
+  const take = (answer: Form) => {
+    if (shown.current === answer.file) fresh.take(answer);
+  };
+  const load = useCallback(
+    () =>
+      ask().then(
+        () => {
+          setSilent(false);
+          // The reason for a refused save stays visible.
+          setTrouble((line) => (line === refused.current ? "" : line));
+        },
+        (error) => {
+          refused.current = lineOf(error);
+          setTrouble(refused.current);
+          setSilent(isSilence(error));
+        },
+      ),
+    [ask, setTrouble],
   );
-  const load = useCallback(async () => {
-    const question = turns.begin();
-    try {
-      const answer = await get<Form>(`readings?file=${encodeURIComponent(file)}`);
-      if (turns.counts(question)) show(answer);
-      // The reason for a refused save stays visible.
-      setTrouble((line) => (line === refused.current ? "" : line));
-    } catch (error) {
-      refused.current = error instanceof Error ? error.message : String(error);
-      setTrouble(refused.current);
-      if (isSilence(error)) setSilences((count) => count + 1);
-    }
-  }, [file, turns, show, setTrouble]);
-  // Without an answer, ask again.
-  useEffect(() => {
-    if (silences === 0) return;
-    const timer = setTimeout(() => void load(), AGAIN_MS);
-    return () => clearTimeout(timer);
-  }, [silences, load]);
   const onDisk = form ? project.files[form.file] : "";
   const known = Object.keys(project.files).join();
-  const shown = form?.digest;
-  // What is on disk or chosen has changed. A file that went back to what the page last saw there shows no change:
-  // as long as the form is another than the folder's, it is loaded again.
+  const digest = form?.digest;
+  // What is on disk or chosen has changed, or nobody answered. A file that went back to what the page last saw there
+  // shows no change: as long as the form is another than the folder's, it is loaded again.
   useEffect(() => {
-    if (onDisk === shown && onDisk) return;
+    if (onDisk === digest && onDisk && !silent) return;
     void load();
-    const timer = onDisk ? setInterval(() => void load(), AGAIN_MS) : undefined;
+    const timer = onDisk || silent ? setInterval(() => void load(), AGAIN_MS) : undefined;
     return () => clearInterval(timer);
-  }, [load, onDisk, known, shown]);
+  }, [load, onDisk, known, digest, silent]);
   // Other edges or settings change every number, once the server has them.
   useEffect(() => void load(), [project.choices_digest]);
   const kept = useKept<Typed>({

@@ -1,15 +1,16 @@
 // Each mark with its error, for the printed report, where you cannot point at a mark.
-import { shownLength, type Unit } from "../controls/lengths";
+import { shownLength, useUnits, withMinus } from "../controls/lengths";
 import { Table } from "../controls/Table";
 import type { VerdictParts } from "../steps/verdict/words";
 
-export function MarkTable({ verdict, units }: { verdict: VerdictParts; units: Unit }) {
+export function MarkTable({ verdict }: { verdict: VerdictParts }) {
+  const units = useUnits();
   const left = verdict.states.at(-1);
   const pair = (both: readonly (number | null)[] | null | undefined, digits: number) =>
-    both
-      ?.map((each) => (each === null ? "–" : shownLength(each, units, digits)))
-      .join(", ")
-      .replaceAll("-", "\u2212") ?? "–";
+    withMinus(
+      both?.map((each) => (each === null ? "–" : shownLength(each, units, digits))).join(", ") ??
+        "–",
+    );
   return (
     <section>
       <h2>The readings [{units}]</h2>

@@ -2,7 +2,7 @@
 import type { Project, Schemas } from "../api/client";
 import { Table } from "../controls/Table";
 import { Shares } from "../shell/Shares";
-import { ByHand, Why } from "../steps/Correct";
+import { Notes, Why } from "../steps/Correct";
 import { NumberTable } from "../steps/correct/NumberTable";
 import { Course } from "../steps/diary/Course";
 import { Errors } from "../steps/diary/Errors";
@@ -28,7 +28,6 @@ export function Report({ answers }: { answers: Readonly<Record<string, unknown>>
   const about = answers.about as About;
   const { verdict } = answers.verdict as VerdictAnswer;
   const diary = answers.diary as Schemas["DiaryAnswer"];
-  const units = project.choices.units ?? "mm";
   const shared = { project, take: stays, choose: stays, reload: stays, trouble: "" };
   return (
     <Shares shared={{ ...shared, setTrouble: stays }}>
@@ -41,7 +40,7 @@ export function Report({ answers }: { answers: Readonly<Record<string, unknown>>
         {diary.fits.length > 0 && (
           <section>
             <h2>Round by round</h2>
-            <Errors fits={diary.fits} units={units} />
+            <Errors fits={diary.fits} />
             <div class="tiles">
               {diary.courses.map((course) => (
                 <Course key={course.noun} course={course} />
@@ -49,7 +48,7 @@ export function Report({ answers }: { answers: Readonly<Record<string, unknown>>
             </div>
           </section>
         )}
-        {verdict && verdict.marks.length > 0 && <MarkTable verdict={verdict} units={units} />}
+        {verdict && verdict.marks.length > 0 && <MarkTable verdict={verdict} />}
         <Sources about={about} />
       </main>
     </Shares>
@@ -61,8 +60,8 @@ function Numbers({ made }: { made: Schemas["CorrectionParts"] }) {
     <section>
       <h2>{made.nothing || "The numbers, before and after"}</h2>
       {made.numbers.length > 0 && <NumberTable numbers={made.numbers} />}
-      {made.stops.length > 0 && <ByHand title="Do not write these numbers" said={made.stops} />}
-      {made.cures.length > 0 && <ByHand title="By hand" said={made.cures} />}
+      <Notes made={made} weight="stop" />
+      <Notes made={made} weight="by_hand" />
       <Why made={made} />
     </section>
   );

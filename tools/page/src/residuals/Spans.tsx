@@ -1,6 +1,6 @@
 // Measured distances: a line for each, thicker for a larger error, and a table.
 import type { Schemas } from "../api/client";
-import { shownLength, type Unit } from "../controls/lengths";
+import { shownLength, signedLength, useUnits } from "../controls/lengths";
 import { Table } from "../controls/Table";
 import type { Mark } from "../sheet/marks";
 import { useScale } from "../sheet/scale";
@@ -9,7 +9,7 @@ import type { Pair } from "../sheet/view";
 export type Span = Schemas["Span"];
 type State = Schemas["State"];
 
-const BEYOND_NOISE = 1.96; // sigmas: noise alone makes a larger error in 5 % of the distances
+export const BEYOND_NOISE = 1.96; // sigmas: noise alone makes a larger error in 5 %
 const [THIN, THICK] = [2, 12]; // [px]
 
 interface SpanParts {
@@ -17,7 +17,6 @@ interface SpanParts {
   state: State;
   doubted: readonly number[];
   sigma: number; // [mm] of a reading
-  units: Unit;
 }
 
 /** How a distance is drawn, by its error. */
@@ -27,7 +26,7 @@ function kindOf(error: number | null | undefined, isDoubted: boolean, sigma: num
   return error > 0 ? "longer" : "shorter";
 }
 
-interface LineParts extends Omit<SpanParts, "units"> {
+interface LineParts extends SpanParts {
   /** The state whose largest error is the thickest. */
   scale: State;
 }
@@ -71,7 +70,8 @@ export function endsOf(spans: readonly Span[], known: ReadonlySet<string>): Mark
 }
 
 /** The errors in figures, the largest first. */
-export function SpanTable({ spans, state, doubted, sigma, units }: SpanParts) {
+export function SpanTable({ spans, state, doubted, sigma }: SpanParts) {
+  const units = useUnits();
   if (spans.length === 0) return null;
   const rows = spans.map((span, i) => ({
     span,
@@ -96,13 +96,9 @@ export function SpanTable({ spans, state, doubted, sigma, units }: SpanParts) {
         rows={rows.map(({ span, error }) => [
           span.between.join(" and "),
           shownLength(span.measured, units),
-          error == null ? "read it again" : signed(error, units),
+          error == null ? "read it again" : signedLength(error, units),
         ])}
       />
     </section>
   );
-}
-
-function signed(mm: number, units: Unit): string {
-  return `${mm > 0 ? "+" : ""}${shownLength(mm, units, 2).replace("-", "\u2212")}`;
 }

@@ -1,9 +1,8 @@
 // The sheet's axes and grid lines, and a legend with the scales of the sheet and its arrows.
-import { lengthText, type Unit } from "../controls/lengths";
+import { lengthText, MM, useUnits } from "../controls/lengths";
 import { useScale } from "./scale";
 import { type Pair, rounded, ticks, tickText } from "./view";
 
-const INCH = 25.4;
 const APART = 70; // [px] between ticks
 const LINE = 22; // [px] of a line of the legend
 const ROW = 34; // [px] of a legend with buttons beside it
@@ -15,16 +14,12 @@ export interface Origin {
   way: Pair; // 1 or -1
 }
 
-export const MIDDLE: Origin = { zero: [0, 0], way: [1, 1] };
+const MIDDLE: Origin = { zero: [0, 0], way: [1, 1] };
 
-interface AxesParts {
-  units: Unit;
-  origin: Origin;
-}
-
-export function Axes({ units, origin }: AxesParts) {
+export function Axes({ origin = MIDDLE }: { origin?: Origin | undefined }) {
+  const units = useUnits();
   const { plot, at, ends } = useScale();
-  const unit = units === "inch" ? INCH : 1;
+  const unit = MM[units];
   const along = (axis: 0 | 1, room: number) => {
     const shown = (mm: number) => ((mm - origin.zero[axis]) * origin.way[axis]) / unit;
     const count = Math.max(3, Math.floor(room / APART));
@@ -65,7 +60,6 @@ export function legendHeight(wide: number, hasArrows: boolean): number {
 }
 
 interface LegendParts {
-  units: Unit;
   /** How many times longer than life arrows are; undefined without arrows. */
   factor: number | undefined;
   /** What a circle around a mark means; empty without circles. */
@@ -73,10 +67,11 @@ interface LegendParts {
 }
 
 /** The legend below the drawing: what an arrow and a circle mean. */
-export function Legend({ units, factor, circle }: LegendParts) {
+export function Legend({ factor, circle }: LegendParts) {
+  const units = useUnits();
   const { plot, px } = useScale();
   if (factor === undefined) return null;
-  const unit = units === "inch" ? INCH : 1;
+  const unit = MM[units];
   const arrow = rounded(50 / px / factor / unit) * unit; // [mm]
   const isNarrow = plot.right - plot.left + 60 < ROOMY;
   const start = isNarrow ? plot.left : 10;

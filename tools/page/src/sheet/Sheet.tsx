@@ -2,9 +2,8 @@
 // frame: the origin is the middle of the sheet, y runs up.
 import type { ComponentChildren } from "preact";
 import { useContext, useId, useLayoutEffect, useMemo, useRef, useState } from "preact/hooks";
-import { namedLength, type Unit } from "../controls/lengths";
-import { useUnits } from "../controls/units";
-import { Axes, Legend, legendHeight, MIDDLE, type Origin } from "./Axes";
+import { namedLength, useUnits } from "../controls/lengths";
+import { Axes, Legend, legendHeight, type Origin } from "./Axes";
 import { MarkCard } from "./MarkCard";
 import { BEYOND_NOISE, Marks } from "./Marks";
 import type { Mark, State } from "./marks";
@@ -35,7 +34,7 @@ export interface SheetParts {
   shown?: number;
   show?: (index: number) => void;
   /** Whether a slider divides the first state, on its left, from the shown one, on its right. */
-  slides?: boolean;
+  slides?: boolean | undefined;
   /** Drawn pale, below the state that is shown. */
   ghosts?: State | undefined;
   print?: readonly (Pair | null)[] | undefined;
@@ -69,11 +68,10 @@ export function Sheet(parts: SheetParts) {
   const { selected } = pointing;
   const keys = { ...KEYS, onKeyDown: pointing.onKeyDown };
   const { left, right, top, bottom } = scale.plot;
+  const noise = sigma ? `noise: 95 % within ${namedLength(BEYOND_NOISE * sigma, units)}` : "";
   return (
     <>
-      {states.length > 1 && show && (
-        <States {...{ size, marks, states, shown, show, units }} factors={factors} />
-      )}
+      {states.length > 1 && show && <States {...{ size, marks, states, shown, show, factors }} />}
       {before && state && (
         <Slider x={line} wide={size[0]} move={slide} left={before.title} right={state.title} />
       )}
@@ -95,7 +93,7 @@ export function Sheet(parts: SheetParts) {
                 <g clip-path={zoom.times > 1 ? `url(#${clip})` : undefined}>
                   <Wood size={size} />
                 </g>
-                <Axes units={units} origin={parts.origin ?? MIDDLE} />
+                <Axes origin={parts.origin} />
                 <g clip-path={zoom.times > 1 ? `url(#${clip})` : undefined}>
                   {parts.children}
                   {before && <Divide x={line} />}
@@ -109,11 +107,7 @@ export function Sheet(parts: SheetParts) {
                     selected={selected}
                   />
                 </g>
-                <Legend
-                  units={units}
-                  factor={factor}
-                  circle={state?.promised ? "promised" : noiseWords(sigma, units)}
-                />
+                <Legend factor={factor} circle={state?.promised ? "promised" : noise} />
               </ScaleContext.Provider>
             </svg>
           </div>
@@ -126,7 +120,6 @@ export function Sheet(parts: SheetParts) {
                 mark={marks[selected]}
                 error={state?.errors[selected]}
                 chains={state?.chains?.[selected]}
-                units={units}
               />
             ) : (
               hasArrows && <span>Touch a mark: its numbers stand here.</span>
@@ -148,10 +141,6 @@ export function Sheet(parts: SheetParts) {
       </figure>
     </>
   );
-}
-
-function noiseWords(sigma: number | undefined, units: Unit): string {
-  return sigma ? `noise: 95 % within ${namedLength(BEYOND_NOISE * sigma, units)}` : "";
 }
 
 /** The lines along which a tape is laid, from place to place [mm]. */

@@ -1,5 +1,5 @@
 // The states to compare, each with its error and a small sheet of its arrows; a press shows it.
-import { namedLength, shownLength, type Unit } from "../controls/lengths";
+import { namedLength, shownLength, useUnits } from "../controls/lengths";
 import { Segments } from "../controls/Segments";
 import type { Mark, State } from "./marks";
 import type { Pair } from "./view";
@@ -10,14 +10,14 @@ interface StatesParts {
   states: readonly State[];
   shown: number;
   show: (index: number) => void;
-  units: Unit;
   size: Pair;
   marks: readonly Mark[];
   /** How many times longer than life the arrows of each state are. */
   factors: readonly number[];
 }
 
-export function States({ states, shown, show, units, size, marks, factors }: StatesParts) {
+export function States({ states, shown, show, size, marks, factors }: StatesParts) {
+  const units = useUnits();
   return (
     <Segments
       class="states"

@@ -1,7 +1,9 @@
 // How marks are drawn and found: arithmetic of the sheet.
+import { withMinus } from "../controls/lengths";
+
 export type Pair = readonly [number, number];
 
-const FACTORS = [1, 2, 5, 10, 20, 50, 100, 200, 500];
+const MOST = 500; // times
 const LONGEST = 0.16; // of the sheet's width, for the longest arrow
 const WIDEST = 0.06; // of the sheet's width, for the radius of a circle of noise
 
@@ -13,7 +15,7 @@ export function factorFor(
 ): number {
   const longest = Math.max(1e-6, ...errors.map((error) => (error ? Math.hypot(...error) : 0)));
   const most = Math.min((LONGEST * width) / longest, (WIDEST * width) / Math.max(1e-6, circle));
-  return FACTORS.filter((factor) => factor <= most).at(-1) ?? 1;
+  return Math.max(1, Math.min(MOST, rounded(most)));
 }
 
 /** The largest of 1, 2, 5, 10, ... up to this number. */
@@ -39,7 +41,7 @@ export function ticks(end: number, other: number, count: number): number[] {
 
 /** A number at an axis, with a minus as wide as the figures. */
 export function tickText(tick: number): string {
-  return String(Number(tick.toPrecision(6))).replace("-", "\u2212");
+  return withMinus(String(Number(tick.toPrecision(6))));
 }
 
 const WAYS: Record<string, Pair> = {

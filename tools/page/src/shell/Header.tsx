@@ -1,4 +1,6 @@
 // The header: the folder, unsaved changes, and the unit of lengths.
+
+import { useUnits } from "../controls/lengths";
 import { Segments } from "../controls/Segments";
 import { useOutbox } from "./kept";
 import { waitingPlaces } from "./outbox";
@@ -14,7 +16,7 @@ export function Header() {
   const { project, trouble, choose } = useProject();
   useOutbox();
   const waits = waitingPlaces().length > 0 && trouble.startsWith(SILENT);
-  const units = project.choices.units ?? "mm";
+  const units = useUnits();
   return (
     <header class="row">
       <button type="button" class="skip primary" onClick={toScreen}>
@@ -33,7 +35,7 @@ export function Header() {
         legend="Lengths in"
         options={UNITS}
         chosen={units}
-        choose={(units) => void choose({ units })}
+        choose={(units) => choose({ units })}
       />
     </header>
   );

@@ -4,27 +4,26 @@
 import { send } from "../api/client";
 import { Table } from "../controls/Table";
 import { Do } from "./doing";
-import { isReady, type Machine, subject, useMachine } from "./machine";
+import { isReady, useMachine } from "./machine";
 import { useProject, useTell } from "./project";
 import { type HeldAnswer, useHeld } from "./useHeld";
 
 const SHOWN = 6;
 
 export function Held() {
-  const machine = useMachine();
   const held = useHeld();
-  if (!held || held.numbers.length === 0) return null;
+  if (!held || held.said.length === 0) return null;
   if (held.is_fit)
     return (
       <p class="box trouble" role="status">
-        {subject(machine)} does not hold the numbers of {held.file} yet.{" "}
-        <a href="#/correct">Send them to it</a> before you cut.
+        {held.headline} <a href="#/correct">Send them to it</a> before you cut.
       </p>
     );
-  return <Question held={held} machine={machine} />;
+  return <Question held={held} />;
 }
 
-function Question({ held, machine }: { held: HeldAnswer; machine: Machine }) {
+function Question({ held }: { held: HeldAnswer }) {
+  const machine = useMachine();
   const { reload } = useProject();
   const tell = useTell();
   const { file, said } = held;
@@ -35,9 +34,7 @@ function Question({ held, machine }: { held: HeldAnswer; machine: Machine }) {
   const blocked = !isReady(machine);
   return (
     <section class="box trouble" role="alert" aria-label="Which numbers hold?">
-      <h2>
-        {subject(machine)} holds other numbers than {file}. Which hold?
-      </h2>
+      <h2>{held.headline}</h2>
       <Table names={["number", file, "the machine"]} rows={said.slice(0, SHOWN)} />
       {said.length > SHOWN && <p>and {said.length - SHOWN} more.</p>}
       <p class="row">

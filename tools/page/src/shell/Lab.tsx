@@ -1,19 +1,20 @@
 // The lab: the steps at the side, the screen in the middle, errors on top.
 import { useEffect, useRef, useState } from "preact/hooks";
+import type { Schemas } from "../api/client";
 import { isPhone } from "../api/here";
 import { Trouble } from "../controls/Trouble";
-import { Hands } from "./Hands";
 import { Header } from "./Header";
 import { Held } from "./Held";
 import { MachineBar } from "./MachineBar";
 import { type LiveMachine, MachineContext, useLiveMachine } from "./machine";
 import { Pair } from "./Pair";
-import { type Loaded, type Shared, useSharedProject } from "./project";
+import { useProject, useSharedProject } from "./project";
 import { Screen as Framed } from "./Screen";
 import { Shares } from "./Shares";
 import { StopFailed } from "./StopFailed";
 import { ROOMS, STEPS, type Step } from "./steps";
 import { Way, WayOn } from "./Way";
+import { useWatched } from "./watched";
 
 /** Shown for an unknown address. */
 const NOWHERE: Step = {
@@ -61,30 +62,22 @@ export function Lab() {
         <Header />
         <MachineBar live={live} />
         <Way project={shared.project} here={step.id} />
-        <Main {...{ step, shared, loaded, live }} />
+        <Main {...{ step, live }} />
       </MachineContext.Provider>
     </Shares>
   );
 }
 
-interface MainParts {
-  step: Step;
-  shared: Shared;
-  loaded: Loaded;
-  live: LiveMachine;
-}
-
-function Main({ step, shared, loaded, live }: MainParts) {
-  const { project } = shared;
-  const trouble = loaded.trouble || project.trouble;
+function Main({ step, live }: { step: Step; live: LiveMachine }) {
+  const { project, trouble } = useProject();
   const missing = step.needs(project);
   const place = useRef<HTMLElement>(null);
   const first = useRef(true);
   useEffect(() => {
     document.title = `${step.title} · ${project.folder} · Plumb`;
     // Keyboard and screen reader users go on at the new screen.
-    if (!first.current) place.current?.focus({ preventScroll: true });
     if (!first.current) {
+      place.current?.focus({ preventScroll: true });
       scrollTo(0, 0);
       place.current?.scrollTo(0, 0);
     }
@@ -95,7 +88,7 @@ function Main({ step, shared, loaded, live }: MainParts) {
     <main ref={place} id="screen" tabIndex={-1}>
       <div class="above">
         <StopFailed live={live} />
-        <Trouble>{trouble}</Trouble>
+        <Trouble>{trouble || project.trouble}</Trouble>
         {isPhone && <Hands />}
         <Held />
       </div>
@@ -106,5 +99,16 @@ function Main({ step, shared, loaded, live }: MainParts) {
       )}
       <WayOn project={project} here={step.id} />
     </main>
+  );
+}
+
+/** On a phone: what it may do, if not everything. */
+function Hands() {
+  const { state: me } = useWatched<Schemas["Phone"] | null>("phones/me");
+  if (!me || me.may_move) return null;
+  return (
+    <p class="hands soft" role="status">
+      {me.name} {me.may}. On the computer you can let it move the machine too.
+    </p>
   );
 }

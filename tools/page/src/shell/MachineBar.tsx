@@ -2,18 +2,18 @@
 // at the foot of a narrow one, near the thumb.
 import { useEffect, useState } from "preact/hooks";
 import { send } from "../api/client";
+import { useUnits } from "../controls/lengths";
 import { useDo } from "./doing";
-import { isReady, type LiveMachine, type Machine, placeWords, subject } from "./machine";
+import { type LiveMachine, type Machine, placeWords } from "./machine";
 import { Ports } from "./Ports";
 import type { Press } from "./presses";
-import { useProject } from "./project";
 import "./machine-bar.css";
 
 const UNREACHABLE = "Cannot reach the machine: use its power switch";
 
 export function MachineBar({ live }: { live: LiveMachine }) {
   const { machine, presses, press } = live;
-  const { project } = useProject();
+  const units = useUnits();
   const [, run, refusal] = useDo();
   const goOn = () => {
     presses.giveUp();
@@ -38,12 +38,10 @@ export function MachineBar({ live }: { live: LiveMachine }) {
     <section ref={place} class={`machine-bar ${tone(machine)}`} aria-label="The machine">
       <div class="line">
         <p class={unseen ? "state old" : "state"}>
-          <strong role="status">{stateWords(machine)}</strong>
+          <strong role="status">{unseen ? `${machine.subject}: last seen` : machine.doing}</strong>
           <strong>{countWords(machine)}</strong>
           {machine.place && machine.knows_place && (
-            <span class="place soft">
-              {placeWords(machine.place, project.choices.units ?? "mm")}
-            </span>
+            <span class="place soft">{placeWords(machine.place, units)}</span>
           )}
         </p>
         {works && (
@@ -140,20 +138,4 @@ function countWords({ unseen, holds, phase, program }: Machine): string {
   if (unseen > 0) return ` ${unseen} s ago`;
   if (holds || phase !== "busy" || program?.outcome !== "running") return "";
   return `: ${program.done} of ${program.total} lines`;
-}
-
-/** What the machine does, in a few words. */
-function stateWords(machine: Machine): string {
-  const { phase, program } = machine;
-  const name = subject(machine);
-  if (machine.unseen > 0) return `${name}: last seen`;
-  if (phase === "lost") return `${name}: the line is lost`;
-  if (phase === "connecting") return `${name}: connecting`;
-  if (phase === "stopping") return `${name} stops`;
-  if (machine.waits_for) return `${name} waits for you`;
-  if (machine.holds) return `${name} holds`;
-  if (phase === "busy" && program?.outcome === "running") return `${name} runs ${program.title}`;
-  if (machine.moves) return `${name} moves`;
-  if (!machine.knows_place) return `${name} does not know its place`;
-  return isReady(machine) ? `${name} stands` : `${name} works`;
 }

@@ -12,7 +12,7 @@ export function Pair({ paired }: { paired: () => Promise<void> }) {
   const pair = (typed: string) =>
     run(async () => {
       const body = { pin: typed, kind: kindOfPhone() };
-      await send<Schemas["PhoneAnswer"]>("POST", "phones/pair", body);
+      await send<Schemas["Phone"]>("POST", "phones/pair", body);
       await paired();
     });
   useEffect(() => {

@@ -1,6 +1,6 @@
 // Provides the project, the chosen unit and the sheet's size to everything inside.
 import type { ComponentChildren } from "preact";
-import { Units } from "../controls/units";
+import { Units } from "../controls/lengths";
 import { SheetSize, Stamp } from "../sheet/scale";
 import { ProjectContext, type Shared } from "./project";
 

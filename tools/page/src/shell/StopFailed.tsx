@@ -1,6 +1,7 @@
 // Stop did not get through: what to do by hand, and what was last heard of the machine.
+
+import { useUnits } from "../controls/lengths";
 import { Table } from "../controls/Table";
-import { useUnits } from "../controls/units";
 import { type LiveMachine, placeWords } from "./machine";
 
 export function StopFailed({ live: { machine, press } }: { live: LiveMachine }) {

@@ -1,6 +1,8 @@
 // One action at a time, started by a control; a refusal is shown at that control.
 import type { ComponentChild, ComponentChildren } from "preact";
 import { useEffect, useState } from "preact/hooks";
+import { lineOf } from "../api/client";
+import { Trouble } from "../controls/Trouble";
 
 /** Whether an action is running, which control started it, and why the last was refused. */
 export type Doing = [
@@ -28,19 +30,11 @@ export function useDo(): Doing {
       await work();
       for (const clear of clearings) clear();
     } catch (error) {
-      setLine(error instanceof Error ? error.message : String(error));
+      setLine(lineOf(error));
     }
     setBusy(false);
   };
-  return [busy, run, line && <Refusal line={line} />];
-}
-
-export function Refusal({ line }: { line: string }) {
-  return (
-    <span class="refusal" role="alert">
-      {line}
-    </span>
-  );
+  return [busy, run, <Trouble key="refusal">{line}</Trouble>];
 }
 
 interface DoParts {

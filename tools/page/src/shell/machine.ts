@@ -12,6 +12,8 @@ export type Machine = Schemas["MachineAnswer"] & { unseen: number };
 const NONE: Machine = {
   kind: "none",
   name: "",
+  subject: "",
+  doing: "",
   phase: "none",
   place: null,
   knows_place: true,
@@ -47,11 +49,6 @@ export function isReady(machine: Machine): boolean {
 /** Whether it is connected. */
 export function isConnected({ kind, phase }: Machine): boolean {
   return kind !== "none" && phase !== "lost";
-}
-
-/** Its name with a capital letter. */
-export function subject(machine: Machine): string {
-  return machine.kind === "virtual" ? "The virtual machine" : "The machine";
 }
 
 /** Where its sled is. */

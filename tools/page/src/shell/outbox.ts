@@ -1,6 +1,8 @@
 // Edits that the server has not confirmed yet, stored in this browser by folder, so that no crash, reload or dead
 // server loses what was typed.
 
+import { store, stored, storedNames } from "../api/stored";
+
 /** The edited value of a place, and its value before the edit. */
 export interface Edit {
   value: unknown;
@@ -18,8 +20,8 @@ export function openOutbox(key: string): void {
   if (key === folder) return;
   folder = key;
   edits.clear();
-  for (const name of storedNames()) {
-    const edit = stored(name);
+  for (const name of storedNames(storedAs(""))) {
+    const edit = stored<Edit>(name);
     const place = name.slice(storedAs("").length);
     if (edit && !edits.has(place)) edits.set(place, edit);
   }
@@ -34,22 +36,14 @@ export function editOf(place: string): Edit | undefined {
 /** Keeps an edit until it is confirmed. */
 export function keep(place: string, edit: Edit): void {
   edits.set(place, edit);
-  try {
-    localStorage.setItem(storedAs(place), JSON.stringify(edit));
-  } catch {
-    // Without storage the edit is kept as long as the tab is open.
-  }
+  store(storedAs(place), edit);
   tell();
 }
 
 /** Forgets the edit of a place: it is saved, or given up. */
 export function forget(place: string): void {
   edits.delete(place);
-  try {
-    localStorage.removeItem(storedAs(place));
-  } catch {
-    // Nothing was kept there.
-  }
+  store(storedAs(place), undefined);
   tell();
 }
 
@@ -78,22 +72,6 @@ export function listen(callback: () => void): () => void {
 
 function storedAs(place: string): string {
   return `${PREFIX}:${folder}:${place}`;
-}
-
-function storedNames(): string[] {
-  try {
-    return Object.keys(localStorage).filter((name) => name.startsWith(storedAs("")));
-  } catch {
-    return []; // a browser that forbids the storage
-  }
-}
-
-function stored(name: string): Edit | undefined {
-  try {
-    return JSON.parse(localStorage.getItem(name) ?? "") as Edit;
-  } catch {
-    return undefined;
-  }
 }
 
 function tell(): void {

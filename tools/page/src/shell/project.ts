@@ -1,20 +1,18 @@
 // The project that all screens share: what is on disk, and how a screen changes it.
 import { createContext } from "preact";
-import { useCallback, useContext, useEffect, useRef, useState } from "preact/hooks";
-import { type Choices, get, type Project, Refusal, send } from "../api/client";
-import { LOOK_MS } from "../api/patience";
-import { type Kept, useKept } from "./kept";
-import { editOf, openOutbox } from "./outbox";
-import { same } from "./rebase";
-import { Turns } from "./turns";
+import { useCallback, useContext, useRef, useState } from "preact/hooks";
+import { type Choices, LOOK_MS, lineOf, type Project, Refusal, send } from "../api/client";
+import { useFresh, usePolling } from "./fresh";
+import { useKept } from "./kept";
+import { openOutbox } from "./outbox";
 
 /** What a screen sees of the project, and what it may do with it. */
 export interface Shared {
   project: Project;
   /** Shows an answer that holds the whole project. */
   take: (project: Project) => void;
-  /** Changes choices: shown at once, kept in the browser until they are saved. Ends when they are. */
-  choose: (change: Partial<Choices>) => Promise<void>;
+  /** Changes choices: shown at once, kept in the browser until they are saved. */
+  choose: (change: Partial<Choices>) => void;
   /** Reads again what is on disk. */
   reload: () => Promise<void>;
   /** What went wrong last; empty if nothing. */
@@ -63,7 +61,25 @@ export interface Loaded {
 /** Loads the project and keeps it fresh. */
 export function useSharedProject(): Loaded {
   const [trouble, setTrouble] = useState("");
-  const { project, take, reload, isStranger } = useLoadedProject(setTrouble);
+  const [isStranger, setStranger] = useState(false);
+  const seen = ({ key }: Project) => {
+    openOutbox(key);
+    setStranger(false);
+  };
+  const { state: project, take, load } = useFresh<Project>("project", LOOK_MS, seen);
+  const reload = useCallback(
+    () =>
+      load().then(
+        () => setTrouble((line) => (line.startsWith(SILENT) ? "" : line)),
+        (error) => {
+          const isUnpaired = error instanceof Refusal && error.status === UNPAIRED;
+          setStranger(isUnpaired);
+          setTrouble(isUnpaired ? "" : lineOf(error));
+        },
+      ),
+    [load],
+  );
+  usePolling(reload, LOOK_AGAIN_MS);
   const newest = useRef(project);
   newest.current = project;
   const choices = useKept<Choices>({
@@ -79,77 +95,13 @@ export function useSharedProject(): Loaded {
     reload,
     pause: 0,
   });
-  const choose = useChoose(choices);
   const shared = project && {
     project: { ...project, choices: choices.value },
     take,
-    choose,
+    choose: (change: Partial<Choices>) => choices.put((value) => ({ ...value, ...change })),
     reload,
-    trouble,
+    trouble: trouble || choices.refused,
     setTrouble,
   };
-  return { shared, trouble: trouble || choices.refused, isStranger, reload };
-}
-
-function useLoadedProject(setTrouble: (change: (line: string) => string) => void) {
-  const [project, setProject] = useState<Project>();
-  const [isStranger, setStranger] = useState(false);
-  const turns = useRef(new Turns()).current;
-  const show = useCallback((answer: Project) => {
-    openOutbox(answer.key);
-    setStranger(false);
-    // Unchanged parts stay the same objects, so that no screen asks again for what it shows.
-    setProject((before) => (same(before, answer) ? before : answer));
-  }, []);
-  const take = useCallback(
-    (answer: Project) => {
-      // A save has finished since: this answer is out of date.
-      turns.overtake();
-      show(answer);
-    },
-    [turns, show],
-  );
-  const reload = useCallback(async () => {
-    const question = turns.begin();
-    try {
-      const answer = await get<Project>("project", LOOK_MS);
-      if (turns.counts(question)) show(answer);
-      setTrouble((line) => (line.startsWith(SILENT) ? "" : line));
-    } catch (error) {
-      const isUnpaired = error instanceof Refusal && error.status === UNPAIRED;
-      setStranger(isUnpaired);
-      setTrouble(() => (isUnpaired ? "" : error instanceof Error ? error.message : String(error)));
-    }
-  }, [turns, show, setTrouble]);
-  useEffect(() => {
-    let looks = false;
-    // Unanswered requests would use up all the browser's connections.
-    const look = async () => {
-      if (looks) return;
-      looks = true;
-      await reload();
-      looks = false;
-    };
-    void look();
-    const timer = setInterval(() => document.hidden || void look(), LOOK_AGAIN_MS);
-    return () => clearInterval(timer);
-  }, [reload]);
-  return { project, take, reload, isStranger };
-}
-
-/** Changes choices, and ends when they are saved or wait for the person. */
-function useChoose(choices: Kept<Choices>): Shared["choose"] {
-  const newest = useRef(choices);
-  newest.current = choices;
-  const callers = useRef<(() => void)[]>([]);
-  useEffect(() => {
-    if (editOf("choices") && !newest.current.refused) return;
-    for (const done of callers.current.splice(0)) done();
-  });
-  return useCallback((change) => {
-    newest.current.put((value) => ({ ...value, ...change }));
-    return new Promise((done) => {
-      callers.current.push(done);
-    });
-  }, []);
+  return { shared, trouble, isStranger, reload };
 }

@@ -51,34 +51,30 @@ const isRead = (_: Project, form: Form | undefined) =>
     : form.marks.every((mark) => mark.read));
 const isCorrected = ({ choices }: Project) => !!choices.settings_before?.length;
 
+function step(
+  id: string,
+  title: string,
+  Screen: ComponentType,
+  needs: Step["needs"],
+  more: Pick<Step, "result" | "isDone"> = {},
+): Step {
+  return { id, title, Screen, needs, ...more };
+}
+
 export const STEPS: Step[] = [
-  { id: "open", title: "Machine", Screen: Open, needs: nothing, isDone: isOpened },
-  { id: "known", title: "What you know", Screen: Known, needs: settings, result: known },
-  { id: "reach", title: "Reach", Screen: Reach, needs: settings },
-  { id: "measure", title: "Choose marks", Screen: Measure, needs: settings, isDone: isPlanned },
-  { id: "cut", title: "Cut", Screen: Cut, needs: settings, isDone: isCut },
-  {
-    id: "readings",
-    title: "Readings",
-    Screen: Readings,
-    needs: settings,
-    result: read,
-    isDone: isRead,
-  },
-  { id: "verdict", title: "Verdict", Screen: Verdict, needs: marks },
-  {
-    id: "correct",
-    title: "Correct",
-    Screen: Correct,
-    needs: marks,
-    result: accepted,
-    isDone: isCorrected,
-  },
-  { id: "prove", title: "Prove", Screen: Prove, needs: marks },
-  { id: "diary", title: "Diary", Screen: Diary, needs: nothing },
+  step("open", "Machine", Open, nothing, { isDone: isOpened }),
+  step("known", "What you know", Known, settings, { result: known }),
+  step("reach", "Reach", Reach, settings),
+  step("measure", "Choose marks", Measure, settings, { isDone: isPlanned }),
+  step("cut", "Cut", Cut, settings, { isDone: isCut }),
+  step("readings", "Readings", Readings, settings, { result: read, isDone: isRead }),
+  step("verdict", "Verdict", Verdict, marks),
+  step("correct", "Correct", Correct, marks, { result: accepted, isDone: isCorrected }),
+  step("prove", "Prove", Prove, marks),
+  step("diary", "Diary", Diary, nothing),
 ];
 
 export const ROOMS: Step[] = [
-  { id: "bench", title: "Effects bench", Screen: Bench, needs: marks },
-  { id: "practice", title: "Practice", Screen: Practice, needs: nothing },
+  step("bench", "Effects bench", Bench, marks),
+  step("practice", "Practice", Practice, nothing),
 ];

@@ -1,7 +1,7 @@
 // A part of the server's state that others change too: polled, and changed by buttons.
-import { useCallback, useEffect, useRef, useState } from "preact/hooks";
-import { get, isSilence, send } from "../api/client";
-import { LOOK_MS } from "../api/patience";
+import { useCallback, useState } from "preact/hooks";
+import { isSilence, LOOK_MS, lineOf, send } from "../api/client";
+import { useFresh, usePolling } from "./fresh";
 
 const SELDOM_MS = 3000; // so what another tab or the command line does shows up
 
@@ -18,54 +18,35 @@ export interface Watched<State> {
   refused: string;
 }
 
-/** Never two polls at once, and none while a press is under way; more often while `works`, if given. */
+/** Polled more often while `works`, if given. */
 export function useWatched<State>(
   path: string,
   works: (state: State) => boolean = () => false,
   oftenMs = SELDOM_MS,
 ): Watched<State> {
-  const [state, setState] = useState<State>();
+  const { state, take, load } = useFresh<State>(path, LOOK_MS);
   const [silent, setSilent] = useState(false);
   const [refused, setRefused] = useState("");
-  const [waiting, setWaiting] = useState(0);
-  const now = useRef({ looks: false, presses: 0, pressed: 0 }).current;
-  const refuse = (error: unknown) =>
-    setRefused(error instanceof Error ? error.message : String(error));
-  const look = useCallback(async () => {
-    if (now.looks || now.presses > 0) return;
-    now.looks = true;
-    const { pressed } = now;
-    try {
-      const seen = await get<State>(path, LOOK_MS);
-      // A press has been answered since: this answer is out of date.
-      if (pressed === now.pressed) setState(() => seen);
-      setSilent(false);
-    } catch (error) {
-      if (isSilence(error)) setSilent(true);
-      else refuse(error);
-    }
-    now.looks = false;
-  }, [path, now]);
-  const often = state !== undefined && works(state);
-  useEffect(() => {
-    void look();
-    const timer = setInterval(() => document.hidden || void look(), often ? oftenMs : SELDOM_MS);
-    return () => clearInterval(timer);
-  }, [look, often, oftenMs]);
+  const [presses, setPresses] = useState(0); // that wait
+  const look = useCallback(
+    () =>
+      load().then(
+        () => setSilent(false),
+        (error) => (isSilence(error) ? setSilent(true) : setRefused(lineOf(error))),
+      ),
+    [load],
+  );
+  usePolling(look, state !== undefined && works(state) ? oftenMs : SELDOM_MS);
   const press = async (name: string, body?: unknown) => {
-    now.presses += 1;
-    now.pressed += 1;
-    setWaiting(now.presses);
+    setPresses((count) => count + 1);
     try {
-      const answer = await send<State>("POST", `${path}/${name}`, body);
-      setState(() => answer);
+      take(await send<State>("POST", `${path}/${name}`, body));
       setSilent(false);
       setRefused("");
     } catch (error) {
-      refuse(error);
+      setRefused(lineOf(error));
     }
-    now.presses -= 1;
-    setWaiting(now.presses);
+    setPresses((count) => count - 1);
   };
-  return { state, silent, press, busy: waiting > 0, refused };
+  return { state, silent, press, busy: presses > 0, refused };
 }

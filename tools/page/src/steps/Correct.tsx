@@ -1,16 +1,15 @@
 // Step 8: each number before and after, accepted one by one; written, sent, read back, and undone.
 import { useRef } from "preact/hooks";
 import type { Choices, Schemas } from "../api/client";
-import { namedLength, shownLength } from "../controls/lengths";
+import { namedLength, shownLength, useUnits } from "../controls/lengths";
 import { Progress } from "../controls/Progress";
-import { useUnits } from "../controls/units";
 import { capital } from "../controls/words";
+import { Residuals } from "../residuals/Residuals";
 import { useAnswer } from "../shell/answer";
 import { useChoosing } from "../shell/kept";
 import { useProject } from "../shell/project";
 import { Screen } from "../shell/Screen";
 import { useHeld } from "../shell/useHeld";
-import { CorrectMap } from "./correct/CorrectMap";
 import { GoBack } from "./correct/GoBack";
 import { Numbers } from "./correct/Numbers";
 import { Refused } from "./correct/Refused";
@@ -24,7 +23,7 @@ export function Correct() {
   const { project } = useProject();
   const { answer, refused } = useAnswer<CorrectionAnswer>("correction");
   const writing = useWriting();
-  const isHeld = useHeld()?.numbers.length === 0;
+  const isHeld = useHeld()?.said.length === 0;
   // The numbers stay in view while they are fitted again.
   const latest = useRef(answer?.correction);
   latest.current = answer?.correction ?? latest.current;
@@ -94,7 +93,7 @@ function Question(parts: Parts) {
       why={<Why made={made} />}
       command={answer.command}
       stage={
-        <CorrectMap
+        <Compared
           made={made}
           states={[made.as_set, made.accepted, made.whole].filter((each) => each !== null)}
         />
@@ -123,8 +122,8 @@ function Question(parts: Parts) {
         </p>
       )}
       <Numbers made={made} busy={!current} />
-      {made.stops.length > 0 && <ByHand title="Do not write these numbers" said={made.stops} />}
-      {made.cures.length > 0 && <ByHand title="By hand" said={made.cures} />}
+      <Notes made={made} weight="stop" />
+      <Notes made={made} weight="by_hand" />
       <p class="row">
         <GoBack writing={writing} />
         {writing.notWritten}
@@ -149,7 +148,7 @@ function Written(parts: Parts) {
       }
       why={<Why made={made} />}
       command={answer.command}
-      stage={<CorrectMap made={made} states={current && made.as_set ? [made.as_set] : []} />}
+      stage={<Compared made={made} states={current && made.as_set ? [made.as_set] : []} />}
       fieldsFirst
       act={
         <>
@@ -165,7 +164,7 @@ function Written(parts: Parts) {
       )}
       <Fall from={null} to={current ? made.as_set : null} busy={!current} />
       <ToMachine {...{ writing, isHeld }} isNext last={answer.last_sent} />
-      {current && made.cures.length > 0 && <ByHand title="By hand" said={made.cures} />}
+      {current && <Notes made={made} weight="by_hand" />}
       {current && made.asked.length > 0 && (
         <details>
           <summary>What would still change</summary>
@@ -181,6 +180,13 @@ function Written(parts: Parts) {
 }
 
 type State = Schemas["State"] | null;
+
+/** What the numbers would do to the marks; no state while they are fitted to another file. */
+function Compared({ made, states }: { made: Made; states: Schemas["State"][] }) {
+  const { marks, spans, sigma } = made;
+  if (marks.length + spans.length === 0) return null;
+  return <Residuals readings={{ marks, spans, sigma }} states={states} opensOn="second" slides />;
+}
 
 /** The error of the marks, before and after; as a single figure where there is no before. */
 function Fall({ from, to, busy }: { from: State; to: State; busy: boolean }) {
@@ -201,14 +207,18 @@ function Fall({ from, to, busy }: { from: State; to: State; busy: boolean }) {
   );
 }
 
-/** Doubts about the numbers, or work on the machine that the promise depends on. */
-export function ByHand({ title, said }: { title: string; said: string[] }) {
+const TITLES = { stop: "Do not write these numbers", by_hand: "By hand" };
+
+/** Why the numbers must not be used, or work on the machine without which their promise is void. */
+export function Notes({ made, weight }: { made: Made; weight: keyof typeof TITLES }) {
+  const said = made.notes.filter((note) => note.weight === weight);
+  if (said.length === 0) return null;
   return (
-    <section class="box edge warned" aria-label={title}>
-      <h2>{title}</h2>
+    <section class="box edge warned" aria-label={TITLES[weight]}>
+      <h2>{TITLES[weight]}</h2>
       <ul>
-        {said.map((each) => (
-          <li key={each}>{capital(each)}.</li>
+        {said.map(({ text }) => (
+          <li key={text}>{capital(text)}.</li>
         ))}
       </ul>
     </section>
@@ -216,14 +226,15 @@ export function ByHand({ title, said }: { title: string; said: string[] }) {
 }
 
 export function Why({ made }: { made: Made }) {
-  const { reasons, warnings, intervals } = made;
+  const { reasons, notes, intervals } = made;
+  const doubts = notes.filter(({ weight }) => weight === "doubt" || weight === "hint");
   return (
     <>
       <p>{reasons.join(" ")}</p>
-      {warnings.length > 0 && (
+      {doubts.length > 0 && (
         <ul>
-          {warnings.map((said) => (
-            <li key={said}>{capital(said)}.</li>
+          {doubts.map(({ text }) => (
+            <li key={text}>{capital(text)}.</li>
           ))}
         </ul>
       )}

@@ -6,11 +6,6 @@ import { CutMap } from "./cut/CutMap";
 import type { Round } from "./cut/round";
 import { useCutting, useRoundOf } from "./cut/useCutting";
 
-const CHOSEN =
-  "Router off, hands and hoses away from the chains, the bit just above the wood. The sled moves over the whole sheet; the bit touches each mark 0.5 mm deep.";
-const PROPOSED =
-  "The verdict proposed these marks, on the same sheet. Router off, hands and hoses away from the chains, the bit just above the wood; it touches each mark 0.5 mm deep.";
-
 export function Cut() {
   const round = useRoundOf<Round>("rounds/marks");
   if (!round) return <Screen title="Cut the marks" say="One moment …" busy />;
@@ -19,11 +14,10 @@ export function Cut() {
 
 function OpenCut({ round }: { round: Round }) {
   const { act, fields, fieldsFirst, running } = useCutting(round);
-  const isProposed = round.origin === "proposed";
   return (
     <Screen
-      title={`Cut ${round.marks.length} ${isProposed ? "more " : ""}marks`}
-      say={isProposed ? PROPOSED : CHOSEN}
+      title={round.title}
+      say={round.say}
       {...running}
       why={<Why />}
       command={round.command}

@@ -12,7 +12,6 @@ type DiaryAnswer = Schemas["DiaryAnswer"];
 
 export function Diary() {
   const { project } = useProject();
-  const units = project.choices.units ?? "mm";
   // Asked again for a new entry or another unit; the server uses its saved unit.
   const state = `${project.files["diary.jsonl"]} ${project.choices_digest}`;
   const diary = useNewest<DiaryAnswer>("diary", state);
@@ -31,7 +30,7 @@ export function Diary() {
       title="The diary"
       say="Each correction with its error, and the history of the numbers. A number that moved by more than its interval says that the machine has changed."
     >
-      {fits.length > 0 && <Errors fits={fits} units={units} />}
+      {fits.length > 0 && <Errors fits={fits} />}
       {diary.courses.length > 0 && (
         <section>
           <h2>Numbers</h2>

@@ -5,7 +5,6 @@ import { useAsked } from "../shell/asked";
 import { useNewest } from "../shell/newest";
 import { useProject } from "../shell/project";
 import { Screen } from "../shell/Screen";
-import { EffectList } from "./measure/EffectList";
 import { type LayoutId, Layouts } from "./measure/Layouts";
 import { MarksMap, type Place } from "./measure/MarksMap";
 
@@ -26,10 +25,10 @@ export function Measure() {
   const { answer: plan, refused, looking } = useAsked(preview, state, MOMENT_MS);
   if (layouts.length === 0 || !project.machine)
     return <Screen title="Which marks?" say="One moment …" busy />;
-  const keep = (planned: Place[]) => void choose({ layout: "own", planned, proposed: "" });
+  const keep = (planned: Place[]) => choose({ layout: "own", planned, proposed: "" });
   const take = (layout: LayoutId) => {
     const planned = layout === "own" && saved.length === 0 ? places : saved;
-    void choose({ layout, planned, proposed: "" });
+    choose({ layout, planned, proposed: "" });
   };
   const better = layouts.find((layout) => layout.id === advice?.layout && layout.id !== id);
   return (
@@ -102,5 +101,24 @@ function Why() {
       Each effect pushes marks in a pattern of its own. Where two patterns look alike at your marks,
       no arithmetic can tell which it was. Marks at other places, or a weight on the sled, can.
     </p>
+  );
+}
+
+/** Each cause under the plan: it would be named, would look like another, or would stay hidden. */
+function EffectList({ causes }: { causes: Schemas["PlannedCause"][] }) {
+  return (
+    <details>
+      <summary>Each cause by itself</summary>
+      <ul class="tiles plain" aria-label="What these marks could tell">
+        {causes.map(({ noun, said: [sign, words] }) => (
+          <li key={noun} class="box">
+            <b>
+              <span aria-hidden="true">{sign}</span> {noun}
+            </b>
+            <small>{words}</small>
+          </li>
+        ))}
+      </ul>
+    </details>
   );
 }

@@ -1,7 +1,6 @@
 // Step 1: choose the machine: a file of settings, a port, or a virtual machine.
 import { type Project, sendFile } from "../api/client";
 import { isPhone } from "../api/here";
-import { namedLength } from "../controls/lengths";
 import { Connection } from "../machine/Connection";
 import { BeginStep, FirstDay, useGuide } from "../machine/Guide";
 import { MachinePicture } from "../machine/MachinePicture";
@@ -17,8 +16,8 @@ export function Open() {
   const guide = useGuide();
   const connected = useMachine().kind !== "none";
   // An unfinished first day comes first.
-  const begun = guide.guide?.steps.some((step) => step.done) && guide.guide.open !== "";
-  const first = connected && (begun || guide.guide?.here !== "" || !machine);
+  const begun = guide.state?.steps.some((step) => step.done) && guide.state.open !== "";
+  const first = connected && (begun || guide.state?.here !== "" || !machine);
   const read = machine ? `plumb settings ${machine.file}` : "plumb read -o machine.toml";
   return (
     <Screen
@@ -36,7 +35,7 @@ export function Open() {
       }
       command={read}
       stage={machine && <Opened machine={machine} />}
-      fieldsFirst={!!guide.guide?.here}
+      fieldsFirst={!!guide.state?.here}
       act={first && <BeginStep {...guide} />}
     >
       {first && <FirstDay {...guide} isNext />}
@@ -49,16 +48,11 @@ export function Open() {
 }
 
 function Opened({ machine }: { machine: NonNullable<Project["machine"]> }) {
-  const unit = useProject().project.choices.units ?? "mm";
-  const [width, height] = machine.sheet;
-  const effects = Object.keys(machine.effects).length;
   return (
     <figure>
       <MachinePicture machine={machine} />
       <figcaption>
-        <strong>{machine.file}</strong>: motors {namedLength(machine.frame.motor_gap ?? 0, unit)}{" "}
-        apart, a sheet of {namedLength(width, unit)} by {namedLength(height, unit)}
-        {effects > 0 && `, ${effects} ${effects === 1 ? "effect" : "effects"} known`}.
+        <strong>{machine.file}</strong>: {machine.said}
       </figcaption>
     </figure>
   );

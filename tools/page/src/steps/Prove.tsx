@@ -2,8 +2,7 @@
 
 import { useEffect } from "preact/hooks";
 import { type Project, send } from "../api/client";
-import { shownLength } from "../controls/lengths";
-import { useUnits } from "../controls/units";
+import { shownLength, useUnits } from "../controls/lengths";
 import { Grid } from "../readings/Grid";
 import { useReadings } from "../readings/useReadings";
 import { useProject } from "../shell/project";

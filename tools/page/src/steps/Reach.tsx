@@ -9,13 +9,13 @@ import { Screen } from "../shell/Screen";
 import "./reach.css";
 
 type Answer = Schemas["ReachAnswer"];
-/** The class of each sign of the map. */
+/** The colour of each sign of the map: of Okabe and Ito, and as light or dark as grey keeps apart. */
 const TONES: Record<string, string> = {
-  ".": "usable",
-  T: "tight",
-  S: "slack",
-  V: "vertical",
-  "#": "nowhere",
+  ".": "light-dark(#cfeadf, #123c31)", // usable
+  T: "light-dark(#d55e00, #e8803a)", // tight
+  S: "light-dark(#56b4e9, #3f8fc0)", // slack
+  V: "light-dark(#f0e442, #b9ae25)", // vertical
+  "#": "light-dark(#3a3f42, #000000)", // out of reach
 };
 
 export function Reach() {
@@ -40,7 +40,7 @@ export function Reach() {
           <ul class="plain">
             {reach.legend.map(({ sign, share, meaning }) => (
               <li key={sign}>
-                <span class={`swatch ${TONES[sign]}`} />
+                <span class="swatch" style={{ background: TONES[sign] }} />
                 <span>
                   {share}: {meaning}
                 </span>
@@ -58,12 +58,12 @@ export function Places({ reach, sheet }: { reach: Answer; sheet: readonly [numbe
   const columns = reach.map[0]?.length ?? 1;
   const [wide, high] = [sheet[0] / columns, sheet[1] / reach.map.length];
   return (
-    <g class="reached">
+    <g shape-rendering="crispEdges">
       {[...reach.map.join("")].map((sign, index) => {
         const row = Math.floor(index / columns);
         const [x, y] = at([-sheet[0] / 2 + (index % columns) * wide, sheet[1] / 2 - row * high]);
         return (
-          <rect key={index} class={TONES[sign]} x={x} y={y} width={wide * px} height={high * px} />
+          <rect key={index} fill={TONES[sign]} x={x} y={y} width={wide * px} height={high * px} />
         );
       })}
     </g>

@@ -2,9 +2,8 @@
 
 import { Trouble } from "../controls/Trouble";
 import { lengthBetween } from "../readings/distances";
-import { FileOfReadings, FormPicker } from "../readings/FormPicker";
+import { FileOfReadings, FormPicker, ReadAgain } from "../readings/FormPicker";
 import { Grid } from "../readings/Grid";
-import { ReadAgain } from "../readings/ReadAgain";
 import { ReadingsMap } from "../readings/ReadingsMap";
 import { Spans } from "../readings/Spans";
 import { Tape } from "../readings/Tape";

@@ -3,9 +3,9 @@
 import { useRef, useState } from "preact/hooks";
 import { isReport } from "../api/answers";
 import type { Schemas } from "../api/client";
+import { Parts } from "../controls/Parts";
 import { Progress } from "../controls/Progress";
 import { Table } from "../controls/Table";
-import { useUnits } from "../controls/units";
 import { capital } from "../controls/words";
 import { Residuals } from "../residuals/Residuals";
 import { useDrawn } from "../residuals/useDrawn";
@@ -19,13 +19,11 @@ import { useWriting } from "./correct/useWriting";
 import { HalfTyped } from "./verdict/HalfTyped";
 import { NextAct, NextStep } from "./verdict/NextStep";
 import { SuspectCard } from "./verdict/SuspectCard";
-import { UnseenCauses } from "./verdict/UnseenCauses";
 import type { NextAnswer, VerdictAnswer } from "./verdict/words";
 import "./verdict/verdict.css";
 
 export function Verdict() {
   const { project, trouble } = useProject();
-  const units = useUnits();
   const { answer, refused } = useAnswer<VerdictAnswer>("verdict");
   const writing = useWriting();
   const [isNextWanted, wantNext] = useNextWanted(project.key);
@@ -46,7 +44,7 @@ export function Verdict() {
   const likeliest = verdict?.marks.length ? verdict.cards[0] : undefined;
   const card =
     chosen === undefined ? likeliest : verdict?.cards.find(({ title }) => title === chosen);
-  const drawn = useDrawn(card?.effects.map(({ name }) => name) ?? [], bench?.board ?? "");
+  const drawn = useDrawn(card?.account.effects ?? [], bench?.board ?? "");
   if (refused)
     return (
       <Refused title="No verdict yet" refused={refused} writing={writing}>
@@ -67,20 +65,16 @@ export function Verdict() {
       title={verdict.title}
       say={verdict.sentence}
       busy={answer.share < 1 || (!bench && !trouble)}
-      why={<Why noise={verdict.noise} notes={verdict.notes} />}
+      why={<Why why={verdict.why} />}
       command={answer.command}
       stage={
         (verdict.marks.length > 0 || verdict.spans.length > 0) && (
           <Residuals
-            marks={verdict.marks}
-            spans={verdict.spans}
+            readings={verdict}
             states={verdict.states}
-            sigma={verdict.sigma}
             covariates={bench?.covariates}
-            doubted={verdict.doubted}
-            doubtedSpans={verdict.doubted_spans}
             drawn={drawn}
-            opensOn="frame"
+            opensOn="second"
           />
         )
       }
@@ -101,14 +95,13 @@ export function Verdict() {
         )
       }
     >
-      {verdict.slips.length > 0 && (
+      {verdict.warned.length > 0 && (
         <ul class="slips trouble">
-          {verdict.slips.map((slip) => (
-            <li key={slip}>{slip}</li>
+          {verdict.warned.map((each) => (
+            <li key={each}>{each}</li>
           ))}
         </ul>
       )}
-      {verdict.reach && <p class="trouble">{verdict.reach}.</p>}
       {!isReport && <HalfTyped />}
       <div ref={place}>{isNextWanted && <NextStep marks={verdict.marks} next={next} />}</div>
       {verdict.cards.length > 0 && (
@@ -124,15 +117,14 @@ export function Verdict() {
             <SuspectCard
               key={each.title}
               card={each}
-              units={units}
               isLaid={each.title === card?.title}
               {...(verdict.marks.length > 0
                 ? { lay: () => lay(each.title === card?.title ? null : each.title) }
                 : {})}
             />
           ))}
-          {verdict.more_cards > 0 && <p>{verdict.more_cards} more are less likely.</p>}
-          {verdict.ruled_out.map(({ noun, why }) => (
+          {verdict.more && <p>{verdict.more}</p>}
+          {verdict.ruled_out.map(([noun, why]) => (
             <article key={noun} class="card">
               <div class="head">
                 <h3>{capital(noun)}</h3>
@@ -149,7 +141,12 @@ export function Verdict() {
           <Table class="wide change" rows={verdict.sureness} />
         </section>
       )}
-      <UnseenCauses verdict={verdict} units={units} />
+      {verdict.unseen.length > 0 && (
+        <section class="hidden-effects">
+          <h2>What may act too</h2>
+          <Parts parts={verdict.unseen} />
+        </section>
+      )}
       {!isReport && <TakeAlong name="report.html">Save the report</TakeAlong>}
     </Screen>
   );
@@ -166,7 +163,7 @@ function useNextWanted(folder: string): [boolean, () => void] {
   return [isWanted, want];
 }
 
-function Why({ noise, notes }: { noise: string; notes: string[] }) {
+function Why({ why: [noise, ...notes] }: { why: string[] }) {
   return (
     <>
       <p>

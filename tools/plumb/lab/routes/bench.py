@@ -13,7 +13,6 @@ from plumb.cure.add import add, add_to
 from plumb.cure.live_board import Chosen
 from plumb.cure.machine_file import record_of, toml_of
 from plumb.diagnosis.sizes import intervals_sentence
-from plumb.fit.compare import ComparedMark
 from plumb.fit.covariates import Covariate
 from plumb.fit.expected import plausible_range
 from plumb.fit.fit import Fit
@@ -23,14 +22,14 @@ from plumb.lab.residuals import (
     NO_ENDS,
     Ends,
     Pair,
-    Span,
+    Readings,
     State,
     among_all,
     as_set,
     ends,
     fitted_state,
     pairs,
-    spans_of,
+    readings_of,
 )
 from plumb.lab.rounds import (
     board_words,
@@ -97,17 +96,11 @@ class BenchCovariate(BaseModel):
     same: str  # that it is the same for all marks, in words; empty: errors may depend on it
 
 
-class BenchAnswer(BaseModel):
+class BenchAnswer(Readings):
     """First answer to the bench."""
 
     board: str  # another for other marks or settings
-    sheet: Pair
-    sigma: float  # [mm] of a reading
-    marks: tuple[ComparedMark, ...]
     as_set: State
-    spans: list[Span]
-    doubted: list[int]  # marks whose readings are to be looked at again: no fit sees them
-    doubted_spans: list[int]
     effects: list[BenchEffect]
     covariates: list[BenchCovariate]
     new_machine: str  # name of the file that the bench writes
@@ -186,14 +179,9 @@ def open_bench(project: TheProject, warm: Warm) -> BenchAnswer:
     """Return the marks, the effects, and what errors may depend on."""
     doubts = warm.doubts
     return BenchAnswer(
+        **readings_of(warm.inputs.measurements, warm.raw, warm.live.noise.sigma, doubts),
         board=warm.key,
-        sheet=warm.live.model.sheet,
-        sigma=warm.live.noise.sigma,
-        marks=warm.raw.marks,
-        spans=spans_of(warm.inputs.measurements),
         as_set=as_set(warm.raw, doubts=doubts),
-        doubted=list(doubts.marks),
-        doubted_spans=list(doubts.spans),
         effects=_effects(warm),
         covariates=covariates_of(warm),
         new_machine=NEW_MACHINE,

@@ -7,10 +7,10 @@ from functools import partial
 from pathlib import Path
 
 from fastapi import APIRouter
-from pydantic import BaseModel, ConfigDict
+from pydantic import BaseModel
 
-from plumb.cure.add import Addition, Parameter
-from plumb.cure.decision import Decision, NextStep, decide
+from plumb.cure.add import Addition, Note, Parameter
+from plumb.cure.decision import Decision, decide
 from plumb.cure.live_board import BoardView, LiveBoard, refuse_other_origin
 from plumb.cure.machine_file import (
     Correction,
@@ -21,19 +21,20 @@ from plumb.cure.machine_file import (
 )
 from plumb.diary.file import FIT, fit_entry, keep
 from plumb.firmware.client_files import CLIENT_FILES, ClientFiles, client_files
-from plumb.fit.compare import ComparedMark
 from plumb.fit.expected import range_said
 from plumb.fit.inputs import Inputs
 from plumb.fit.problem import Checked
-from plumb.lab.background import Progress, key_of
+from plumb.lab.background import key_of
 from plumb.lab.machine_line import TheLine, refuse_unanswered
 from plumb.lab.project import FILE, Choices, Project, choices_text
-from plumb.lab.residuals import Span, State, as_set, fitted_state, spans_of
+from plumb.lab.residuals import Readings, State, as_set, fitted_state, readings_of
 from plumb.lab.rounds import board_words, checked_words, command, inputs_of, known_words, unit_words
 from plumb.lab.routes.project import ProjectAnswer, TheProject, show
 from plumb.lab.routes.verdict import TheBackground
 from plumb.model.plain import PlainChange, plain_change
 from plumb.text.errors import InputError, on_page
+from plumb.words import decision as words
+from plumb.words.states import STATES
 
 router = APIRouter(tags=["correction"])
 CLIENT_OF = {Path(file).suffix: client for client, file in CLIENT_FILES.items()}
@@ -52,27 +53,21 @@ class ChangedNumber(PlainChange):
     is_accepted: bool
 
 
-class CorrectionParts(BaseModel):
+class CorrectionParts(Readings):
     """Numbers that could be changed, and those that are accepted."""
 
-    model_config = ConfigDict(json_schema_serialization_defaults_required=True)
     said: str  # the decision, in a sentence or two
     reasons: list[str]  # why these effects, in sentences
     add: list[str]  # what plumb add is given for what is accepted
     nothing: str = ""  # a heading where no number is to be changed
-    instead: NextStep | None = None  # and where to go on then
-    numbers: list[ChangedNumber] = []
+    instead: words.Step | None = None  # and where to go on then
+    numbers: tuple[ChangedNumber, ...] = ()
     # Those that would change, or are accepted, as they become with what is accepted.
-    asked: list[ChangedNumber] = []
-    stops: list[str] = []  # reasons not to use the numbers
-    cures: list[str] = []  # for what no setting holds
-    warnings: list[str] = []  # what else is to be known, the heaviest first
+    asked: tuple[ChangedNumber, ...] = ()
+    notes: tuple[Note, ...] = ()  # on what is accepted, the heaviest first
     intervals: str = ""  # for which noise they hold
     settings: str = ""  # name of the file that these numbers would change
     is_written: bool = False  # that file was fitted to just these marks
-    marks: tuple[ComparedMark, ...] = ()
-    spans: list[Span] = []
-    sigma: float | None = None  # [mm] of a reading
     as_set: State | None = None  # the marks as that file stands
     accepted: State | None = None  # with what is accepted; None: nothing is
     whole: State | None = None  # with all of it
@@ -108,17 +103,15 @@ class Written(BaseModel):
 def show_correction(project: TheProject, background: TheBackground) -> CorrectionAnswer:
     """Return what the marks would change."""
     choices = project.choices
-    key = "\n".join([key_of(project), *sorted(choices.accepted)])
-    inputs = inputs_of(project)
+    key, inputs = key_of(project), inputs_of(project)
     refuse_other_origin(inputs)
-
-    def work(progress: Progress) -> CorrectionParts:
-        progress(0.1)
-        decision = decide(inputs)
-        progress(0.6)
-        return correction_of(inputs, decision, choices)
-
-    answer = background.ask("correction", key, work)
+    answer = background.decided(
+        "correction",
+        key,
+        inputs,
+        lambda decision, progress: correction_of(inputs, decision, choices),
+        more="\n".join(sorted(choices.accepted)),
+    )
     file = project.free_name("machine", *WRITTEN)
     unit = unit_words(choices, inputs.measurements.typed.unit)
     add = answer.result.add if answer.result else _auto_words(choices)
@@ -147,10 +140,10 @@ def correction_of(inputs: Inputs, decision: Decision, choices: Choices) -> Corre
     is_written = bool(record and record.is_of(each.digest for each in inputs.measurements.rounds))
     if decision.addition is None and not (decision.state == "good" and is_written):
         return CorrectionParts(
-            said=decision.headline,
-            reasons=list(map(on_page, decision.said)),
-            nothing=_NOTHING[decision.state],
-            instead=decision.step,
+            said=words.headline(decision),
+            reasons=list(map(on_page, words.said(decision))),
+            nothing=STATES[decision.state].title,
+            instead=words.step(decision),
             add=_auto_words(choices),
         )
     return _parts(_corrected(decision, choices), decision, choices, is_written=is_written)
@@ -159,13 +152,6 @@ def correction_of(inputs: Inputs, decision: Decision, choices: Choices) -> Corre
 def _corrected(decision: Decision, choices: Choices) -> Correction:
     noise = decision.diagnosis.noise
     return correct(decision.inputs, decision.chosen, choices.accepted, noise=noise)
-
-
-_NOTHING = {
-    "good": "Nothing to change",
-    "read_again": "First look at a reading again",
-    "measure_first": "First measure marks all over the sheet",
-}
 
 
 @router.post("/correction")
@@ -177,7 +163,7 @@ def write(known: Write, project: TheProject, line: TheLine) -> Written:
     refuse_unanswered(project, line)
     decision = decide(inputs)
     if decision.addition is None:
-        raise InputError(decision.reason)
+        raise InputError(words.reason(decision))
     made = _corrected(decision, choices).accepted
     if made is None:
         raise InputError("no number is accepted, so there is nothing to write")
@@ -226,27 +212,22 @@ def _parts(
     made: Correction, decision: Decision, choices: Choices, *, is_written: bool
 ) -> CorrectionParts:
     whole, some = made.whole, made.accepted
-    numbers = [_number(number, choices) for number in made.numbers]
+    numbers = tuple(_number(number, choices) for number in made.numbers)
     fitted = some.parameters if some else ()
     again = {each.name: _number(each, choices) for each in fitted if has_setting(each.name)}
-    asked = [again.get(number.name, number) for number in numbers]
+    now = [again.get(number.name, number) for number in numbers]
     noise = decision.diagnosis.noise
     left = partial(fitted_state, view=BoardView(LiveBoard(decision.inputs, noise=noise)))
-    notes = (some or whole).notes
     return CorrectionParts(
-        said=decision.headline,
-        reasons=list(map(on_page, decision.said)),
+        **readings_of(decision.inputs.measurements, whole.raw, noise.sigma),
+        said=words.headline(decision),
+        reasons=list(map(on_page, words.said(decision))),
         numbers=numbers,
-        asked=[each for each in asked if each.before != each.after or each.is_accepted],
-        stops=[on_page(note.text) for note in notes if note.weight == "stop"],
-        cures=list(whole.by_hand),
-        warnings=[on_page(note.text) for note in notes if note.weight in ("doubt", "hint")],
+        asked=tuple(each for each in now if each.before != each.after or each.is_accepted),
+        notes=tuple(Note(each.weight, on_page(each.text)) for each in (some or whole).notes),
         intervals=(some or whole).intervals_said,
         settings=choices.settings,
         is_written=is_written,
-        marks=whole.raw.marks,
-        spans=spans_of(decision.inputs.measurements),
-        sigma=noise.sigma,
         as_set=as_set(whole.raw, title=f"as {choices.settings} says"),
         accepted=left("with what you accepted", some.after_fit) if some else None,
         whole=left("with all of it", whole.after_fit),

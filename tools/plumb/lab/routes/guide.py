@@ -1,9 +1,9 @@
 """A machine's first day on the page, step by step; the folder keeps how far."""
 
-from typing import Annotated, Literal
+from typing import Annotated
 
-from fastapi import APIRouter, Depends
-from pydantic import BaseModel, Field
+from fastapi import APIRouter, Body, Depends
+from pydantic import BaseModel
 
 from plumb.firmware.settings import machine_of_numbers
 from plumb.fit.inputs import settings_in
@@ -14,6 +14,7 @@ from plumb.lab.machine_line import MachineLine, TheLine
 from plumb.lab.project import Choices, Number, Project, save_choices
 from plumb.lab.routes.project import TheProject, of_lab
 from plumb.text.errors import InputError
+from plumb.text.values import refuse_unknown
 
 router = APIRouter(tags=["guide"])
 
@@ -37,19 +38,6 @@ class GuideAnswer(BaseModel):
     trouble: str
 
 
-class Beginning(BaseModel):
-    """The step to begin."""
-
-    step: Literal["read", "wires", "numbers", "reach", "chains", "mark"]
-
-
-class Reply(BaseModel):
-    """The answer to a question."""
-
-    number: int
-    reply: str = Field(max_length=40)
-
-
 Desk = Annotated[GuideDesk, Depends(of_lab("guide_desk", GuideDesk))]
 
 
@@ -70,26 +58,34 @@ def show_guide(project: TheProject, desk: Desk) -> GuideAnswer:
 
 
 @router.post("/guide/begin")
-def begin(wanted: Beginning, project: TheProject, line: TheLine, desk: Desk) -> GuideAnswer:
+def begin(
+    step: Annotated[str, Body(embed=True)], project: TheProject, line: TheLine, desk: Desk
+) -> GuideAnswer:
     """Begin a step. Nothing moves before a question that names it is answered with yes."""
-    names = [step.name for step in STEPS]
+    names = [each.name for each in STEPS]
+    refuse_unknown([step], names)
     now = open_step(progress_in(project.folder).done)
-    if now and names.index(wanted.step) > names.index(now):
+    if now and names.index(step) > names.index(now):
         raise InputError(f"this step comes later: first {STEPS[names.index(now)].title}")
     desk.begin(
-        STEPS[names.index(wanted.step)],
+        STEPS[names.index(step)],
         project.folder,
         line,
         unit=project.choices.unit,
-        finished=lambda visit: _keep(project, line, visit, wanted.step),
+        finished=lambda visit: _keep(project, line, visit, step),
     )
     return show_guide(project, desk)
 
 
 @router.post("/guide/answer")
-def answer(reply: Reply, project: TheProject, desk: Desk) -> GuideAnswer:
+def answer(
+    number: Annotated[int, Body()],
+    reply: Annotated[str, Body(max_length=40)],
+    project: TheProject,
+    desk: Desk,
+) -> GuideAnswer:
     """Answer a question; the machine may move as the question says."""
-    desk.answer(reply.number, reply.reply)
+    desk.answer(number, reply)
     return show_guide(project, desk)
 
 

@@ -5,7 +5,6 @@ from typing import Annotated
 from fastapi import APIRouter, Body
 from pydantic import BaseModel, FiniteFloat, PositiveFloat
 
-from plumb.firmware.settings import Difference
 from plumb.lab.known import KnownNumber, known_numbers, number_checks, with_known
 from plumb.lab.machine_line import TheLine, held_otherwise, is_fit_of_machine
 from plumb.lab.project import Number, save_choices
@@ -14,6 +13,7 @@ from plumb.lab.routes.project import ProjectAnswer, TheProject, show
 from plumb.plan.case import PlannedCheck
 from plumb.text.errors import InputError
 from plumb.text.values import refuse_unknown
+from plumb.words import machine as words
 
 router = APIRouter(tags=["known"])
 
@@ -84,7 +84,7 @@ class HeldAnswer(BaseModel):
     """Differences between the open file and the machine; empty while they agree."""
 
     file: str
-    numbers: tuple[Difference, ...]
+    headline: str
     said: list[tuple[str, str, str]]  # each with its name, in the file and in the machine
     is_fit: bool  # the file was fitted to marks that the machine cut with what it holds
     is_written_here: bool  # the file's numbers can be written from here; a client sends others
@@ -93,11 +93,11 @@ class HeldAnswer(BaseModel):
 @router.get("/machine/held")
 def show_held(project: TheProject, line: TheLine) -> HeldAnswer:
     """Compare what the machine last listed with the open settings."""
-    choices, numbers = project.choices, held_otherwise(project, line)
+    file, is_fit = project.choices.settings, is_fit_of_machine(project, line)
     return HeldAnswer(
-        file=choices.settings,
-        numbers=numbers,
-        said=[number.said for number in numbers],
-        is_fit=is_fit_of_machine(project, line),
-        is_written_here=choices.settings.endswith(".toml"),
+        file=file,
+        headline=words.held_otherwise(line.subject, file, is_fit=is_fit),
+        said=[number.said for number in held_otherwise(project, line)],
+        is_fit=is_fit,
+        is_written_here=file.endswith(".toml"),
     )

@@ -38,6 +38,7 @@ from plumb.text.errors import InputError, on_page
 from plumb.vm.garage import RANDOM
 from plumb.vm.owner import VirtualOwner
 from plumb.vm.practice import SECRET, Secret
+from plumb.words.machine import doing
 
 router = APIRouter(tags=["machine"])
 MACHINE = "machine.toml"
@@ -51,6 +52,8 @@ class MachineAnswer(LineState):
 
     kind: Literal["none", "board", "virtual"]
     name: str
+    subject: str  # what it is called where a sentence begins
+    doing: str  # what it does, in a few words
     silent_s: int  # since the machine last reported; 0 while it does
     numbers_digest: str  # of those that it last listed; empty if it listed none
     brought: str  # our firmware, which can be written to a board; empty if there is none
@@ -112,6 +115,8 @@ def machine(line: TheLine) -> MachineAnswer:
         **vars(state),
         kind=kind if line.name else "none",
         name=line.name,
+        subject=line.subject,
+        doing=doing(state, line.subject),
         silent_s=int(line.silence) if line.silence >= SILENT else 0,
         numbers_digest=digest_of_numbers(state.numbers) if state.numbers else "",
         brought=_brought(),

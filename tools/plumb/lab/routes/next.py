@@ -9,7 +9,7 @@ from pydantic import BaseModel
 
 from plumb import api
 from plumb.fit.inputs import settings_in
-from plumb.lab.background import Answer, Background, Progress, key_of
+from plumb.lab.background import Answer, Background, key_of
 from plumb.lab.project import ChangedError, Project, digest_of, save_choices
 from plumb.lab.rounds import (
     FORM_NAME,
@@ -123,11 +123,12 @@ def put_back(project: TheProject) -> ProjectAnswer:
 
 def _proposed(project: Project, background: Background, inputs: api.Inputs) -> Answer[Next]:
     """Return what to measure next, or how far that is."""
-
-    def work(progress: Progress) -> Next:
-        return propose(api.diagnose(inputs), inputs, progress=progress)
-
-    return background.ask("next", key_of(project), work)
+    return background.decided(
+        "next",
+        key_of(project),
+        inputs,
+        lambda decision, progress: propose(decision.diagnosis, inputs, progress=progress),
+    )
 
 
 def next_answer(

@@ -18,13 +18,6 @@ class PhonesAnswer(BaseModel):
     phones: list[Phone]
 
 
-class PhoneAnswer(BaseModel):
-    """Name and rights of the asking browser."""
-
-    name: str  # empty on the computer itself
-    may_move: bool
-
-
 class Pairing(BaseModel):
     """Request of a phone to be paired."""
 
@@ -43,18 +36,18 @@ def show_phones(phones: ThePhones) -> PhonesAnswer:
 
 
 @router.post("/phones/pair")
-def pair(asked: Pairing, phones: ThePhones, response: Response) -> PhoneAnswer:
+def pair(asked: Pairing, phones: ThePhones, response: Response) -> Phone:
     """Pair the phone that asks: its browser gets a key of its own."""
     key, phone = phones.pair(asked.pin, asked.kind)
     response.set_cookie(COOKIE, key, httponly=True, samesite="strict")
-    return PhoneAnswer(name=phone.name, may_move=phone.may_move)
+    return phone
 
 
 @router.get("/phones/me")
-def who_asks(request: Request) -> PhoneAnswer:
-    """Return what the asking browser may do."""
+def who_asks(request: Request) -> Phone | None:
+    """Return the phone that asks; None for the computer itself."""
     phone: Phone | None = request.scope.get("phone")
-    return PhoneAnswer(name=phone.name if phone else "", may_move=phone.may_move if phone else True)
+    return phone
 
 
 @router.post("/phones/{number}/let")

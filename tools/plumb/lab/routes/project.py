@@ -30,6 +30,7 @@ from plumb.marks.plausible import from_edges
 from plumb.settings.machine import MachineSettings
 from plumb.text.answers import like
 from plumb.text.errors import InputError, on_page
+from plumb.text.values import Unit
 from plumb.vm.practice import Score, score, secret_in
 from plumb.words.comparison import conclusion
 
@@ -44,7 +45,7 @@ class Machine(BaseModel):
     file: str
     sheet: tuple[float, float]  # width, height
     frame: dict[str, float]  # by name of the setting
-    effects: dict[str, dict[str, float]]
+    said: str  # what it is, in a sentence
 
 
 class ProjectAnswer(BaseModel):
@@ -67,13 +68,6 @@ class ChoicesChange(BaseModel):
     read: str
 
 
-async def project_of(request: Request) -> Project:
-    """Return the project that this server serves."""
-    project = request.app.state.project
-    assert isinstance(project, Project)
-    return project
-
-
 Kept = TypeVar("Kept")
 
 
@@ -88,7 +82,7 @@ def of_lab(name: str, kind: type[Kept]) -> Callable[[Request], Kept]:
     return found
 
 
-TheProject = Annotated[Project, Depends(project_of)]
+TheProject = Annotated[Project, Depends(of_lab("project", Project))]
 
 
 @router.get("/project")
@@ -99,7 +93,7 @@ def show(project: TheProject) -> ProjectAnswer:
     if choices.settings:
         try:
             settings = settings_in(project.path(choices.settings))
-            machine = machine_of(settings, choices.settings)
+            machine = machine_of(settings, choices.settings, choices.unit)
             changed = changed_since_fit(project, choices, settings)
         except Exception as error:
             trouble = on_page(error)
@@ -161,9 +155,13 @@ def laid_down(project: Project, file: UploadFile, ending: str) -> Iterator[Path]
         Path(name).unlink()
 
 
-def machine_of(settings: MachineSettings, file: str) -> Machine:
+def machine_of(settings: MachineSettings, file: str, unit: Unit) -> Machine:
     """Return a machine as the page shows it."""
-    return like(Machine, settings, file=file)
+    gap, width, height = (unit.worded(mm, 1) for mm in (settings.motor_gap, *settings.sheet))
+    known = len(settings.effects)
+    effects = f", {known} {'effect' if known == 1 else 'effects'} known" if known else ""
+    said = f"motors {gap} apart, a sheet of {width} by {height}{effects}."
+    return like(Machine, settings, file=file, said=said)
 
 
 # Readings that disagree, asked for after each that is typed.

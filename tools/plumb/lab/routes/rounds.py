@@ -23,6 +23,7 @@ from plumb.marks.form import BLANK, Form, with_distances
 from plumb.settings.machine import MachineSettings
 from plumb.text.errors import InputError
 from plumb.vm.owner import VirtualOwner
+from plumb.words import round as words
 
 router = APIRouter(tags=["rounds"])
 Which = Literal["marks", "proof"]
@@ -40,6 +41,9 @@ class RoundAnswer(HowFar):
     """A round of marks, the program that cuts it, and whether that broke off."""
 
     origin: Origin  # other than chosen marks go onto the sheet before
+    title: str
+    say: str
+    begins: str  # how the button begins that cuts it from the first mark
     form: str  # the file that waits for readings
     program: str  # the file of the G-code
     is_saved: bool  # both are in the folder as they would be written now
@@ -49,7 +53,7 @@ class RoundAnswer(HowFar):
     waits: int  # marks of the form that wait for a reading
     last_form: str  # the newest with readings; empty if there is none
     command: str
-    sheet_rise: float  # [mm] by which the next sheet's right end is raised, as the fit says
+    next_sheet: str  # how the next sheet lies, as the fit says
     pauses: tuple[Wait, ...]  # where the program waits for somebody
     # [min] from the start until so many lines are done; empty without a machine's numbers
     done_at: tuple[float, ...]
@@ -76,9 +80,15 @@ def round_answer(this: Round, project: Project, line: MachineLine) -> RoundAnswe
     far = how_far(project, line, this.program, this.text, names)
     # What is to be done in a pause is asked again: nothing goes on where one is between two marks.
     is_between = any(lines[0] <= wait.lines < lines[-1] for wait in pauses)
+    far = far.model_copy(update={"goes_on": far.goes_on and not is_between})
+    title, say = words.what_is_cut(len(this.marks), this.origin)
+    rise = _sheet_rise(opened(project), choices)
     return RoundAnswer(
-        **{**vars(far), "goes_on": far.goes_on and not is_between},
+        **{**vars(far), "broke_said": _broke_said(this, far, line)},
         origin=this.origin,
+        title=title,
+        say=say,
+        begins=_begins(this, far, line),
         form=this.form,
         program=this.program,
         is_saved=this.is_saved(project),
@@ -91,10 +101,31 @@ def round_answer(this: Round, project: Project, line: MachineLine) -> RoundAnswe
         waits=blank.decode(errors="replace").count(BLANK) if blank else 0,
         last_form=choices.marks[-1] if choices.marks else "",
         command=this.command,
-        sheet_rise=_sheet_rise(opened(project), choices),
+        next_sheet=words.next_sheet(rise, choices.unit, is_virtual=bool(line.virtual)),
         pauses=pauses,
         done_at=_done_at(line, this.text),
     )
+
+
+def _broke_said(this: Round, far: HowFar, line: MachineLine) -> str:
+    """Return how far a cut came that broke off, and what can be done; empty if it did not."""
+    if far.broke_off in (None, len(this.marks)):
+        return far.broke_said
+    then = words.begin_or_go_on(
+        this.origin,
+        is_virtual=bool(line.virtual),
+        is_connected=bool(line.name) and line.state.phase != "lost",
+        goes_on=far.goes_on,
+        next_mark="" if far.perhaps else this.marks[far.broke_off or 0].name,
+    )
+    return f"{far.broke_said} {then}"
+
+
+def _begins(this: Round, far: HowFar, line: MachineLine) -> str:
+    if far.broke_off is None:
+        return "Move"
+    cut = far.broke_off + far.perhaps > 0
+    return words.beginning(this.origin, may_be_twice=cut and not line.virtual)
 
 
 def _done_at(line: MachineLine, text: str) -> tuple[float, ...]:

@@ -7,7 +7,7 @@ export function Numbers({ made, busy }: { made: Schemas["CorrectionParts"]; busy
   const { project, choose } = useProject();
   // Including those not yet saved on the server.
   const accepted = project.choices.accepted ?? [];
-  const accept = (names: string[]) => void choose({ accepted: names });
+  const accept = (names: string[]) => choose({ accepted: names });
   const now = made.asked;
   // Those that a real machine can have.
   const all = now.filter(({ possible }) => possible).map(({ name }) => name);

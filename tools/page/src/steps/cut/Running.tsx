@@ -1,24 +1,13 @@
 // How far a cut is that runs: marks, minutes, and what the machine last said; where it waits for you.
-import { shownLength } from "../../controls/lengths";
-import { Table } from "../../controls/Table";
-import { useUnits } from "../../controls/units";
 import { capital } from "../../controls/words";
 import type { Machine } from "../../shell/machine";
 import { marksBefore, minutesAt, type Round } from "./round";
 
 export function Running({ round, machine }: { round: Round; machine: Machine }) {
-  const units = useUnits();
-  const { program, place, kind, unseen } = machine;
+  const { program, kind } = machine;
   const [lines, total] = [program?.done ?? 0, program?.total ?? 1];
   const left = Math.ceil(minutesAt(round, total) - minutesAt(round, lines));
   const pause = round.pauses.find((each) => each.lines > lines);
-  const facts = [
-    ["File", round.program],
-    ["Line", `${lines} of ${total}`],
-    ["Sled", place && `${place.map((mm) => shownLength(mm, units)).join(", ")} ${units}`],
-    ["Next pause", pause && `after mark ${marksBefore(round, pause.lines)}: ${pause.do}`],
-    ["Last answer", `${unseen} s ago`],
-  ];
   return (
     <>
       <p class="soft">
@@ -26,7 +15,11 @@ export function Running({ round, machine }: { round: Round; machine: Machine }) 
         {/* A virtual machine is as fast as it was asked to be. */}
         {kind === "board" && left > 0 && `, ${left} min left`}
       </p>
-      <Table class="wide change" rows={facts.filter(([, said]) => said)} />
+      {pause && (
+        <p>
+          The next pause comes after mark {marksBefore(round, pause.lines)}: {pause.do}.
+        </p>
+      )}
     </>
   );
 }

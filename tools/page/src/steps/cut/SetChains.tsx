@@ -2,8 +2,7 @@
 import type { ComponentChild } from "preact";
 import { useState } from "preact/hooks";
 import { send } from "../../api/client";
-import { shownLength, typedLength } from "../../controls/lengths";
-import { useUnits } from "../../controls/units";
+import { shownLength, typedLength, useUnits } from "../../controls/lengths";
 import { useDo } from "../../shell/doing";
 import { useMachine } from "../../shell/machine";
 

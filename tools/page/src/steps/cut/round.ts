@@ -4,6 +4,12 @@ import type { Machine } from "../../shell/machine";
 
 export type Round = Schemas["RoundAnswer"];
 
+export interface RoundParts {
+  round: Round;
+  /** Whether the button of the screen does it. */
+  isNext?: boolean;
+}
+
 /** How the program of a round ended or that it runs; undefined if another ran last, or none. */
 export function outcomeOf({ program }: Round, machine: Machine) {
   return machine.program?.title === program ? machine.program.outcome : undefined;

@@ -11,15 +11,16 @@ import { useGoOn } from "./GoOn";
 import { NewSheet } from "./NewSheet";
 import { Outcome, Read, ToReadings } from "./Outcome";
 import { Pauses, Running } from "./Running";
-import { isCut, outcomeOf, type Round } from "./round";
+import { isCut, outcomeOf, type Round, type RoundParts } from "./round";
 import { useSetChains } from "./SetChains";
 import "./cut.css";
 
 /** An answer with a round, as it would be written now; asked again when a file, a choice or the machine changes. */
 export function useRoundOf<Answer>(path: string): Answer | undefined {
-  const { program, name } = useMachine();
+  const machine = useMachine();
   const { files } = useProject().project;
-  return useNewest<Answer>(path, JSON.stringify([files, program?.outcome ?? "", name]));
+  const state = [files, machine.program?.outcome ?? "", machine.name, isConnected(machine)];
+  return useNewest<Answer>(path, JSON.stringify(state));
 }
 
 function pathOf({ origin }: Round): string {
@@ -51,7 +52,7 @@ export function useCutting(round: Round) {
     <>
       <Trouble>{round.trouble}</Trouble>
       {runs ? <Running round={round} machine={machine} /> : <Pauses round={round} />}
-      <Outcome round={round} isRead={next === "read"} />
+      <Outcome round={round} isNext={next === "read"} />
       {next === "chains" && chains}
       {next === "go on" && whichIsLast}
       {!runs && next !== "chains" && <Choice round={round} next={next} />}
@@ -86,11 +87,6 @@ function whileRunning({ waits_for, unseen }: Machine): { title: string; say: str
         ? ["The machine waits for you", `${capital(waits_for)}. Then press Go on.`]
         : ["The machine is cutting", "Stay beside it. Hold pauses; Stop gives up."];
   return { title, say };
-}
-
-interface RoundParts {
-  round: Round;
-  isNext?: boolean;
 }
 
 /** What else can be done. */
@@ -130,7 +126,7 @@ function MoveAndCut({ round, isNext }: RoundParts) {
   const work = () => send("POST", `${pathOf(round)}/cut`).then(reload);
   return (
     <Do isNext={isNext} disabled={blocked} work={work}>
-      {beginWords(round, machine)} the sled and cut {round.marks.length} marks
+      {round.begins} the sled and cut {round.marks.length} marks
     </Do>
   );
 }
@@ -143,13 +139,4 @@ function Save({ round, isNext }: RoundParts) {
       {round.is_saved ? `Saved: ${round.program}` : `Save ${round.program}; nothing moves`}
     </Do>
   );
-}
-
-/** Beginning again on the same sheet would cut the finished marks twice. */
-function beginWords({ broke_off, perhaps, origin }: Round, { kind }: Machine): string {
-  if (broke_off == null) return "Move";
-  if (kind === "virtual" || broke_off + perhaps === 0) return "Begin again: move";
-  return origin === "chosen"
-    ? "Begin again on a fresh sheet: move"
-    : "Cut what is there a second time: move";
 }

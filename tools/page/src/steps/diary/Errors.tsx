@@ -1,12 +1,11 @@
 // The error of each fit: before it, after it, and on marks that were not part of it.
 import type { Schemas } from "../../api/client";
 import { Bar } from "../../controls/Bar";
-import { namedLength, type Unit } from "../../controls/lengths";
+import { namedLength, useUnits } from "../../controls/lengths";
 import { Table } from "../../controls/Table";
 
-type Fit = Schemas["DiaryFit"];
-
-export function Errors({ fits, units }: { fits: Fit[]; units: Unit }) {
+export function Errors({ fits }: { fits: Schemas["DiaryFit"][] }) {
+  const units = useUnits();
   const most = Math.max(...fits.map((fit) => fit.before_mm ?? 0), 0.1);
   const shown = (mm: number | null) => (mm === null ? "–" : namedLength(mm, units, 2));
   return (

@@ -1,8 +1,7 @@
 // A number that can be measured by hand: the reading, and its uncertainty.
 import { useEffect, useRef } from "preact/hooks";
 import type { Schemas } from "../../api/client";
-import { shownLength, typedLength, type Unit } from "../../controls/lengths";
-import { useUnits } from "../../controls/units";
+import { shownLength, typedLength, type Unit, useUnits } from "../../controls/lengths";
 import { useTyped } from "../../controls/useTyped";
 import { Do, useDo } from "../../shell/doing";
 import { useMachine } from "../../shell/machine";

@@ -1,7 +1,6 @@
 // The planned marks on the sheet: add marks by their place, or remove the chosen one.
 import { useState } from "preact/hooks";
-import { typedLength } from "../../controls/lengths";
-import { useUnits } from "../../controls/units";
+import { typedLength, useUnits } from "../../controls/lengths";
 import { Sheet, Taped } from "../../sheet/Sheet";
 
 export type Place = [number, number]; // [mm] machine frame

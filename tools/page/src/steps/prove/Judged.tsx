@@ -1,9 +1,8 @@
 // Proof marks that are read, against what was promised: in a sentence, on the sheet, and in numbers.
 import { type Schemas, send } from "../../api/client";
 import { Bar } from "../../controls/Bar";
-import { namedLength } from "../../controls/lengths";
+import { namedLength, useUnits } from "../../controls/lengths";
 import { Table } from "../../controls/Table";
-import { useUnits } from "../../controls/units";
 import { Sheet } from "../../sheet/Sheet";
 import { Do } from "../../shell/doing";
 import { useMachine } from "../../shell/machine";

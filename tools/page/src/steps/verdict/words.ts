@@ -3,5 +3,5 @@ import type { Schemas } from "../../api/client";
 
 export type VerdictAnswer = Schemas["VerdictAnswer"];
 export type VerdictParts = Schemas["Verdict"];
-export type Card = Schemas["Card"];
+export type Card = Schemas["Suspect"];
 export type NextAnswer = Schemas["NextAnswer"];
