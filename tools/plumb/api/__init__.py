@@ -17,12 +17,13 @@ from plumb.fit.compare import Comparison, compare
 from plumb.fit.expected import refuse_absurd
 from plumb.fit.inputs import Inputs, read_inputs
 from plumb.fit.problem import priors_with
-from plumb.plan import Next, propose
+from plumb.plan import propose
 from plumb.settings.toml import write_machine_toml
 from plumb.text.compiled import refuse_stale
 from plumb.text.errors import InputError, Source
-from plumb.words import decision, verdict
+from plumb.words import decision, proposals, verdict
 from plumb.words.decision import DecisionInWords as Decision
+from plumb.words.proposals import NextInWords as Next
 from plumb.words.verdict import DiagnosisInWords as Diagnosis
 
 __all__ = [
@@ -81,7 +82,7 @@ def decide(inputs: Inputs, *, patch: bool = False) -> Decision:
 
 def next(inputs: Inputs, diagnosis: Diagnosis | None = None) -> Next:
     """Return what to measure next, best first."""
-    return propose(diagnosis or diagnose(inputs), inputs)
+    return proposals.in_words(propose(diagnosis or diagnose(inputs), inputs))
 
 
 def add(inputs: Inputs, effects: Sequence[str] = (), *, patch: bool = False) -> Addition:

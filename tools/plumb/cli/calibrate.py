@@ -26,10 +26,10 @@ from plumb.cure.decision import decide
 from plumb.cure.live_board import refuse_other_origin
 from plumb.fit.compare import Comparison, compare
 from plumb.fit.inputs import Inputs
-from plumb.plan import Next, Proposal, propose
+from plumb.plan import propose
 from plumb.text.answers import Internal, in_json, part
 from plumb.words import decision as words
-from plumb.words.proposals import to_read
+from plumb.words.proposals import NextInWords, ProposalInWords, in_words, to_read
 from plumb.words.states import STATES
 from plumb.words.verdict import DiagnosisInWords
 from plumb.words.verdict import in_words as diagnosis_in_words
@@ -41,7 +41,7 @@ class CalibrateAnswer(WrittenFiles):
 
     comparison: Comparison
     decision: words.DecisionInWords
-    advice: Internal[Next | None]  # if something has to be measured first
+    advice: Internal[NextInWords | None]  # if something has to be measured first
 
     expected_mm = part("decision.expected_mm", float | None, "RMS error over the sheet, once done.")
     addition = part("decision.addition", Addition | None)
@@ -54,7 +54,7 @@ class CalibrateAnswer(WrittenFiles):
         return diagnosis_in_words(self.decision.diagnosis)
 
     @in_json
-    def next(self) -> tuple[Proposal, ...]:
+    def next(self) -> tuple[ProposalInWords, ...]:
         """Proposed measurements, the best first."""
         return self.advice.proposals if self.advice else ()
 
@@ -64,7 +64,7 @@ class CalibrateAnswer(WrittenFiles):
         return words.round_sentence(self.decision, self.best)
 
     @property
-    def best(self) -> Proposal | None:
+    def best(self) -> ProposalInWords | None:
         """First measurement; more marks where they are too few or lie too close together."""
         proposals = self.next
         if self.decision.diagnosis.left_open.is_too_much:
@@ -81,7 +81,7 @@ def run(arguments: argparse.Namespace) -> int:
         return report(arguments, checked)
     comparison, decision, advice = compare(inputs), decide(inputs), None
     if decision.asks_for_more:
-        advice = propose(decision.diagnosis, inputs, progress=bar("simulating"))
+        advice = in_words(propose(decision.diagnosis, inputs, progress=bar("simulating")))
     files = WrittenFiles()
     if decision.is_settled and decision.addition:
         files = _written(arguments, inputs, decision.addition)

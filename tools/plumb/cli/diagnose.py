@@ -7,8 +7,9 @@ from plumb.cli.arguments import BOARD, add_shared
 from plumb.cli.inputs import add_stated, stated_inputs
 from plumb.cli.screen import headline, in_text, print_json, what_follows
 from plumb.diagnosis import diagnose
-from plumb.plan import Proposal, propose
+from plumb.plan import propose
 from plumb.words import verdict as words
+from plumb.words.proposals import ProposalInWords, in_words
 from plumb.words.states import STATES
 
 
@@ -16,7 +17,7 @@ from plumb.words.states import STATES
 class DiagnosisAnswer(words.DiagnosisInWords):
     """The diagnosis, and what to measure next."""
 
-    next: tuple[Proposal, ...]
+    next: tuple[ProposalInWords, ...]
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -25,7 +26,7 @@ def run(arguments: argparse.Namespace) -> int:
     diagnosis = diagnose(inputs)
     follows = STATES[diagnosis.state]
     if arguments.json:
-        proposals = propose(diagnosis, inputs).proposals
+        proposals = in_words(propose(diagnosis, inputs)).proposals
         print_json(DiagnosisAnswer(**vars(diagnosis), next=proposals))
     else:
         said = words.full(diagnosis) if arguments.details else words.short(diagnosis)

@@ -18,7 +18,7 @@ from plumb.cli.screen import (
 from plumb.diagnosis import diagnose
 from plumb.fit.by_hand import to_fill_in
 from plumb.fit.inputs import Inputs, settings_in
-from plumb.plan import Next, Proposal, propose
+from plumb.plan import Next, propose
 from plumb.plan.case import Case
 from plumb.plan.proposal import form_of, program_of, worth
 from plumb.settings.machine import MachineSettings
@@ -32,7 +32,7 @@ def run(arguments: argparse.Namespace) -> int:
     refuse_twins(arguments.template, arguments.output)
     inputs = stated_inputs(arguments)
     diagnosis = diagnose(inputs)
-    advice = propose(diagnosis, inputs, progress=bar("simulating"))
+    advice = words.in_words(propose(diagnosis, inputs, progress=bar("simulating")))
     place, files = _files(arguments, advice, inputs)
     named = filter(None, [arguments.cut_with, arguments.cut_next_with])
     read = [arguments.settings, *arguments.marks, *named]
@@ -106,7 +106,7 @@ def _chosen(advice: Next, wanted: int | None, *, is_cut: bool) -> int:
 
 
 def first_proposal(
-    best: Proposal | None, arguments: argparse.Namespace, settings: MachineSettings
+    best: words.ProposalInWords | None, arguments: argparse.Namespace, settings: MachineSettings
 ) -> list[str]:
     """Return what to measure, how, and the commands after it."""
     first = headline(words.headline(best), words.KINDS[worth(best)])
@@ -116,7 +116,9 @@ def first_proposal(
     return [f"{first}\n{steps[0]}", after(best, arguments, settings)]
 
 
-def after(best: Proposal, arguments: argparse.Namespace, settings: MachineSettings) -> str:
+def after(
+    best: words.ProposalInWords, arguments: argparse.Namespace, settings: MachineSettings
+) -> str:
     """Return the commands after the measurement."""
     said = words.when_measured(best, Path(arguments.marks[-1]).name)
     checks = [

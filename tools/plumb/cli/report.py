@@ -14,9 +14,10 @@ from plumb.cure.decision import Decision, decide
 from plumb.diary.file import folder_of, has_diary, read_diary
 from plumb.lab.report import report
 from plumb.lab.rounds import command
-from plumb.plan import Next, Proposal, propose
+from plumb.plan import propose
 from plumb.text.answers import Internal, in_json, part
 from plumb.text.errors import InputError
+from plumb.words import proposals
 from plumb.words.verdict import DiagnosisInWords, in_words, sentence
 
 ENDINGS = (".html", ".htm")
@@ -27,13 +28,13 @@ class ReportAnswer:
     """Contents of the report."""
 
     decision: Internal[Decision]
-    advice: Internal[Next]
+    advice: Internal[proposals.NextInWords]
     written: tuple[str, ...]
 
     addition = part(
         "decision.addition", Addition | None, "Null: nothing is fitted to a wrong reading."
     )
-    next = part("advice.proposals", tuple[Proposal, ...])
+    next = part("advice.proposals", tuple[proposals.ProposalInWords, ...])
 
     @in_json
     def diagnosis(self) -> DiagnosisInWords:
@@ -47,7 +48,7 @@ def run(arguments: argparse.Namespace) -> int:
         raise InputError(f"-o {arguments.output}: end the name with {', '.join(ENDINGS)}")
     inputs = stated_inputs(arguments)
     decision = decide(inputs)
-    advice = propose(decision.diagnosis, inputs, progress=bar("simulating"))
+    advice = proposals.in_words(propose(decision.diagnosis, inputs, progress=bar("simulating")))
     folder = folder_of(arguments.settings)
     diary = read_diary(folder) if folder and has_diary(folder) else None
     page = report(inputs, decision, advice, diary=diary, command=partial(_command, arguments))

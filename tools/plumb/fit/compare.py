@@ -100,16 +100,20 @@ def compare(inputs: Inputs) -> Comparison:
     seen = predicted_sighting(model, rows, measurements, outside)
     where = seen.read.where
     marks = _marks(model, rows, seen, predicted_sighting(model, rows, measurements, {}))
-    distances = _distances(measurements, seen.taped_spans(rows.distance_rows))
+    both = zip(measurements.distances, seen.taped_spans(rows.distance_rows).tolist(), strict=True)
+    distances = tuple(
+        ComparedDistance(each.between, span, each.length, each.length - span) for each, span in both
+    )
     errors = np.array([mark.error for mark in marks]).reshape(-1, 2)
     spans = np.array([distance.error for distance in distances])
     pose = best_pose(where[rows.mark_rows], rows.measured)
     counted = np.hypot(errors[:, 0], errors[:, 1]) if marks else np.abs(spans)
-    whole, sigma = (
-        rms(errors if marks else spans),
-        inputs.stated.sigma if inputs.stated else USUAL_SIGMA,
-    )
+    whole = rms(errors if marks else spans)
+    sigma = inputs.stated.sigma if inputs.stated else USUAL_SIGMA
     read = sigma * np.sqrt(2.0) if marks else sigma
+    # The record of the fit, if all its boards are here, cut as it took them.
+    record = settings.fitted
+    is_whole = record and record.is_of(each.digest for each in measurements.rounds)
     return Comparison(
         state="near_noise" if whole <= NOISY * read else "off",
         marks=marks,
@@ -120,19 +124,10 @@ def compare(inputs: Inputs) -> Comparison:
         shape_rms=rms(pose.errors) if pose else None,
         shift=pose.shift if pose else None,
         rotation=pose.rotation if pose else None,
-        promised=_promised(settings, measurements, outside),
+        promised=record if is_whole and outside else None,
         warnings=_warnings(inputs),
         rounds=_rounds(measurements, errors, spans),
     )
-
-
-def _promised(
-    settings: MachineSettings, measurements: Measurements, outside: Mapping[str, float]
-) -> FitRecord | None:
-    """Return the record of the fit, if all its boards are here, cut as it took them."""
-    record = settings.fitted
-    whole = record and record.is_of(each.digest for each in measurements.rounds)
-    return record if whole and outside else None
 
 
 def _rounds(
@@ -167,14 +162,7 @@ def predicted_sighting(
     """Return what our model says is measured on every visit; InputError where the sled
     cannot hang.
     """
-    sighting = sighted(
-        values_of(model),
-        outside,
-        rows,
-        over_top=model.feed == "top",
-        usual_weight=model.sled_weight,
-        names=(),
-    )
+    sighting = _seen_by(model, rows, outside)
     for i in np.flatnonzero(sighting.outcome != FOUND)[:1]:
         raise InputError(
             f"{measurements.source}, mark {measurements.marks[i].name}: with these settings its "
@@ -192,36 +180,15 @@ def _marks(
 ) -> tuple[ComparedMark, ...]:
     """Return each mark as it is seen; `hung` is where the sled was, whatever the sheet did."""
     where, measured = seen.read.where[rows.mark_rows], rows.measured
-    places, weights = hung.read.where[rows.mark_rows], rows.sled_weights[rows.mark_rows]
-    chains = chain_errors(model, places, measured - where, weights)
+    hangs, weights = hung.read.where[rows.mark_rows], rows.sled_weights[rows.mark_rows]
+    chains = chain_errors(model, hangs, measured - where, weights)
+    each = np.stack([rows.targets, where, measured, measured - where], axis=1).tolist()
+    more = ([None if np.isnan(end) else float(end) for end in ends] for ends in chains)
     marks = []
-    for i, name in enumerate(rows.names):
-        left, right = (None if np.isnan(more) else float(more) for more in chains[i])
-        marks.append(
-            ComparedMark(
-                name=name,
-                target=_point(rows.targets[i]),
-                predicted=_point(where[i]),
-                measured=_point(measured[i]),
-                error=_point(measured[i] - where[i]),
-                left_chain_residual=left,
-                right_chain_residual=right,
-            )
-        )
+    for name, places, (left, right) in zip(rows.names, each, more, strict=True):
+        target, predicted, at, error = ((x, y) for x, y in places)
+        marks.append(ComparedMark(name, target, predicted, at, error, left, right))
     return tuple(marks)
-
-
-def _distances(measurements: Measurements, spans: np.ndarray) -> tuple[ComparedDistance, ...]:
-    return tuple(
-        ComparedDistance(
-            distance.between, float(span), distance.length, float(distance.length - span)
-        )
-        for distance, span in zip(measurements.distances, spans, strict=True)
-    )
-
-
-def _point(pair: np.ndarray) -> Point:
-    return float(pair[0]), float(pair[1])
 
 
 def _warnings(inputs: Inputs) -> tuple[str, ...]:
@@ -244,15 +211,13 @@ def _warnings(inputs: Inputs) -> tuple[str, ...]:
 
 def hung_places(model: MachineSettings, rows: Observations) -> Array:
     """Return where the sled hangs on each visit (r, 2) [mm], whatever the sheet and the tape do."""
-    hung = sighted(
-        values_of(model),
-        {},
-        rows,
-        over_top=model.feed == "top",
-        usual_weight=model.sled_weight,
-        names=(),
-    )
-    return hung.read.where
+    return _seen_by(model, rows, {}).read.where
+
+
+def _seen_by(model: MachineSettings, rows: Observations, outside: Mapping[str, float]) -> Sighting:
+    """Return what is measured on every visit, with what lies outside of the machine."""
+    top, weight = model.feed == "top", model.sled_weight
+    return sighted(values_of(model), outside, rows, over_top=top, usual_weight=weight, names=())
 
 
 def chain_errors(model: MachineSettings, places: Array, errors: Array, weights: Array) -> Array:

@@ -45,30 +45,22 @@ def covariates(model: MachineSettings, rows: Observations) -> tuple[Covariate, .
     turned = np.mod(strands.length / model.sprocket_radius, 2 * np.pi)
     angle = np.arctan2(strands.down, strands.across)
     past_noon = angle if model.feed == "top" else np.pi - angle
+    # Left and right have the same of these; a direction is nan where it is not known.
+    heading = np.arctan2(rows.approaches[:, 1], rows.approaches[:, 0])
+    heading = np.where(rows.approaches.any(axis=1), heading, np.nan)
     order = np.arange(1.0, len(places) + 1)
+    x, y, order, heading = (np.stack([each, each], 1) for each in (*places.T, order, heading))
     return (
         Covariate("tension", "N", strands.tension),
         Covariate("length", "mm", strands.span),
         Covariate("angle", "rad", angle),
         Covariate("wrap", "mm", model.sprocket_radius * past_noon),
         Covariate("phase", "rad", turned),
-        Covariate("x", "mm", _both(places[:, 0])),
-        Covariate("y", "mm", _both(places[:, 1])),
-        Covariate("order", "", _both(order)),
-        Covariate("approach", "rad", _both(_headings(rows.approaches))),
+        Covariate("x", "mm", x),
+        Covariate("y", "mm", y),
+        Covariate("order", "", order),
+        Covariate("approach", "rad", heading),
     )
-
-
-def _headings(approaches: Array) -> Array:
-    """Directions (r,) [rad] of the last moves, 0 to the right, quarter turn up; nan: not known."""
-    known = approaches.any(axis=1)
-    headings: Array = np.where(known, np.arctan2(approaches[:, 1], approaches[:, 0]), np.nan)
-    return headings
-
-
-def _both(values: Array) -> Array:
-    """Return the same number for both chains (r, 2)."""
-    return np.stack([values, values], axis=1)
 
 
 # The residual patch: a smooth map of what no known effect explains, chosen knowingly, not physics.

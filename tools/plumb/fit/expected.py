@@ -201,7 +201,8 @@ def refuse_absurd(checks: Sequence[Checked], settings: MachineSettings) -> None:
     """Raise InputError for a number that cannot have been measured on such a machine."""
     for check in checks:
         if is_absurd(check, settings):
-            raise InputError(_said(check) + f": {_why(check, settings)}")
+            said = f" {check.name}={check.value:g}: {_why(check, settings)}"
+            raise InputError(to_do("--checked", page="known") + said)
 
 
 def is_absurd(check: Checked, settings: MachineSettings) -> bool:
@@ -235,7 +236,3 @@ def _why(check: Checked, settings: MachineSettings) -> str:
     unit, met = parameter_words()[check.name]["unit"], plausible_range(check.name)
     meant = "as a share of the whole: 0.1 mm per metre is 0.0001" if unit == "1" else f"in {unit}"
     return f"real machines have {met.low:g} to {met.high:g}; write it {meant}"
-
-
-def _said(check: Checked) -> str:
-    return to_do("--checked", page="known") + f" {check.name}={check.value:g}"

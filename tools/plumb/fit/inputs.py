@@ -164,21 +164,17 @@ def known_outside(
         in_force = file_round.cut_with or cut_with or settings
         if board is None or board.cut_with != in_force:
             continue
-        outside |= _of_record(record)
+        outside[SHEET_ROTATION] = record.sheet_rotation
+        outside |= {
+            f"{effect}.{name}": size
+            for effect, parameters in record.lab_effects.items()
+            for name, size in parameters.items()
+        }
         sheet, zero = file_round.sheet_group + 1, file_round.zero_group + 1
         names = [f"sheet{sheet}.{axis}" for axis in POSE_AXES]
         names += [f"zero{zero}.{axis}" for axis in ZERO_AXES]
         outside |= dict(zip(names, (*board.sheet, *board.zeros), strict=True))
     return outside
-
-
-def _of_record(record: FitRecord) -> dict[str, float]:
-    sizes = {
-        f"{effect}.{name}": size
-        for effect, parameters in record.lab_effects.items()
-        for name, size in parameters.items()
-    }
-    return {SHEET_ROTATION: record.sheet_rotation, **sizes}
 
 
 def _others(record: FitRecord) -> str:

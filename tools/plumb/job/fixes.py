@@ -9,7 +9,6 @@ itself on machines that have a home, wherever that home is.
 
 import re
 from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -67,13 +66,13 @@ def fixed(
         return Fixed(tuple(lines), ())
     written = _with(lines, {each.line: each.after for each in changes})
     after = machine.after(written).finish()
-    with _naming(source):
-        _refuse_halts(lines, findings_of(after))
-        _refuse_cuts_of(changes, after.moves)
-        others = {each.line: each.after for each in changes if not each.goes_home}
-        mended = _at_home(machine, written, HOMES[0], top)
-        for home in HOMES:
-            _refuse_other_cuts(_at_home(machine, _with(lines, others), home, top), mended)
+    for each in _halts(findings_of(after)):
+        raise _unknown(source, each.line, f"{lines[each.line - 1].strip()} ({each.says})")
+    _refuse_cuts_of(changes, after.moves, source)
+    others = {each.line: each.after for each in changes if not each.goes_home}
+    mended = _at_home(machine, written, HOMES[0], top)
+    for home in HOMES:
+        _refuse_other_cuts(_at_home(machine, _with(lines, others), home, top), mended, source)
     return Fixed(tuple(written), changes)
 
 
@@ -88,21 +87,9 @@ def _means_top(findings: Sequence[Finding]) -> bool:
     return any(each.kind == GOUGES and "Carbide Create" in each.says for each in findings)
 
 
-class _UnknownError(Exception):
-    """A line for which no equal line is known; says which, and why."""
-
-    def __init__(self, line: int, why: str) -> None:
-        super().__init__(line, why)
-        self.line, self.why = line, why
-
-
-@contextmanager
-def _naming(source: str) -> Iterator[None]:
-    try:
-        yield
-    except _UnknownError as error:
-        why = f"cannot be fixed: {error.why}"
-        raise InputError(source, why, place=f"line {error.line}", remedy=REMEDY) from None
+def _unknown(source: str, line: int, why: str) -> InputError:
+    """Return the refusal of a line for which no equal line is known."""
+    return InputError(source, f"cannot be fixed: {why}", place=f"line {line}", remedy=REMEDY)
 
 
 def _halts(findings: Sequence[Finding]) -> list[Finding]:
@@ -230,18 +217,13 @@ def _codes(words: Sequence[Word], without: Sequence[float]) -> str:
 # That the same is cut.
 
 
-def _refuse_halts(lines: Sequence[str], findings: Sequence[Finding]) -> None:
-    for each in _halts(findings):
-        raise _UnknownError(each.line, f"{lines[each.line - 1].strip()} ({each.says})")
-
-
-def _refuse_cuts_of(changes: Sequence[FixedLine], moves: Moves) -> None:
-    """_UnknownError if a changed line cuts."""
+def _refuse_cuts_of(changes: Sequence[FixedLine], moves: Moves, source: str) -> None:
+    """InputError if a changed line cuts."""
     numbers = [each.line for each in changes if not each.drills]
     rises = (moves["length"] == 0) & (moves["z_to"] > moves["z_from"])
     wrong = moves.cut & ~rises & np.isin(moves["line"], numbers)
     if wrong.any():
-        raise _UnknownError(int(moves["line"][wrong][0]), "the bit is in the wood there")
+        raise _unknown(source, int(moves["line"][wrong][0]), "the bit is in the wood there")
 
 
 def _at_home(machine: JobMachine, lines: Sequence[str], home: Place, top: float) -> Moves:
@@ -257,15 +239,15 @@ def _at_home(machine: JobMachine, lines: Sequence[str], home: Place, top: float)
     return moves.only(moves["line"] > 0)
 
 
-def _refuse_other_cuts(before: Moves, after: Moves) -> None:
-    """_UnknownError at the first line that cuts elsewhere than it did."""
+def _refuse_other_cuts(before: Moves, after: Moves, source: str) -> None:
+    """InputError at the first line that cuts elsewhere than it did."""
     these, those = _cuts(before), _cuts(after)
     count = min(len(these), len(those))
     differs = (np.abs(these[:count] - those[:count]) > SAME).any(axis=1)
     if differs.any() or len(these) != len(those):
         longer = these if len(these) > count else those
         line = int((these[differs.argmax()] if differs.any() else longer[count])[0])
-        raise _UnknownError(line, "it would cut elsewhere than on the machine that is meant")
+        raise _unknown(source, line, "it would cut elsewhere than on the machine that is meant")
 
 
 def _cuts(moves: Moves) -> Array:

@@ -78,43 +78,22 @@ def begin(
     program: str,
     text: str,
     *,
+    on_sheet: int | None = None,
     paused: Callable[[int], None] = lambda lines: None,
 ) -> None:
-    """Send a program from its first mark; `paused` hears of its pauses. The machine moves."""
-    cut = BrokenCut(digest=digest_of_sent(text), is_virtual=line.virtual is not None)
-    _send(project, line, program, text, cut, paused)
-
-
-def go_on(
-    project: Project,
-    line: MachineLine,
-    program: str,
-    text: str,
-    on_sheet: int,
-    *,
-    paused: Callable[[int], None] = lambda lines: None,
-) -> None:
-    """Send the rest of a program that broke off: the marks that are not on the sheet, which nobody
-    but its owner sees. `paused` hears of its pauses. The machine moves.
+    """Send a program from its first mark, or the rest of one that broke off: the marks that are not
+    `on_sheet`, which nobody but its owner sees. `paused` hears of its pauses. The machine moves.
     """
-    cut = _broken_cut(project, program, text)
-    if cut is None or cut.is_virtual != (line.virtual is not None):
-        raise InputError("no cut broke off that could go on: begin with the first mark")
-    if not cut.marks <= on_sheet <= cut.begun:
-        raise InputError(f"say how many marks are on the sheet: {cut.marks} to {cut.begun}")
-    seen = cut.model_copy(update={"marks": on_sheet, "begun": on_sheet})
-    _send(project, line, program, text, seen, paused)
-
-
-def _send(
-    project: Project,
-    line: MachineLine,
-    program: str,
-    text: str,
-    cut: BrokenCut,
-    paused: Callable[[int], None],
-) -> None:
-    """Send the marks that are not cut, and note how far it comes."""
+    is_virtual = line.virtual is not None
+    cut = BrokenCut(digest=digest_of_sent(text), is_virtual=is_virtual)
+    if on_sheet is not None:
+        broken = _broken_cut(project, program, text)
+        if broken is None or broken.is_virtual != is_virtual:
+            raise InputError("no cut broke off that could go on: begin with the first mark")
+        if not broken.marks <= on_sheet <= broken.begun:
+            said = f"{broken.marks} to {broken.begun}"
+            raise InputError(f"say how many marks are on the sheet: {said}")
+        cut = broken.model_copy(update={"marks": on_sheet, "begun": on_sheet})
     plunges = plunges_in(text)
     lines, before = rest_of(text.splitlines(), plunges, cut.marks)
     noting = Noting(project, program, cut, plunges)

@@ -90,15 +90,21 @@ class KnownNumber(RuleReading):
 
 def known_numbers(settings: MachineSettings, choices: Choices) -> list[KnownNumber]:
     """Return everything that can be measured by hand: first what everybody measures."""
-    stated = choices.known.get(WEIGHT)
-    by_hand = readings(settings, stated.value if stated else settings.sled_weight)
+    weight = choices.known.get(WEIGHT)
+    by_hand = readings(settings, weight.value if weight else settings.sled_weight)
     checks = number_checks()
     numbers = [
         _number(name, checks[name], by_hand[name], settings, choices.known.get(name))
         for name in checks
     ]
-    lines = _refused(numbers, settings, choices)
-    numbers = [replace(each, refused=lines.get(each.name, "")) for each in numbers]
+    # What rests on an absurd number is not judged.
+    absurd = {check.name: check for check in stated(choices).checked if is_absurd(check, settings)}
+    numbers = [
+        replace(each, refused=_why(each, absurd[each.name].value, choices.unit))
+        if each.name in absurd and each.by not in absurd
+        else each
+        for each in numbers
+    ]
     return sorted(numbers, key=lambda number: not number.is_first)
 
 
@@ -142,18 +148,6 @@ def refuse_absurd_known(settings: MachineSettings, choices: Choices) -> None:
     refuse_absurd(stated(choices).checked, settings)
 
 
-def _refused(
-    numbers: list[KnownNumber], settings: MachineSettings, choices: Choices
-) -> dict[str, str]:
-    """Why stated numbers cannot be, by name. What rests on such a number is not judged."""
-    absurd = {check.name: check for check in stated(choices).checked if is_absurd(check, settings)}
-    return {
-        number.name: _why(number, absurd[number.name].value, choices.unit)
-        for number in numbers
-        if number.name in absurd and number.by not in absurd
-    }
-
-
 def _why(number: KnownNumber, value: float, unit: Unit) -> str:
     """Why a value of a number cannot be, as it is read."""
     said = number.said(value, unit)
@@ -165,8 +159,7 @@ def _why(number: KnownNumber, value: float, unit: Unit) -> str:
     low, high = sorted((met.low, met.high), key=number.read)
     return (
         f"{said} cannot be: real machines have {number.said(low, unit)} to "
-        f"{number.said(high, unit)}. "
-        "Check the number and its unit."
+        f"{number.said(high, unit)}. Check the number and its unit."
     )
 
 

@@ -69,14 +69,10 @@ def next_names(project: Project, names: tuple[str, str] = MARKS) -> tuple[str, s
         each
         for each in numbered("")
         if not has_readings(project, f"{form}{each}{ENDING}")
-        and not _is_foreign(project, f"{program}{each}.nc")
+        # A program that the lab did not write stays.
+        and (project.read(cut := f"{program}{each}.nc") is None or is_ours(project.path(cut)))
     )
     return f"{form}{number}{ENDING}", f"{program}{number}.nc"
-
-
-def _is_foreign(project: Project, program: str) -> bool:
-    """Return whether a program is there that the lab did not write."""
-    return project.read(program) is not None and not is_ours(project.path(program))
 
 
 def form_of(project: Project, choices: Choices, name: str) -> Form:

@@ -123,33 +123,28 @@ class PlannedMeasurement:
     def ahead(self, at: Explanation) -> Ahead:
         """Return the rows after the measurement, by the slopes of an explanation."""
         if id(at) not in self._known:
-            self._known[id(at)] = at, ahead(at, self.visits, self.checks)
+            self._known[id(at)] = at, self._ahead(at)
         return self._known[id(at)][1]
 
-
-def ahead(at: Explanation, visits: Visits, checks: Sequence[PlannedCheck] = ()) -> Ahead:
-    """Return the rows after a planned measurement, by the slopes of an explanation."""
-    where, marks = _seen(at, visits)
-    checked = check_slopes(at, checks)
-    read = np.zeros(len(at.slopes), dtype=bool)
-    read[: at.board.rows.count] = True
-    return Ahead(
-        slopes=np.vstack([at.slopes, marks.reshape(-1, at.slopes.shape[1]), checked]),
-        so_far=len(at.slopes),
-        marks=np.concatenate([read, np.full(2 * len(visits), True), np.full(len(checks), False)]),
-        where=where,
-    )
-
-
-def visit_slopes(at: Explanation, visits: Visits) -> Array:
-    """Whitened slopes (n, 2, u) of visits at an explanation; zero, so that nothing is expected of
-    it, for a visit where the explanation's sled could not hang."""
-    return _seen(at, visits)[1]
+    def _ahead(self, at: Explanation) -> Ahead:
+        where, marks = seen_on(at, self.visits)
+        problem = at.board.problem
+        checked = np.zeros((len(self.checks), len(problem.names)))
+        for row, check in zip(checked, self.checks, strict=True):
+            column = problem.names.index(check.name)
+            row[column] = problem.scale[column] / check.sigma
+        read = np.arange(len(at.slopes)) < at.board.rows.count
+        return Ahead(
+            slopes=np.vstack([at.slopes, marks.reshape(-1, at.slopes.shape[1]), checked]),
+            so_far=len(at.slopes),
+            marks=np.r_[read, np.full(marks[:, :, 0].size, True), np.full(len(checked), False)],
+            where=where,
+        )
 
 
-def _seen(at: Explanation, visits: Visits) -> tuple[Array, Array]:
-    """Return where visits would be read (n * 2,), and the slopes of that (n, 2, u), both
-    whitened.
+def seen_on(at: Explanation, visits: Visits) -> tuple[Array, Array]:
+    """Return where visits would be read (n * 2,), and the slopes of that (n, 2, u), both whitened;
+    of a visit where the explanation's sled could not hang NaN, and zero: nothing is expected of it.
     """
     problem = replace(at.board.problem, observations=visits.rows())
     width = len(problem.names)
@@ -160,13 +155,3 @@ def _seen(at: Explanation, visits: Visits) -> tuple[Array, Array]:
     hangs = sighting.outcome == FOUND
     where = np.where(hangs[:, np.newaxis], sighting.read.where / problem.sigma, np.nan)
     return where.ravel(), np.where(hangs[:, np.newaxis, np.newaxis], slopes, 0.0)
-
-
-def check_slopes(at: Explanation, checks: Sequence[PlannedCheck]) -> Array:
-    """Whitened slopes (c, u) of numbers that are measured directly."""
-    problem = at.board.problem
-    rows = np.zeros((len(checks), len(problem.names)))
-    for i, check in enumerate(checks):
-        column = problem.names.index(check.name)
-        rows[i, column] = problem.scale[column] / check.sigma
-    return rows

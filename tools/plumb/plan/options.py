@@ -23,9 +23,8 @@ MOST_NEAR = 60  # marks next to which a new mark is considered
 MOST_AGAIN = 12  # marks that are all visited again with another weight
 # Minutes: a round at the machine, a mark cut and read, a mark read once more, a change of weight.
 ROUND, MARK, READING, HANGING = 3.0, 1.5, 0.75, 4.0
-ROOM_FOR_A_SECOND = (
-    20.0  # [mm] inwards of a mark is room for a second mark; in the same hole nothing is read
-)
+# [mm] inwards of a mark is room for a second mark; in the same hole nothing is read.
+ROOM_FOR_A_SECOND = 20.0
 READ_ONLY = ("repeats", "reread")  # kinds of options whose marks are on the sheet already
 SIDES = np.array([(1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.0, -1.0)])
 
@@ -40,7 +39,6 @@ class Option:
     minutes: float
     visits: Visits
     checks: tuple[PlannedCheck, ...] = ()
-    value: str = ""  # how the checks' values follow from what was measured
 
     @property
     def is_cut(self) -> bool:
@@ -66,10 +64,8 @@ def many_marks(case: Case) -> Option | None:
 
 def checks_for(case: Case) -> list[Option]:
     """Direct measurements of the suspects and of the frame's numbers that were not made yet."""
-    problem, made = (
-        case.board.problem,
-        {check.name: check.sigma for check in case.board.problem.checked},
-    )
+    problem = case.board.problem
+    made = {check.name: check.sigma for check in problem.checked}
     held = np.flatnonzero(problem.held)
     known = {problem.names[i]: float(problem.scale[i]) for i in held} | made
     offered = []
@@ -90,9 +86,7 @@ def _sharper(check: PlannedCheck, known: Mapping[str, float]) -> bool:
 
 
 def _check(kind: str, number: NumberCheck, each: tuple[PlannedCheck, ...]) -> Option:
-    return Option(
-        kind, number.title, (number.steps,), number.minutes, nowhere(), each, number.value
-    )
+    return Option(kind, number.title, (number.steps,), number.minutes, nowhere(), each)
 
 
 class _Shop:
@@ -174,11 +168,8 @@ class _Shop:
         """Two marks close together, touched from opposite sides, where friction may play a part."""
         if not any(map(is_felt_by_approach, self.case.effects)) or not self.known:
             return []
-        weight, near, far = (
-            self.case.usual_weight,
-            self.inwards(ROOM_FOR_A_SECOND),
-            self.inwards(2 * ROOM_FOR_A_SECOND),
-        )
+        weight, room = self.case.usual_weight, ROOM_FOR_A_SECOND
+        near, far = self.inwards(room), self.inwards(2 * room)
         # It does not matter which of both is touched from where: one pool for each pair of sides.
         groups = [
             self.visits(near if i % 2 == 0 else far, weight, sides=side)
@@ -226,13 +217,7 @@ class _Shop:
             rows.approaches[first_rows],
         )
 
-    def visits(
-        self,
-        places: Array,
-        weight: float,
-        *,
-        sides: Array | None = None,
-    ) -> Visits:
+    def visits(self, places: Array, weight: float, *, sides: Array | None = None) -> Visits:
         """Visits of new places, approached as the nearest mark was, or from the sides given."""
         approaches = np.zeros((len(places), 2))
         if sides is not None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import textwrap
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, fields, replace
 from typing import Annotated
 
@@ -148,11 +148,17 @@ def program(visits: Visits, *, usual_weight: float, do: Sequence[str] = ()) -> s
         lines += [f"({line})" for line in textwrap.wrap(bare, COMMENT)]
     lines += ["G21", "G90", f"G0 Z{USUAL.safe_height:g}"]
     weight = usual_weight
-    each = zip(visits.names, visits.sled_weights, visit_lines(visits), strict=True)
-    for name, next_weight, touched in each:
-        lines += _weight_changes(weight, float(next_weight), usual_weight)
-        weight = float(next_weight)
-        lines += [f"(mark {name.replace('(', '').replace(')', '')})", *touched]
+    for visit in visits.each:
+        lines += _weight_changes(weight, visit.sled_weight, usual_weight)
+        weight, (x, y) = visit.sled_weight, way_into(visit)
+        lines += [
+            f"(mark {visit.name.replace('(', '').replace(')', '')})",
+            f"G0 Z{USUAL.safe_height:g}",
+            f"G0 X{x:.3f} Y{y:.3f}",
+            f"G1 X{visit.target[0]:.3f} Y{visit.target[1]:.3f} F{USUAL.feed:g}",
+            f"G1 Z{-USUAL.depth:g} F{PLUNGE_FEED:g}",
+            f"G0 Z{USUAL.safe_height:g}",
+        ]
     lines += ["(back to the middle)", "G0 X0 Y0"]
     return "\n".join([*lines, *_weight_changes(weight, usual_weight, usual_weight), ""])
 
@@ -167,38 +173,14 @@ def _weight_changes(weight: float, next_weight: float, usual: float) -> list[str
     return [f"(let {kilograms:.1f} kg more hang on the sled, low and in the middle)", "M0"]
 
 
-def visit_lines(visits: Visits) -> Iterator[list[str]]:
-    """Yield the lines for each visit; between two of them the owner may hang a weight on the
-    sled.
-    """
-    for target, side in zip(visits.targets, visits.approaches, strict=True):
-        yield touch(target, _lead_in(side))
-
-
-def touch(target: Array, lead_in: Array) -> list[str]:
-    """Return the lines for a mark at a target [mm], entered along a vector [mm]."""
-    x, y = target - lead_in
-    return [
-        f"G0 Z{USUAL.safe_height:g}",
-        f"G0 X{x:.3f} Y{y:.3f}",
-        f"G1 X{target[0]:.3f} Y{target[1]:.3f} F{USUAL.feed:g}",
-        f"G1 Z{-USUAL.depth:g} F{PLUNGE_FEED:g}",
-        f"G0 Z{USUAL.safe_height:g}",
-    ]
-
-
-def way_into(mark: Mark) -> tuple[float, float]:
-    """Return where [mm] the sled goes straight into a mark from."""
-    lead_in = _lead_in(np.array(mark.approach or (0.0, 0.0)))
-    return mark.target[0] - float(lead_in[0]), mark.target[1] - float(lead_in[1])
-
-
-def _lead_in(side: Array) -> Array:
-    """Return the way into a mark [mm] for a unit vector; the usual way if the side does not
-    matter.
+def way_into(mark: Mark | Visit) -> tuple[float, float]:
+    """Return where [mm] the sled goes straight into a mark from: by the usual way if the side does
+    not matter.
     """
     usual = np.array(APPROACH)
-    return np.asarray(side * np.hypot(*usual)) if side.any() else usual
+    lead_in = np.array(mark.approach) * np.hypot(*usual) if mark.approach else usual
+    x, y = (np.array(mark.target) - lead_in).tolist()
+    return x, y
 
 
 # Whether the sled can take the way to planned marks, as heavy as it is on each part of it.
@@ -213,7 +195,8 @@ def refuse_way(settings: MachineSettings, marks: Sequence[Mark]) -> None:
     for mark in marks:
         weight = mark.sled_weight or settings.sled_weight
         for end in (way_into(mark), mark.target):
-            passed = np.array(list(_between(here, end)))
+            steps = max(math.ceil(math.dist(here, end) / WAY_STEP), 1)
+            passed = np.linspace(here, end, steps + 1)[1:]
             is_off = bool((np.abs(passed) > np.array(half) + 1e-6).any())
             if is_off or not usable(settings, passed, weight).all():
                 where = "leaves the sheet" if is_off else "passes where the sled cannot hang well"
@@ -221,17 +204,6 @@ def refuse_way(settings: MachineSettings, marks: Sequence[Mark]) -> None:
                     f"the way to mark {mark.name} {where}: take another measurement of the verdict"
                 )
             here = end
-
-
-def _between(start: Place, end: Place) -> Iterator[Place]:
-    """Yield places on a straight way, with its end."""
-    steps = max(math.ceil(math.dist(start, end) / WAY_STEP), 1)
-    for step in range(1, steps + 1):
-        share = step / steps
-        yield (
-            start[0] + share * (end[0] - start[0]),
-            start[1] + share * (end[1] - start[1]),
-        )
 
 
 # Places on the sheet that are worth a mark, as far as the machine reaches them.

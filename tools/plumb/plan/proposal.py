@@ -14,7 +14,7 @@ from plumb.diagnosis.outliers import Outlier
 from plumb.diagnosis.sizes import Room
 from plumb.fit.inputs import Inputs
 from plumb.fit.observations import Observations
-from plumb.model.plain import ascending, noun_of, plainly, ranked
+from plumb.model.plain import ascending, ranked
 from plumb.plan.case import Case, PlannedCheck, PlannedMeasurement, case_of
 from plumb.plan.options import MARK, READING, ROUND, Option, many_marks, options, spots
 from plumb.plan.outlook import Outlooks
@@ -75,29 +75,6 @@ class Proposal:
     minutes = part("option.minutes", float)
     marks = part("option.visits.each", tuple[Visit, ...])
     checks = part("option.checks", tuple[PlannedCheck, ...])
-
-    @in_json
-    def headline(self) -> str:
-        """What to measure, how long it takes and what to hope of it; without the full stop."""
-        return f"{self.option.title}; about {self.option.minutes:.0f} minutes{_hope(self)}"
-
-    @in_json
-    def steps(self) -> list[str]:
-        """What to do, and what it tells, in sentences."""
-        return [*map(self.unit.reading, self.option.do), *_shown_by(self.parts)]
-
-    @in_json
-    def promise(self) -> str:
-        """What to hope of it, for a table."""
-        if self.question != FIND or not self.rooms:
-            return percent(self.chance)
-        unit = self.unit
-        promise = ", ".join(
-            f"{noun_of(room.effect)} {unit.bare(room.now, 1)} -> {unit.worded(room.then, 1)}"
-            for room in self.rooms[:2]
-            if room.then < 0.9 * room.now
-        )
-        return promise or "no change"
 
     @property
     def rate(self) -> float:
@@ -271,47 +248,6 @@ def program_of(advice: Next, place: int, path: str, *, form: str | None) -> byte
     assert advice.case, "what is proposed is proposed for a case"
     text = program(option.visits, usual_weight=advice.case.usual_weight, do=option.do)
     return (with_form(text, form, path) if form else text).encode()
-
-
-# Proposals in sentences, for every command and page that shows them.
-
-VERBS = {SETTLE: "settle it", CONFIRM: "confirm it", REREAD: "show it"}
-
-
-def _shown_by(parts: Sequence[tuple[str, str]]) -> list[str]:
-    """Return in a sentence which effects are tried by a measurement that separates these pairs of
-    explanations.
-    """
-    sets = [[set(side.split(" + ") if side else ()) for side in pair] for pair in parts]
-    tried = dict.fromkeys(
-        name
-        for pair, (left, right) in zip(parts, sets, strict=True)
-        for name in " + ".join(pair).split(" + ")
-        if name and name in left ^ right
-    )
-    if len(tried) == 1:
-        return [f"It shows whether {plainly(tried)} acts."]
-    return [f"It shows which of these act: {', '.join(map(noun_of, tried))}."] if tried else []
-
-
-def percent(chance: float | None) -> str:
-    """Return a chance in steps of five in a hundred: it is not known better."""
-    if chance is None:
-        return "-"
-    near = 5 * round(20 * chance)
-    return "below 5 %" if near < 5 else "above 95 %" if near > 95 else f"{near:.0f} %"
-
-
-def _hope(best: Proposal) -> str:
-    if best.question == FIND and best.rooms:
-        first = best.rooms[0]
-        noun = noun_of(first.effect)
-        now, then = (best.unit.worded(size, 1) for size in (first.now, first.then))
-        return f". {noun[0].upper()}{noun[1:]} may act unseen by {now} now, by {then} then"
-    if best.chance is None:
-        return ""
-    verb = VERBS.get(best.question, "")
-    return f", chance to {verb} {percent(best.chance)}" if verb else ""
 
 
 # Measurements where no effect is in question: readings that disagree, unexplained marks.

@@ -13,7 +13,7 @@ import numpy as np
 from plumb.diagnosis.explanation import Board, Explanation
 from plumb.model.catalogue import every_effect
 from plumb.model.plain import greatest
-from plumb.plan.case import Case, Hypothesis, visit_slopes
+from plumb.plan.case import Case, Hypothesis, seen_on
 from plumb.plan.planned_visits import Visits
 from plumb.text.values import in_both_units
 
@@ -93,7 +93,7 @@ class Chooser:
     def __init__(self, case: Case, pool: Visits) -> None:
         """Work out what each visit of the pool adds to each pair."""
         self._pairs = pairs_of(case)
-        slopes = {id(pair.at): visit_slopes(pair.at, pool) for pair in self._pairs}
+        slopes = {id(pair.at): seen_on(pair.at, pool)[1] for pair in self._pairs}
         self._start, self._each = [], []
         for pair in self._pairs:
             now = np.hstack([pair.at.slopes[:, pair.fitted], pair.at.slopes @ pair.drawn])

@@ -2,14 +2,24 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from typing import Annotated
 
 from plumb.fit.by_hand import what_to_type
-from plumb.model.plain import noun_of, plain_before
+from plumb.model.plain import noun_of, plain_before, plainly
 from plumb.plan.options import READ_ONLY
 from plumb.plan.preview import POWER, Outline, Preview
-from plumb.plan.proposal import CONFIRM, EXPLORE, FIND, REREAD, SETTLE, Next, Proposal, Worth
+from plumb.plan.proposal import (
+    CONFIRM,
+    EXPLORE,
+    FIND,
+    REREAD,
+    SETTLE,
+    Next,
+    Proposal,
+    Worth,
+)
 from plumb.settings.machine import MachineSettings
-from plumb.text.answers import Internal, part
+from plumb.text.answers import Internal, in_json, key, part
 from plumb.text.values import Unit
 from plumb.words import Kind, Part, Rows, Sentences
 from plumb.words.verdict import DiagnosisInWords, share_words
@@ -23,10 +33,82 @@ HEADS = {
     REREAD: "chance to show it",
     EXPLORE: "",
 }
+VERBS = {SETTLE: "settle it", CONFIRM: "confirm it", REREAD: "show it"}
 
 
 @dataclass(frozen=True)
-class ProposalsAnswer(Next):
+class ProposalInWords(Proposal):
+    """One thing to measure, what to expect of it, and the same in words."""
+
+    @in_json
+    def headline(self) -> str:
+        """What to measure, how long it takes and what to hope of it; without the full stop."""
+        said = f"{self.option.title}; about {self.option.minutes:.0f} minutes"
+        if self.question == FIND and self.rooms:
+            first = self.rooms[0]
+            noun = noun_of(first.effect)
+            now, then = (self.unit.worded(size, 1) for size in (first.now, first.then))
+            may_act = f"{noun[0].upper()}{noun[1:]} may act unseen by"
+            return f"{said}. {may_act} {now} now, by {then} then"
+        verb = VERBS.get(self.question)
+        hope = f", chance to {verb} {percent(self.chance)}"
+        return said if self.chance is None or verb is None else said + hope
+
+    @in_json
+    def steps(self) -> list[str]:
+        """What to do, and which effects are tried by it, in sentences."""
+        do = [*map(self.unit.reading, self.option.do)]
+        sets = [[set(side.split(" + ") if side else ()) for side in pair] for pair in self.parts]
+        tried = dict.fromkeys(
+            name
+            for pair, (left, right) in zip(self.parts, sets, strict=True)
+            for name in " + ".join(pair).split(" + ")
+            if name and name in left ^ right
+        )
+        if len(tried) == 1:
+            return [*do, f"It shows whether {plainly(tried)} acts."]
+        acting = ", ".join(map(noun_of, tried))
+        return [*do, f"It shows which of these act: {acting}."] if tried else do
+
+    @in_json
+    def promise(self) -> str:
+        """What to hope of it, for a table."""
+        if self.question != FIND or not self.rooms:
+            return percent(self.chance)
+        unit = self.unit
+        promise = ", ".join(
+            f"{noun_of(room.effect)} {unit.bare(room.now, 1)} -> {unit.worded(room.then, 1)}"
+            for room in self.rooms[:2]
+            if room.then < 0.9 * room.now
+        )
+        return promise or "no change"
+
+
+def percent(chance: float | None) -> str:
+    """Return a chance in steps of five in a hundred: it is not known better."""
+    if chance is None:
+        return "-"
+    near = 5 * round(20 * chance)
+    return "below 5 %" if near < 5 else "above 95 %" if near > 95 else f"{near:.0f} %"
+
+
+@dataclass(frozen=True)
+class NextInWords(Next):
+    """All that is worth measuring, in words too."""
+
+    proposals: Annotated[tuple[ProposalInWords, ...], key("next")]
+    blind: Annotated[ProposalInWords | None, key("more_marks")]
+
+
+def in_words(advice: Next) -> NextInWords:
+    """Return the next measurements, in words too."""
+    several = tuple(ProposalInWords(**vars(each)) for each in advice.proposals)
+    blind = ProposalInWords(**vars(advice.blind)) if advice.blind else None
+    return NextInWords(**{**vars(advice), "proposals": several, "blind": blind})
+
+
+@dataclass(frozen=True)
+class ProposalsAnswer(NextInWords):
     """The proposals, with what they are for."""
 
     diagnosis: Internal[DiagnosisInWords]
@@ -36,12 +118,12 @@ class ProposalsAnswer(Next):
     suspects = part("diagnosis.suspects", tuple[str, ...])
 
 
-def headline(best: Proposal | None) -> str:
+def headline(best: ProposalInWords | None) -> str:
     """Return what to measure and what to hope of it, or that nothing would tell more."""
     return f"Next: {best.headline}." if best else "Nothing that can be proposed would tell more."
 
 
-def other_ways(advice: Next, shown: int = 1) -> list[Part]:
+def other_ways(advice: NextInWords, shown: int = 1) -> list[Part]:
     """Return the best proposals in a few rows, without the one that is shown in whole."""
     others = [(i, each) for i, each in enumerate(advice.proposals[:FEW], 1) if i != shown]
     if not others:

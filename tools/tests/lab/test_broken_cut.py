@@ -8,7 +8,7 @@ from folder import got, until
 from garage_at_port import SPEED
 from lab_machine import PATIENCE, bar, start_virtual
 from playwright.sync_api import expect
-from plumb.lab.broken_cut import begin, go_on, how_far
+from plumb.lab.broken_cut import begin, how_far
 from plumb.lab.project import Project
 from plumb.line.worker import LineState
 from plumb.marks.read import read_marks
@@ -63,7 +63,7 @@ def test_a_mark_counts_as_cut_or_perhaps_cut_and_never_back(tmp_path):
         assert far() == tuple(expected)
     came(5, 7)  # it was stopped before it began the second
     assert far() == (1, 0)
-    go_on(project, line, "grid.nc", text, 1)
+    begin(project, line, "grid.nc", text, on_sheet=1)
     line.sent["came"](3, 4)  # its modes come again
     assert far() == (1, 0)
     assert far("grid-2.nc") == far(text=text + "G0") == (None, 0)

@@ -23,11 +23,11 @@ from plumb.lab.rounds import (
 )
 from plumb.lab.routes.project import ProjectAnswer, TheProject, show
 from plumb.lab.routes.verdict import TheBackground, board_and_known
-from plumb.plan.proposal import Next, Proposal, form_of, program_of, propose
+from plumb.plan.proposal import Next, form_of, program_of, propose
 from plumb.text.answers import like
 from plumb.text.errors import InputError
 from plumb.text.files import numbered
-from plumb.words.proposals import HEADS, headline, taking_words
+from plumb.words.proposals import HEADS, ProposalInWords, headline, in_words, taking_words
 
 router = APIRouter(tags=["next"])
 MOST_OTHERS = 7
@@ -49,7 +49,7 @@ class Taking(BaseModel):
 class Offer(BaseModel):
     """A thing to measure."""
 
-    proposal: Proposal
+    proposal: ProposalInWords
     taking: Taking | None  # None: it has no marks
 
 
@@ -60,7 +60,7 @@ class NextAnswer(BaseModel):
     command: str
     headline: str = ""  # empty: it is still worked out
     offers: list[Offer] = []  # the best first
-    ordinary: Proposal | None = None  # what as many marks as patience allows would bring
+    ordinary: ProposalInWords | None = None  # what as many marks as patience allows would bring
     promises: str = ""  # head of what other ways promise
 
 
@@ -135,6 +135,7 @@ def next_answer(
     advice: Next, command: str, taking: Callable[[int], Taking | None] = lambda place: None
 ) -> NextAnswer:
     """Return the proposals; `taking` says what it writes to take one."""
+    advice = in_words(advice)
     proposals = enumerate(advice.proposals[: MOST_OTHERS + 1], 1)
     offers = [Offer(proposal=each, taking=taking(place)) for place, each in proposals]
     best = offers[0] if offers else None

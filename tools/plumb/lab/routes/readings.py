@@ -1,6 +1,6 @@
 """Readings of the tape: each is saved into a marks.toml as it is typed."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from pathlib import Path
 
 from fastapi import APIRouter, UploadFile
@@ -165,7 +165,9 @@ def save_readings(typed: TypedReadings, project: TheProject) -> ReadingsAnswer:
 def save_distances(typed: TypedDistances, project: TheProject) -> ReadingsAnswer:
     """Replace the distances of a form."""
     form = form_of(project, project.choices, typed.file)
-    _refuse_two_places(form, [name for each in typed.distances for name in each.between])
+    for name in (name for each in typed.distances for name in each.between):
+        if len({mark.target for mark in form.measurements.marks if mark.name == name}) > 1:
+            raise InputError(f"mark {name} is at two places: measure from another mark")
     distances = [(each.between, each.length) for each in typed.distances]
     return _saved(project, typed.file, typed.digest, with_distances(form, distances))
 
@@ -229,13 +231,6 @@ def _saved(project: Project, name: str, digest: str, text: str) -> ReadingsAnswe
     return show_readings(project, name)
 
 
-def _refuse_two_places(form: Form, ends: Sequence[str]) -> None:
-    """Nobody knows from which of two places a distance was measured."""
-    for name in ends:
-        if len({mark.target for mark in form.measurements.marks if mark.name == name}) > 1:
-            raise InputError(f"mark {name} is at two places: measure from another mark")
-
-
 def _forms(project: Project, choices: Choices) -> dict[str, Form]:
     """Return every form in the folder by its name."""
     forms = {}
@@ -259,13 +254,9 @@ def _by_use(forms: Mapping[str, Form], choices: Choices) -> list[str]:
     """
     used = [name for name in reversed(choices.marks) if name in forms]
     order = [*used, *(name for name in forms if name not in used)]
-    waiting = [name for name in order if _waits(forms[name])]
+    waiting = [name for name in order if _waiting(forms[name])]
     waiting.sort(key=lambda name: name != choices.proposed)
     return [*waiting, *(name for name in order if name not in waiting)]
-
-
-def _waits(form: Form) -> bool:
-    return _waiting(form) > 0
 
 
 def _waiting(form: Form) -> int:

@@ -10,7 +10,7 @@ from fastapi import APIRouter, Body
 from pydantic import BaseModel
 
 from plumb.job.time_left import timetable
-from plumb.lab.broken_cut import HowFar, OnSheet, begin, go_on, how_far, plunges_in
+from plumb.lab.broken_cut import HowFar, OnSheet, begin, how_far, plunges_in
 from plumb.lab.machine_line import MachineLine, TheLine, refuse_other_machine, refuse_unknown_place
 from plumb.lab.project import Choices, Project, save_choices, with_marks
 from plumb.lab.proof_marks import proof_round
@@ -169,7 +169,7 @@ def go_on_with_round(
         raise InputError("no cut broke off that could go on: begin with the first mark")
     refuse_other_machine(project, line, this.cut_with)
     paused = _weighing(this, line.virtual, on_sheet=cut)
-    go_on(project, line, this.program, this.text, cut, paused=paused)
+    begin(project, line, this.program, this.text, on_sheet=cut, paused=paused)
     return machine(line)
 
 
