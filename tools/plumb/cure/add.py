@@ -32,6 +32,7 @@ from plumb.text.answers import Internal, Number, among, in_json, key, meant, par
 from plumb.text.values import Unit
 
 Sizes = Mapping[str, Mapping[str, float]]  # of parameters, effect by effect
+RESTLESS = "the fit did not come to rest: do not trust these numbers; add fewer effects at once"
 FAR = 2.0  # [prior sigmas] a stated number that moved farther was probably measured wrongly
 
 
@@ -122,7 +123,7 @@ class Addition:
     after_fit: Internal[Fit]
     parameters: tuple[Parameter, ...]
     effects_added: tuple[str, ...]  # those of the lab too
-    warnings: tuple[str, ...]
+    doubts: Internal[tuple[str, ...]]  # the heaviest first
     by_effect: tuple[FitStep, ...]  # in the order given; the last is `after`
     sigma_from: str  # where the sigma of the fits comes from: noise_sources.py, or "residuals"
     unit: Internal[Unit]  # of the lengths in what is said of it
@@ -166,14 +167,18 @@ class Addition:
         """Work by hand without which the numbers do not keep their promise, in sentences."""
         return (*_turn_sentences(self), *self.cures)
 
+    @in_json
+    def warnings(self) -> tuple[str, ...]:
+        """Reasons not to use the numbers, and doubts about them."""
+        return (*self.stops, *self.doubts)
+
     @property
     def notes(self) -> tuple[Note, ...]:
         """Notes on the numbers, the heaviest first."""
-        light = [each for each in self.warnings if each not in self.stops]
         return (
             *(Note("stop", each) for each in self.stops),
             *(Note("by_hand", each) for each in self.by_hand),
-            *(Note("doubt" if i == 0 else "hint", each) for i, each in enumerate(light)),
+            *(Note("hint" if i else "doubt", each) for i, each in enumerate(self.doubts)),
         )
 
     @property
@@ -190,7 +195,7 @@ class Addition:
     def stops(self) -> tuple[str, ...]:
         """The reason not to use these numbers in a machine; empty if there is none."""
         wrong = (_impossible(each, self.unit) for each in self.parameters if not each.possible)
-        return (*_unsettled(self.after_fit), *wrong)
+        return (*([] if self.after_fit.settled else [RESTLESS]), *wrong)
 
     @property
     def pays(self) -> bool:
@@ -221,7 +226,7 @@ def add(
     board.refuse(chosen)
     added = add_to(board, raw, chosen, patch=patch)
     reach = left_open(board.frame).sentence
-    return replace(added, warnings=(reach, *added.warnings)) if reach else added
+    return replace(added, doubts=(reach, *added.doubts)) if reach else added
 
 
 def add_to(board: LiveBoard, raw: Comparison, chosen: Chosen, *, patch: bool = False) -> Addition:
@@ -253,9 +258,7 @@ def add_to(board: LiveBoard, raw: Comparison, chosen: Chosen, *, patch: bool = F
         effects_added=tuple(
             name for name in names if not any(board.model.effects.get(name, {}).values())
         ),
-        warnings=(
-            *_unsettled(after_fit),
-            *(_impossible(each, unit) for each in parameters if not each.possible),
+        doubts=(
             *raw.warnings,
             *board.said,
             *_unfelt(after_fit),
@@ -334,11 +337,6 @@ def _unfelt(fitted: Fit) -> list[str]:
         return []
     stays = "this, so it stays as it was" if len(names) == 1 else "these, so they stay as they were"
     return [f"nothing that was measured tells {stays}: {', '.join(names)}"]
-
-
-def _unsettled(fitted: Fit) -> list[str]:
-    restless = "the fit did not come to rest: do not trust these numbers; add fewer effects at once"
-    return [] if fitted.settled else [restless]
 
 
 def _surprises(parameters: Sequence[Parameter], known: Collection[str], unit: Unit) -> list[str]:

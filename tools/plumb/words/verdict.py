@@ -10,6 +10,7 @@ from plumb.model.catalogue import every_effect
 from plumb.model.plain import noun_of, plainly, ranked
 from plumb.text.answers import in_json
 from plumb.words import Part, Rows, Sentences, filled, paragraph
+from plumb.words.states import STATES
 
 
 @dataclass(frozen=True)
@@ -38,24 +39,21 @@ MOST_NAMED = 2  # causes in a sentence
 
 def title(diagnosis: Diagnosis) -> str:
     """Return what the marks come to, in a few words."""
-    if diagnosis.outliers:
-        return "A reading disagrees: look at it first"
-    if diagnosis.disagreements:
+    if diagnosis.disagreements and not diagnosis.outliers:
         return "The rounds do not go together"
-    if diagnosis.is_good:
-        return "Cured" if diagnosis.is_cured else "As good as these marks can show"
-    if diagnosis.verdict == "nothing_provable":
-        may_act = diagnosis.nothing_chance <= LIKELIER
-        return "Something may act" if may_act else "The frame may be all of it"
-    if diagnosis.is_finding:
-        return sentence(diagnosis).partition(".")[0]
-    if diagnosis.verdict == "not_in_library":
-        known = diagnosis.field_chance <= LIKELIER
-        odds = odds_words(diagnosis.field_chance)
-        return "Something is left over" if known else f"Something unknown acts, odds {odds}"
-    if diagnosis.verdict == "one_suspect":
-        return f"It is most likely {called(diagnosis, diagnosis.explanations[0])}"
-    return "Several things could be it"
+    match diagnosis.state:
+        case "frame_only":
+            may_act = diagnosis.nothing_chance <= LIKELIER
+            return "Something may act" if may_act else "The frame may be all of it"
+        case "several_causes":
+            return sentence(diagnosis).partition(".")[0]
+        case "unknown_cause":
+            known = diagnosis.field_chance <= LIKELIER
+            odds = odds_words(diagnosis.field_chance)
+            return "Something is left over" if known else f"Something unknown acts, odds {odds}"
+        case "one_cause" | "impossible":
+            return f"It is most likely {called(diagnosis, diagnosis.explanations[0])}"
+    return STATES[diagnosis.state].title
 
 
 def sentence(diagnosis: Diagnosis) -> str:

@@ -70,7 +70,7 @@ function OpenBench({ bench }: { bench: Board }) {
       act={<Write bench={bench} choice={kept} />}
     >
       <Trouble>{live.refusal}</Trouble>
-      <Fall live={live} stairs={stairs} />
+      <Fall {...{ live, stairs, bench }} />
       <div>
         <h2>Effects</h2>
         {effects.map((effect) => (
