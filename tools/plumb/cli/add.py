@@ -196,7 +196,7 @@ def fall_of(result: Addition, *, form: str = "png") -> bytes:
     added = " and ".join(noun_of(step.effect) for step in result.by_effect)
     done = f"Added: {added}" if added else "Frame fitted, nothing added"
     before, after = about(result.raw.rms), about(result.after.fit_rms)
-    fits = [("Frame fitted", result.before_fit)]
+    fits = [("Frame fitted", result.before.fit)]
     fits += [(f"+ {noun_of(step.effect)}", step.fit) for step in result.by_effect]
     stairs = [replace(panel_of(result.raw), title=f"As set\n{before} mm RMS")]
     stairs += [

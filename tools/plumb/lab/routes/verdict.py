@@ -108,7 +108,7 @@ def _states(raw: Comparison, decision: Decision, doubts: Doubts) -> list[State]:
     if decision.diagnosis.outliers:
         return states
     live = LiveBoard(decision.inputs, noise=noise)
-    fits = [("frame fitted", addition.before_fit if addition else live.fit(Chosen((), {})))]
+    fits = [("frame fitted", addition.before.fit if addition else live.fit(Chosen((), {})))]
     named = addition and (addition.effects_added or decision.diagnosis.likely)
     if addition and named:
         fits.append((f"+ {plainly(named)}", addition.after_fit))
