@@ -1,11 +1,10 @@
 """The diagnosis: observe, weigh all accounts, set outliers aside, and read the answers off."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
-from plumb.diagnosis.answer import Diagnosis, Fall, Judgement, RankedEffect, Together, judge
+from plumb.diagnosis.answer import Diagnosis, Fall, RankedEffect, Together, judge
 from plumb.diagnosis.as_set import is_good
 from plumb.diagnosis.expected_error import left_open
 from plumb.diagnosis.explanation import Explanation, explain, measured_board
@@ -19,30 +18,14 @@ from plumb.model.catalogue import effect_names
 from plumb.model.plain import ranked
 
 
-@dataclass(frozen=True)
-class Found:
-    """Readings that count, and the explanations of them: the base of all that is said of marks."""
-
-    readings: CleanReadings
-    judgement: Judgement
-    best: Explanation  # with the effects to go on with
-
-
-def find(inputs: Inputs) -> Found:
-    """Weigh all accounts of the marks. Raises InputError as diagnose() does."""
-    board = measured_board(inputs)
-    readings = clean_readings(board, inputs)
-    judgement = judge(readings, inputs.stated)
-    return Found(readings, judgement, readings.explained(judgement.best))
-
-
 def diagnose(inputs: Inputs) -> Diagnosis:
     """Find what the model of these settings misses in the marks, and in numbers checked directly.
 
     Raises InputError for too few marks, and marks that cannot be reached.
     """
-    found = find(inputs)
-    readings, judgement, best = found.readings, found.judgement, found.best
+    readings = clean_readings(measured_board(inputs), inputs)
+    judgement = judge(readings, inputs.stated)
+    best = readings.explained(judgement.best)
     frame, noise = readings.frame, readings.noise
     # Where a field acts, all chances are on that condition; else that nothing else is wrong.
     is_unknown = judgement.verdict == "not_in_library"
