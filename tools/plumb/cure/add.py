@@ -10,7 +10,6 @@ from pydantic import computed_field
 from plumb.cure.live_board import Chosen, LiveBoard, refuse_unknown_effects
 from plumb.diagnosis.expected_error import left_open
 from plumb.diagnosis.noise import Noise
-from plumb.diagnosis.sizes import intervals_sentence
 from plumb.fit.compare import Comparison, best_pose, compare
 from plumb.fit.covariates import PATCH, best_patch
 from plumb.fit.expected import PlausibleRange, plausible_range
@@ -202,11 +201,6 @@ class Addition:
     def sheet_rise(self) -> float:
         """The height by which to raise the last sheet's right end [mm] to undo its rotation."""
         return float(np.tan(self.after_fit.last_sheet_rotation)) * self.settings.sheet_width
-
-    @property
-    def intervals_said(self) -> str:
-        """For which noise they hold: a diagnosis may take another."""
-        return intervals_sentence(self.after_fit.sigma, self.sigma_from, self.unit)
 
     @property
     def stops(self) -> tuple[str, ...]:

@@ -5,10 +5,12 @@ from dataclasses import dataclass
 from math import inf
 
 from plumb.diagnosis.answer import UNKNOWN, Diagnosis, Together
+from plumb.diagnosis.noise import ORIGINS
 from plumb.diagnosis.priors import LIKELIER
 from plumb.model.catalogue import every_effect
 from plumb.model.plain import noun_of, plainly, ranked
 from plumb.text.answers import in_json
+from plumb.text.values import Unit
 from plumb.words import Part, Rows, Sentences, filled, paragraph
 from plumb.words.states import STATES
 
@@ -256,7 +258,7 @@ def full(diagnosis: Diagnosis) -> list[Part]:
         accounts(diagnosis),
         Sentences(near[:MOST_ALIKE]),
         Sentences([f"{noun}: {what}. To be sure: {how}" for noun, what, how in abouts]),
-        paragraph(diagnosis.noise.said(diagnosis.unit)),
+        paragraph(noise_sentence(diagnosis.noise.sigma, diagnosis.noise.source, diagnosis.unit)),
         *unseen(diagnosis),
         Sentences(diagnosis.warnings),
     )
@@ -332,6 +334,11 @@ def unseen(diagnosis: Diagnosis) -> list[Part]:
         Rows(["may act too", "up to", "taken up"], rows[:SHOWN], note=UNSEEN),
         paragraph(f"These marks say nothing of {plainly(silent)}." if silent else ""),
     )
+
+
+def noise_sentence(sigma: float, source: str, unit: Unit) -> str:
+    """Return the noise of a reading [mm], where it is from, and which intervals hold for it."""
+    return f"Noise of a reading: {unit.worded(sigma)} ({ORIGINS[source]}). Intervals: 95 %."
 
 
 def share_words(share: float | None) -> str:

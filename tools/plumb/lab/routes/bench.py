@@ -12,7 +12,6 @@ from pydantic import BaseModel, Field, FiniteFloat
 from plumb.cure.add import FitStep, Quality, add, add_to
 from plumb.cure.live_board import Chosen
 from plumb.cure.machine_file import record_of, toml_of
-from plumb.diagnosis.sizes import intervals_sentence
 from plumb.fit.covariates import Covariate
 from plumb.fit.expected import plausible_range
 from plumb.fit.fit import Fit
@@ -46,6 +45,7 @@ from plumb.model.predict import Array
 from plumb.text.answers import like
 from plumb.text.errors import InputError, on_page
 from plumb.text.values import Unit
+from plumb.words.verdict import noise_sentence
 
 router = APIRouter(tags=["bench"])
 NEW_MACHINE = "new.toml"
@@ -185,7 +185,7 @@ def refit(choice: BenchChoice, project: TheProject, warm: Warm) -> BenchFit:
     warm.live.refuse(chosen)
     fitted = warm.live.fit(chosen)
     sizes = _sizes(fitted, chosen, warm.inputs.unit)
-    intervals = intervals_sentence(fitted.sigma, warm.live.noise.source, warm.inputs.unit)
+    intervals = noise_sentence(fitted.sigma, warm.live.noise.source, warm.inputs.unit)
     title = f"+ {plainly(chosen.effects)}" if chosen.effects else "frame fitted"
     return BenchFit(
         **dict(fitted_state(title, fitted, warm.view, warm.doubts)),

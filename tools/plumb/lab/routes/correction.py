@@ -162,7 +162,7 @@ def correction_of(inputs: Inputs, decision: Decision, choices: Choices) -> Corre
         numbers=tuple(numbers),
         asked=tuple(each for each in now if each.before != each.after or each.is_accepted),
         notes=tuple(Note(each.weight, on_page(each.text)) for each in (some or whole).notes),
-        intervals=(some or whole).intervals_said,
+        intervals=words.intervals(some or whole),
         settings=choices.settings,
         is_written=is_written,
         as_set=as_set(whole.raw, title=f"as {choices.settings} says"),
