@@ -183,9 +183,8 @@ type State = Schemas["State"] | null;
 
 /** What the numbers would do to the marks; no state while they are fitted to another file. */
 function Compared({ made, states }: { made: Made; states: Schemas["State"][] }) {
-  const { marks, spans, sigma } = made;
-  if (marks.length + spans.length === 0) return null;
-  return <Residuals readings={{ marks, spans, sigma }} states={states} opensOn="second" slides />;
+  if (made.marks.length + made.spans.length === 0) return null;
+  return <Residuals readings={made} states={states} opensOn="second" slides />;
 }
 
 /** The error of the marks, before and after; as a single figure where there is no before. */
