@@ -32,7 +32,6 @@ from plumb.cure.decision import decide
 from plumb.cure.live_board import refuse_other_origin
 from plumb.cure.machine_file import record_of, toml_of
 from plumb.diary.file import FIT, fit_entry, keep
-from plumb.fit.covariates import PATCH
 from plumb.fit.inputs import Inputs
 from plumb.model.plain import noun_of
 from plumb.pictures.drawing import Panel, draw
@@ -194,11 +193,11 @@ def fall_of(result: Addition, *, form: str = "png") -> bytes:
     """Return the picture of how the error falls, effect by effect: as set, with the frame fitted,
     and with each effect.
     """
-    added = " and ".join(_noun(step.effect) for step in result.by_effect)
+    added = " and ".join(noun_of(step.effect) for step in result.by_effect)
     done = f"Added: {added}" if added else "Frame fitted, nothing added"
     before, after = about(result.raw.rms), about(result.after.fit_rms)
-    fits = [("Frame fitted", result.before_fit)]
-    fits += [(f"+ {_noun(step.effect)}", step.fit) for step in result.by_effect]
+    fits = [("Frame fitted", result.before.fit)]
+    fits += [(f"+ {noun_of(step.effect)}", step.fit) for step in result.by_effect]
     stairs = [replace(panel_of(result.raw), title=f"As set\n{before} mm RMS")]
     stairs += [
         Panel(f"{title}\n{about(fit.rms)} mm RMS", fit.predicted, fit.errors, good=True)
@@ -206,10 +205,6 @@ def fall_of(result: Addition, *, form: str = "png") -> bytes:
     ]
     heading = f"{done}. From {before} to {after} mm RMS"
     return draw(stairs, heading=heading, sheet=result.settings.sheet, form=form)
-
-
-def _noun(effect: str) -> str:
-    return "patch" if effect == PATCH else noun_of(effect)
 
 
 # The arguments of `plumb add`.

@@ -10,13 +10,12 @@ from pydantic import computed_field
 from plumb.cure.live_board import Chosen, LiveBoard, refuse_unknown_effects
 from plumb.diagnosis.expected_error import left_open
 from plumb.diagnosis.noise import Noise
-from plumb.diagnosis.sizes import intervals_sentence
 from plumb.fit.compare import Comparison, best_pose, compare
 from plumb.fit.covariates import PATCH, best_patch
 from plumb.fit.expected import PlausibleRange, plausible_range
 from plumb.fit.fit import Estimate, Fit
 from plumb.fit.inputs import Inputs
-from plumb.fit.observations import Observations, rms
+from plumb.fit.observations import rms
 from plumb.fit.rounds import notes_on, unit_of
 from plumb.model.catalogue import (
     NO_FIRMWARE,
@@ -28,10 +27,12 @@ from plumb.model.lab_effects import LAB_EFFECTS
 from plumb.model.plain import noun_of, plain_name, plain_range, plain_size
 from plumb.model.predict import frame_words
 from plumb.settings.machine import MachineSettings
-from plumb.text.answers import Internal, Number, among, in_json, key, meant, part
+from plumb.text.answers import Internal, Number, among, in_json, meant, part
 from plumb.text.values import Unit
 
+LEFT_BY_NOISE = "What noise alone would leave of that fit."
 Sizes = Mapping[str, Mapping[str, float]]  # of parameters, effect by effect
+RESTLESS = "the fit did not come to rest: do not trust these numbers; add fewer effects at once"
 FAR = 2.0  # [prior sigmas] a stated number that moved farther was probably measured wrongly
 
 
@@ -39,12 +40,26 @@ FAR = 2.0  # [prior sigmas] a stated number that moved farther was probably meas
 class Quality:
     """The errors of a fit [mm]; left out: each mark predicted by a fit that did not see it."""
 
-    fit_rms: Annotated[float, key("fit_rms_mm")]
-    noise_rms: Annotated[float, key("noise_rms_mm", "What noise alone would leave of that fit.")]
-    corrected_rms: Annotated[Number, key("priced_rms_mm")]
-    left_out_rms: Annotated[float, key("left_out_rms_mm")]
-    worst: Annotated[float, key("worst_mm")]
-    shape_rms: Annotated[float | None, key("shape_rms_mm")]
+    fit: Internal[Fit]
+
+    fit_rms = part("fit.rms", float, name="fit_rms_mm")
+    noise_rms = part("fit.noise_rms", float, LEFT_BY_NOISE, name="noise_rms_mm")
+    corrected_rms = part("fit.corrected_rms", Number, name="priced_rms_mm")
+    left_out_rms = part("fit.left_out_rms", float, name="left_out_rms_mm")
+
+    @computed_field(alias="worst_mm")
+    @property
+    def worst(self) -> float:
+        """The largest error."""
+        x, y = self.fit.errors.T
+        return float(np.max(np.hypot(x, y) if len(x) else np.abs(self.fit.distance_errors)))
+
+    @computed_field(alias="shape_rms_mm")
+    @property
+    def shape_rms(self) -> float | None:
+        """What is left when the sheet is laid at its best."""
+        pose = best_pose(self.fit.predicted, self.fit.predicted + self.fit.errors)
+        return rms(pose.errors) if pose else None
 
 
 @dataclass(frozen=True)
@@ -52,7 +67,6 @@ class FitStep(Quality):
     """The fit after another effect."""
 
     effect: str
-    fit: Internal[Fit]
     only_fit: bool  # the fit got better, what it did not see got worse
 
 
@@ -118,11 +132,9 @@ class Addition:
     raw: Internal[Comparison]
     before: Annotated[Quality, meant("With the frame fitted.")]
     after: Annotated[Quality, meant("With the effects too.")]
-    before_fit: Internal[Fit]
-    after_fit: Internal[Fit]
     parameters: tuple[Parameter, ...]
     effects_added: tuple[str, ...]  # those of the lab too
-    warnings: tuple[str, ...]
+    doubts: Internal[tuple[str, ...]]  # the heaviest first
     by_effect: tuple[FitStep, ...]  # in the order given; the last is `after`
     sigma_from: str  # where the sigma of the fits comes from: noise_sources.py, or "residuals"
     unit: Internal[Unit]  # of the lengths in what is said of it
@@ -131,6 +143,11 @@ class Addition:
     lab_effects = part("after_fit.lab_effects", Sizes)
     frame = part("settings.frame", dict[str, float])
     sigma_mm = part("after_fit.sigma", Number)
+
+    @property
+    def after_fit(self) -> Fit:
+        """The fit of the new machine."""
+        return self.after.fit
 
     @property
     def settings(self) -> MachineSettings:
@@ -166,14 +183,18 @@ class Addition:
         """Work by hand without which the numbers do not keep their promise, in sentences."""
         return (*_turn_sentences(self), *self.cures)
 
+    @in_json
+    def warnings(self) -> tuple[str, ...]:
+        """Reasons not to use the numbers, and doubts about them."""
+        return (*self.stops, *self.doubts)
+
     @property
     def notes(self) -> tuple[Note, ...]:
         """Notes on the numbers, the heaviest first."""
-        light = [each for each in self.warnings if each not in self.stops]
         return (
             *(Note("stop", each) for each in self.stops),
             *(Note("by_hand", each) for each in self.by_hand),
-            *(Note("doubt" if i == 0 else "hint", each) for i, each in enumerate(light)),
+            *(Note("hint" if i else "doubt", each) for i, each in enumerate(self.doubts)),
         )
 
     @property
@@ -182,15 +203,10 @@ class Addition:
         return float(np.tan(self.after_fit.last_sheet_rotation)) * self.settings.sheet_width
 
     @property
-    def intervals_said(self) -> str:
-        """For which noise they hold: a diagnosis may take another."""
-        return intervals_sentence(self.after_fit.sigma, self.sigma_from, self.unit)
-
-    @property
     def stops(self) -> tuple[str, ...]:
         """The reason not to use these numbers in a machine; empty if there is none."""
         wrong = (_impossible(each, self.unit) for each in self.parameters if not each.possible)
-        return (*_unsettled(self.after_fit), *wrong)
+        return (*([] if self.after_fit.settled else [RESTLESS]), *wrong)
 
     @property
     def pays(self) -> bool:
@@ -221,41 +237,34 @@ def add(
     board.refuse(chosen)
     added = add_to(board, raw, chosen, patch=patch)
     reach = left_open(board.frame).sentence
-    return replace(added, warnings=(reach, *added.warnings)) if reach else added
+    return replace(added, doubts=(reach, *added.doubts)) if reach else added
 
 
 def add_to(board: LiveBoard, raw: Comparison, chosen: Chosen, *, patch: bool = False) -> Addition:
     """Return the same on a board that is at hand, for a choice that it does not refuse."""
-    rows, noise, unit = board.rows, board.noise, board.inputs.unit
-    names = chosen.effects
-    before_fit = board.fit(Chosen())
-    before = quality_of(before_fit, rows)
+    noise, unit, names = board.noise, board.inputs.unit, chosen.effects
+    before = Quality(board.fit(Chosen()))
     fits = [board.fit(chosen.first(i + 1)) for i in range(len(names))]
-    steps = _steps(names, before, fits, rows)
-    after_fit = fits[-1] if fits else before_fit
     if patch:
+        last = fits[-1] if fits else before.fit
         weighted = board.weighted(chosen.held)
-        patched = best_patch(weighted, effects=names, priors=board.inputs.priors, without=after_fit)
+        patched = best_patch(weighted, effects=names, priors=board.inputs.priors, without=last)
         if patched:
-            after_fit, names = patched.fit, (*names, PATCH)
-            earlier = steps[-1] if steps else before
-            steps += _steps([PATCH], earlier, [after_fit], rows)
+            fits, names = [*fits, patched.fit], (*names, PATCH)
+    steps = _steps(names, before, fits)
     after = steps[-1] if steps else before
+    after_fit = after.fit
     parameters = tuple(_parameter(each) for each in after_fit.estimates if each.felt)
     known = {check.name for check in board.inputs.checked}
     return Addition(
         raw=raw,
         before=before,
         after=after,
-        before_fit=before_fit,
-        after_fit=after_fit,
         parameters=parameters,
         effects_added=tuple(
             name for name in names if not any(board.model.effects.get(name, {}).values())
         ),
-        warnings=(
-            *_unsettled(after_fit),
-            *(_impossible(each, unit) for each in parameters if not each.possible),
+        doubts=(
             *raw.warnings,
             *board.said,
             *_unfelt(after_fit),
@@ -268,25 +277,6 @@ def add_to(board: LiveBoard, raw: Comparison, chosen: Chosen, *, patch: bool = F
         by_effect=steps,
         sigma_from=noise.source,
         unit=unit,
-    )
-
-
-def quality_of(fitted: Fit, rows: Observations) -> Quality:
-    """Return how good a fit is."""
-    marks = len(fitted.errors) > 0
-    lengths = (
-        np.hypot(fitted.errors[:, 0], fitted.errors[:, 1])
-        if marks
-        else np.abs(fitted.distance_errors)
-    )
-    pose = best_pose(fitted.predicted, rows.measured)
-    return Quality(
-        fit_rms=fitted.rms,
-        noise_rms=fitted.noise_rms,
-        corrected_rms=fitted.corrected_rms,
-        left_out_rms=fitted.left_out_rms,
-        worst=float(lengths.max()),
-        shape_rms=rms(pose.errors) if pose else None,
     )
 
 
@@ -336,11 +326,6 @@ def _unfelt(fitted: Fit) -> list[str]:
     return [f"nothing that was measured tells {stays}: {', '.join(names)}"]
 
 
-def _unsettled(fitted: Fit) -> list[str]:
-    restless = "the fit did not come to rest: do not trust these numbers; add fewer effects at once"
-    return [] if fitted.settled else [restless]
-
-
 def _surprises(parameters: Sequence[Parameter], known: Collection[str], unit: Unit) -> list[str]:
     """Sentences about numbers that moved too far, or that may be zero;
     what is known of a number, measured or usual, holds whether the marks show it or not.
@@ -385,20 +370,13 @@ def _impossible(parameter: Parameter, unit: Unit) -> str:
     )
 
 
-def _steps(
-    names: Sequence[str], before: Quality, fits: Sequence[Fit], rows: Observations
-) -> tuple[FitStep, ...]:
-    qualities = [quality_of(fitted, rows) for fitted in fits]
-    earlier = [before, *qualities]
-    return tuple(
-        FitStep(
-            **vars(now),
-            effect=name,
-            fit=fitted,
-            only_fit=now.fit_rms < then.fit_rms and now.left_out_rms > then.left_out_rms,
-        )
-        for name, then, now, fitted in zip(names, earlier, qualities, fits, strict=False)
-    )
+def _steps(names: Sequence[str], before: Quality, fits: Sequence[Fit]) -> tuple[FitStep, ...]:
+    then, steps = before, []
+    for name, fitted in zip(names, fits, strict=True):
+        worse = fitted.rms < then.fit_rms and fitted.left_out_rms > then.left_out_rms
+        then = FitStep(fitted, name, worse)
+        steps.append(then)
+    return tuple(steps)
 
 
 def _is_known(step: FitStep, known: Collection[str]) -> bool:

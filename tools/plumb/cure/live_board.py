@@ -232,13 +232,9 @@ class BoardView:
 
     def drawn(self, *effects: str) -> Drawn:
         """Return what effects draw into the marks once the frame is refitted with them."""
-        frame, rows = self._frame, self.board.rows
+        frame, rows = self.board.frame, self.board.rows
         explanation = explain(frame.board, effects, start=frame)
         return drawn_by(frame, explanation, rows)
-
-    @property
-    def _frame(self) -> Explanation:
-        return self.board.frame
 
 
 # Whether the settings to be corrected are those of the machine that cut the marks.

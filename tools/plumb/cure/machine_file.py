@@ -5,7 +5,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from plumb.cure.add import Addition, Parameter, add
-from plumb.diagnosis.noise import Noise
+from plumb.cure.decision import Decision
 from plumb.fit.covariates import PATCH
 from plumb.fit.inputs import Inputs
 from plumb.fit.rounds import POSE_AXES, ZERO_AXES
@@ -103,18 +103,12 @@ def has_setting(name: str) -> bool:
     return bool(parameter_names(effect)) and place_of(effect) == "firmware"
 
 
-def correct(
-    inputs: Inputs,
-    effects: Sequence[str],
-    accepted: Collection[str],
-    *,
-    noise: Noise | None = None,
-) -> Correction:
-    """Fit frame and effects; then again with every number that is not accepted held as it is.
-
-    noise: that of a diagnosis, for the fit of all. Raises InputError as add() does.
+def correct(decision: Decision, accepted: Collection[str]) -> Correction:
+    """Fit frame and chosen effects; then again with every number that is not accepted held as it
+    is. Raises InputError as add() does.
     """
-    whole = add(inputs, effects=effects, noise=noise)
+    inputs, effects = decision.inputs, decision.chosen
+    whole = decision.addition or add(inputs, effects=effects, noise=decision.diagnosis.noise)
     names = [number.name for number in whole.parameters if has_setting(number.name)]
     free = [name for name in names if name in accepted]
     if not free:

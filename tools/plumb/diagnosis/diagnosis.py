@@ -1,11 +1,10 @@
 """The diagnosis: observe, weigh all accounts, set outliers aside, and read the answers off."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
-from plumb.diagnosis.answer import Diagnosis, Fall, Judgement, RankedEffect, Together, judge
+from plumb.diagnosis.answer import Diagnosis, Fall, RankedEffect, Together, judge
 from plumb.diagnosis.as_set import is_good
 from plumb.diagnosis.expected_error import left_open
 from plumb.diagnosis.explanation import Explanation, explain, measured_board
@@ -15,26 +14,8 @@ from plumb.diagnosis.priors import LIKELIER
 from plumb.diagnosis.readings import CleanReadings, clean_readings, shifts
 from plumb.diagnosis.sizes import hidden_share, room_for, sizes_of
 from plumb.fit.inputs import Inputs
-from plumb.marks.model import Round
 from plumb.model.catalogue import effect_names
 from plumb.model.plain import ranked
-
-
-@dataclass(frozen=True)
-class Found:
-    """Readings that count, and the explanations of them: the base of all that is said of marks."""
-
-    readings: CleanReadings
-    judgement: Judgement
-    best: Explanation  # with the effects to go on with
-
-
-def find(inputs: Inputs) -> Found:
-    """Weigh all accounts of the marks. Raises InputError as diagnose() does."""
-    board = measured_board(inputs)
-    readings = clean_readings(board, inputs)
-    judgement = judge(readings, inputs.stated)
-    return Found(readings, judgement, readings.explained(judgement.best))
 
 
 def diagnose(inputs: Inputs) -> Diagnosis:
@@ -42,13 +23,15 @@ def diagnose(inputs: Inputs) -> Diagnosis:
 
     Raises InputError for too few marks, and marks that cannot be reached.
     """
-    found = find(inputs)
-    readings, judgement, best = found.readings, found.judgement, found.best
+    readings = clean_readings(measured_board(inputs), inputs)
+    judgement = judge(readings, inputs.stated)
+    best = readings.explained(judgement.best)
     frame, noise = readings.frame, readings.noise
     # Where a field acts, all chances are on that condition; else that nothing else is wrong.
     is_unknown = judgement.verdict == "not_in_library"
     explanations = tuple(readings.explained(each.account) for each in judgement.listed)
-    doubts = doubts_of(readings, judgement.verdict, best, inputs.measurements.rounds)
+    doubts = doubts_of(readings, judgement.verdict, best)
+    names = [part.name for part in inputs.measurements.rounds]
     open_now = left_open(frame)
     is_nothing = judgement.verdict == "nothing_provable"
     good = is_nothing and is_good(frame, [best])
@@ -76,8 +59,8 @@ def diagnose(inputs: Inputs) -> Diagnosis:
         is_good=good,
         is_cured=good and inputs.settings.fitted is not None,
         falls=_falls(frame, best, judgement.best.effects),
-        warnings=tuple(filter(None, [open_now.sentence, *doubts.warnings])),
-        disagreements=doubts.disagreements,
+        warnings=tuple(filter(None, [open_now.sentence, *doubts])),
+        disagreements=tuple(_round_warnings(readings, names)),
     )
 
 
@@ -140,26 +123,13 @@ def _ranking(readings: CleanReadings, chances: Mapping[str, float]) -> tuple[Ran
 # What does not go together, in sentences.
 
 
-@dataclass(frozen=True)
-class Contradictions:
-    """Sentences on what does not go together."""
-
-    warnings: tuple[str, ...]
-    disagreements: tuple[str, ...]  # rounds
-
-
-def doubts_of(
-    readings: CleanReadings, verdict: str, best: Explanation, rounds: Sequence[Round]
-) -> Contradictions:
-    """Return all doubts about a verdict; `rounds` are the files of marks."""
-    return Contradictions(
-        warnings=(
-            *readings.noise.notes,
-            *(_place_warnings(readings, best) if verdict == "not_in_library" else []),
-            *_unsettled_warnings((readings.frame, best)),
-            *_sign_warnings(readings),
-        ),
-        disagreements=tuple(_round_warnings(readings, [part.name for part in rounds])),
+def doubts_of(readings: CleanReadings, verdict: str, best: Explanation) -> tuple[str, ...]:
+    """Return all doubts about a verdict."""
+    return (
+        *readings.noise.notes,
+        *(_place_warnings(readings, best) if verdict == "not_in_library" else []),
+        *_unsettled_warnings((readings.frame, best)),
+        *_sign_warnings(readings),
     )
 
 

@@ -5,7 +5,7 @@ that is used, and how far its rivals would lead elsewhere, each by its share. Wh
 has is not counted, nor where the sheet lies: that is no error among the holes of a job.
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -14,7 +14,7 @@ from plumb.diagnosis.drawn import model_by
 from plumb.diagnosis.explanation import Explanation
 from plumb.fit.compare import best_pose
 from plumb.fit.expected import places_over
-from plumb.fit.observations import Observations, rms, visited
+from plumb.fit.observations import Observations, visited
 from plumb.model.plain import ranked
 from plumb.model.predict import FOUND, NAMES, Array, lengths
 from plumb.text.answers import Internal, in_json
@@ -31,14 +31,26 @@ def expected_error(used: Explanation, rivals: Sequence[tuple[Explanation, float]
     moved = _among_each_other(used, [int(free[i]) for i in machine])
     inside = used.covariance[np.ix_(machine, machine)]
     square = float(np.einsum("rij,jk,rik->", moved, inside, moved)) / len(moved)
-    chains, outcome = lengths(model_by(used), places_over(model_by(used).sheet))
+    for (_, share), apart in zip(rivals, _apart(used, [each for each, _ in rivals]), strict=True):
+        square += share * float(np.nanmean(apart)) if np.isfinite(apart).any() else 0.0
+    return float(np.sqrt(square))
+
+
+def _apart(used: Explanation, rivals: Sequence[Explanation]) -> Iterator[Array]:
+    """Yield for each rival how far it would cut from there, squared (n,) [mm^2], the sheet laid at
+    its best; nan where one of them does not reach.
+    """
+    places = places_over(model_by(used).sheet)
+    chains, outcome = lengths(model_by(used), places)
     where, _, hanging = hung(used, chains)
-    for rival, share in rivals:
+    for rival in rivals:
         elsewhere, _, reached = hung(rival, chains)
         good = (outcome == FOUND) & (hanging == FOUND) & (reached == FOUND)
         pose = best_pose(where[good], elsewhere[good])
-        square += share * rms(pose.errors) ** 2 if pose else 0.0
-    return float(np.sqrt(square))
+        apart = np.full(len(places), np.nan)
+        if pose:
+            apart[good] = np.sum(pose.errors**2, axis=1)
+        yield apart
 
 
 def hung(explanation: Explanation, chains: Array) -> tuple[Array, Array, Array]:
@@ -107,24 +119,14 @@ def rival_error(explanations: Sequence[Explanation], noise: float) -> RivalError
     is less than the noise [mm] everywhere.
     """
     used, *rivals = explanations
+    apart = np.stack([*_apart(used, rivals)])
+    squares = np.where(np.isfinite(apart), apart, 0.0).max(axis=0)
     places = places_over(model_by(used).sheet)
-    chains, outcome = lengths(model_by(used), places)
-    where, _, hanging = hung(used, chains)
-    squares = np.zeros(len(places))
-    for rival in rivals:
-        elsewhere, _, reached = hung(rival, chains)
-        good = (outcome == FOUND) & (hanging == FOUND) & (reached == FOUND)
-        pose = best_pose(where[good], elsewhere[good])
-        apart = np.zeros(len(places))
-        apart[good] = np.sum(pose.errors**2, axis=1) if pose else 0.0
-        squares = np.maximum(squares, apart)
-    cells = np.array([[row, column] for row in range(3) for column in range(3)])
     width, height = model_by(used).sheet
     column = np.clip(np.floor(places[:, 0] / width * 3 + 1.5), 0, 2)
     row = np.clip(np.floor(1.5 - places[:, 1] / height * 3), 0, 2)
     rms = {
-        (int(r), int(c)): float(np.sqrt(np.mean(squares[(row == r) & (column == c)])))
-        for r, c in cells
+        (r, c): float(np.sqrt(np.mean(squares[(row == r) & (column == c)]))) for r, c in SIDE_WORDS
     }
     worst = ranked(rms, lambda cell: -rms[cell])[0]
     if rms[worst] <= noise:

@@ -49,11 +49,6 @@ class Noise:
         """Distance of a 95 % upper limit, in standard deviations."""
         return 1.645 if np.isinf(self.degrees) else float(scipy.special.stdtrit(self.degrees, 0.95))
 
-    def said(self, unit: Unit) -> str:
-        """Return a sentence on the noise of a reading."""
-        said = f"Noise of a reading: {unit.worded(self.sigma)}"
-        return f"{said} ({ORIGINS[self.source]}). Intervals: 95 %."
-
 
 def noise_by(sigmas: Array, weights: Array, stated: Stated | None, unit: Unit) -> Noise:
     """Return the noise by log weights (m,) of some standard deviations [mm].

@@ -8,7 +8,7 @@ import numpy as np
 import scipy
 
 from plumb.diagnosis.explanation import Explanation, beyond, covariance_of, span
-from plumb.diagnosis.noise import ORIGINS, Noise
+from plumb.diagnosis.noise import Noise
 from plumb.fit.expected import plausible_range, range_said
 from plumb.model.catalogue import parameter_words
 from plumb.model.plain import plain_size
@@ -178,8 +178,3 @@ def _largest(explanation: Explanation, raw: Array, total: Array, covariance: Arr
     # Turned so that the first is the longest.
     left, sizes, _ = np.linalg.svd(axes, full_matrices=False)
     return middle + radius * max(board.rows.rms_of(board.sigma * axis) for axis in (left * sizes).T)
-
-
-def intervals_sentence(sigma: float, source: str, unit: Unit) -> str:
-    """Return for which noise [mm] the intervals of a fit hold."""
-    return f"Intervals hold for a reading error of {unit.worded(sigma)} ({ORIGINS[source]})."

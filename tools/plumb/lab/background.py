@@ -13,12 +13,10 @@ from typing import Generic, TypeVar, cast
 
 from plumb.cure.decision import Decision, decide
 from plumb.cure.live_board import BoardView, LiveBoard
-from plumb.diagnosis.diagnosis import find
+from plumb.diagnosis import Diagnosis, diagnose
 from plumb.diagnosis.outliers import Doubts, Outlier, sure_readings
-from plumb.diagnosis.readings import CleanReadings
 from plumb.fit.compare import Comparison, compare
 from plumb.fit.inputs import Inputs
-from plumb.fit.problem import Checked
 from plumb.lab.project import Project
 from plumb.text.errors import InputError
 
@@ -180,21 +178,19 @@ def key_of(project: Project) -> str:
 def _diagnosed(inputs: Inputs) -> tuple[LiveBoard, tuple[Outlier, ...]]:
     """Return the board on which a diagnosis fits, and the readings that it doubts."""
     try:
-        found = find(inputs)
+        diagnosis = diagnose(inputs)
     except InputError:  # too few readings, or what the board says better
         return LiveBoard(inputs), ()  # nothing can be fitted
-    return (
-        sure_board(inputs, found.readings, found.best.board.usual_checks),
-        found.readings.outliers,
-    )
+    return sure_board(inputs, diagnosis), diagnosis.outliers
 
 
-def sure_board(inputs: Inputs, readings: CleanReadings, usual: tuple[Checked, ...]) -> LiveBoard:
+def sure_board(inputs: Inputs, diagnosis: Diagnosis) -> LiveBoard:
     """Return the board on which a diagnosis fits, without the readings that it doubts: its noise,
     and what is usual of sizes.
     """
-    sure = sure_readings(inputs.measurements, readings.outliers)
-    sure_inputs = replace(inputs, measurements=sure, checked=(*inputs.checked, *usual))
+    sure = sure_readings(inputs.measurements, diagnosis.outliers)
+    checked = (*inputs.checked, *diagnosis.usual)
     # As plumb add has it: what is known of effects tells it nothing of the noise.
     of_effects = any("." in check.name for check in inputs.checked)
-    return LiveBoard(sure_inputs, noise=None if of_effects else readings.noise)
+    noise = None if of_effects else diagnosis.noise
+    return LiveBoard(replace(inputs, measurements=sure, checked=checked), noise=noise)

@@ -73,7 +73,7 @@ def _of_bench(
     inputs: Inputs, diagnosis: Diagnosis, verdict: Verdict
 ) -> Iterator[tuple[str, object]]:
     """Yield what errors may depend on, and what each suspect draws."""
-    live = sure_board(inputs, diagnosis.readings, diagnosis.usual)
+    live = sure_board(inputs, diagnosis)
     warm = WarmBoard.of(inputs, live, diagnosis.outliers)
     yield "bench", {"board": "", "covariates": covariates_of(warm)}
     for card in verdict.cards if verdict.marks else ():

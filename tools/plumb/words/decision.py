@@ -252,9 +252,14 @@ def everything(
     return filled(
         _qualities(addition),
         _parameters(addition),
-        paragraph(f"{COLUMNS} {addition.intervals_said}"),
+        paragraph(f"{COLUMNS} {intervals(addition)}"),
         Sentences(listed),
     )
+
+
+def intervals(addition: Addition) -> str:
+    """Return for which noise the intervals hold: a diagnosis may take another."""
+    return of_marks.noise_sentence(addition.after_fit.sigma, addition.sigma_from, addition.unit)
 
 
 def _qualities(addition: Addition) -> Rows:

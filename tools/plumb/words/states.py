@@ -18,7 +18,7 @@ class Follows:
     command: str  # empty: nothing comes next
     screen: str = "verdict"
     link: str = "Back to the verdict"  # to that screen
-    title: str = ""  # of a correction without numbers
+    title: str = ""  # where there are no numbers
 
 
 COVER = "marks all over the sheet"
@@ -30,7 +30,7 @@ STATES: Mapping[str, Follows] = {
         command=AGAIN,
         screen="readings",
         link="Go to {}",
-        title="First look at a reading again",
+        title="A reading disagrees: look at it first",
     ),
     "measure_first": Follows(
         kind="open",
@@ -45,7 +45,9 @@ STATES: Mapping[str, Follows] = {
     "frame_only": Follows("good", 0, "Fit the frame:", ADD),
     "several_causes": Follows("open", 1, "Add what is known:", ADD),
     "unknown_cause": Follows("bad", 1, "What to measure next:", NEXT),
-    "cannot_tell": Follows("open", 0, "What to measure next:", NEXT),
+    "cannot_tell": Follows(
+        "open", 0, "What to measure next:", NEXT, title="Several things could be it"
+    ),
     "one_cause": Follows("good", 0, "Add it:", ADD),
     "impossible": Follows("bad", 1, "What to measure next:", NEXT),
     "better": Follows("good", 0, "Write it:", ADD, "correct", "Correct it: {}"),

@@ -5,11 +5,14 @@ from dataclasses import dataclass
 from math import inf
 
 from plumb.diagnosis.answer import UNKNOWN, Diagnosis, Together
+from plumb.diagnosis.noise import ORIGINS
 from plumb.diagnosis.priors import LIKELIER
 from plumb.model.catalogue import every_effect
 from plumb.model.plain import noun_of, plainly, ranked
 from plumb.text.answers import in_json
+from plumb.text.values import Unit
 from plumb.words import Part, Rows, Sentences, filled, paragraph
+from plumb.words.states import STATES
 
 
 @dataclass(frozen=True)
@@ -38,24 +41,21 @@ MOST_NAMED = 2  # causes in a sentence
 
 def title(diagnosis: Diagnosis) -> str:
     """Return what the marks come to, in a few words."""
-    if diagnosis.outliers:
-        return "A reading disagrees: look at it first"
-    if diagnosis.disagreements:
+    if diagnosis.disagreements and not diagnosis.outliers:
         return "The rounds do not go together"
-    if diagnosis.is_good:
-        return "Cured" if diagnosis.is_cured else "As good as these marks can show"
-    if diagnosis.verdict == "nothing_provable":
-        may_act = diagnosis.nothing_chance <= LIKELIER
-        return "Something may act" if may_act else "The frame may be all of it"
-    if diagnosis.is_finding:
-        return sentence(diagnosis).partition(".")[0]
-    if diagnosis.verdict == "not_in_library":
-        known = diagnosis.field_chance <= LIKELIER
-        odds = odds_words(diagnosis.field_chance)
-        return "Something is left over" if known else f"Something unknown acts, odds {odds}"
-    if diagnosis.verdict == "one_suspect":
-        return f"It is most likely {called(diagnosis, diagnosis.explanations[0])}"
-    return "Several things could be it"
+    match diagnosis.state:
+        case "frame_only":
+            may_act = diagnosis.nothing_chance <= LIKELIER
+            return "Something may act" if may_act else "The frame may be all of it"
+        case "several_causes":
+            return sentence(diagnosis).partition(".")[0]
+        case "unknown_cause":
+            known = diagnosis.field_chance <= LIKELIER
+            odds = odds_words(diagnosis.field_chance)
+            return "Something is left over" if known else f"Something unknown acts, odds {odds}"
+        case "one_cause" | "impossible":
+            return f"It is most likely {called(diagnosis, diagnosis.explanations[0])}"
+    return STATES[diagnosis.state].title
 
 
 def sentence(diagnosis: Diagnosis) -> str:
@@ -258,7 +258,7 @@ def full(diagnosis: Diagnosis) -> list[Part]:
         accounts(diagnosis),
         Sentences(near[:MOST_ALIKE]),
         Sentences([f"{noun}: {what}. To be sure: {how}" for noun, what, how in abouts]),
-        paragraph(diagnosis.noise.said(diagnosis.unit)),
+        paragraph(noise_sentence(diagnosis.noise.sigma, diagnosis.noise.source, diagnosis.unit)),
         *unseen(diagnosis),
         Sentences(diagnosis.warnings),
     )
@@ -334,6 +334,11 @@ def unseen(diagnosis: Diagnosis) -> list[Part]:
         Rows(["may act too", "up to", "taken up"], rows[:SHOWN], note=UNSEEN),
         paragraph(f"These marks say nothing of {plainly(silent)}." if silent else ""),
     )
+
+
+def noise_sentence(sigma: float, source: str, unit: Unit) -> str:
+    """Return the noise of a reading [mm], where it is from, and which intervals hold for it."""
+    return f"Noise of a reading: {unit.worded(sigma)} ({ORIGINS[source]}). Intervals: 95 %."
 
 
 def share_words(share: float | None) -> str:

@@ -41,7 +41,7 @@ def test_a_choice_states_whether_it_matters(run, ask):
     alike = ("add", *BOARD, "--effect", "auto", *checked("tape_scale.strain"))
     assert ask(*alike)[1]["auto"]["apart"] is None and ask(*alike)[1]["auto"]["rivals"]
     said = " ".join(run(*alike, "--details")[1].split())
-    assert "A choice: the likeliest is chains too long or too short and chain stretch, but" in said
+    assert "Added: chains too long or too short and chain stretch, the likeliest of several" in said
     assert "For cutting it hardly matters" in said and "(chain_" not in said[: said.index("To be")]
 
 

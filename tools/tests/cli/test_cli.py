@@ -80,7 +80,7 @@ def test_clean_marks_are_called_clean(run, file, maker):
     code, said, _ = run(*words)
     assert code == 0 and said.startswith("The machine is as good as")
     said = run(*words, "--details")[1]
-    assert "may act too" in said and "these marks say nothing of a sled that rubs" in said
+    assert "may act too" in said and "These marks say nothing of a sled that rubs" in said
 
 
 def test_a_slip_is_bad_news(run, ask, file, maker):

@@ -66,7 +66,7 @@ def test_a_machine_that_is_as_good_as_its_marks_can_show_is_left_as_it_is(client
     assert made["said"] == "Your machine is as good as these marks can show."
     write_correction(client, 422)
     verdict = awaited(client, "verdict", lambda answer: answer["verdict"])["verdict"]
-    assert verdict["title"] == "As good as these marks can show"
+    assert verdict["title"] == "Nothing to change"
 
 
 def test_a_slip_is_not_fitted(client, tmp_path):

@@ -61,7 +61,10 @@ def test_terminal_report_and_page_state_the_same_numbers(tmp_path):
     verdict, correction = (finished(client, name)[name] for name in ("verdict", "correction"))
     choice = {"effects": added["effects_added"]}
     bench = client.post("/api/bench/fit", json=choice).json()
-    stairs = client.post("/api/bench/stairs", json=choice).json()["stairs"]
+    climbed = client.post("/api/bench/stairs", json=choice).json()
+    stairs = [climbed["before"], *climbed["by_effect"]]
+    as_set = client.get("/api/bench").json()["as_set"]
+    fallen = [as_set["fit_rms"], *(step["fit_rms_mm"] for step in stairs)]
 
     report = json.loads(saved)
     assert (report["verdict"]["verdict"], report["correction"]) == (verdict, correction)
@@ -71,8 +74,8 @@ def test_terminal_report_and_page_state_the_same_numbers(tmp_path):
     card, after = verdict["cards"][0]["account"], added["after"]
     headline = re.findall(r"[\d.]+\d", correction["said"])[-3:]
     states = verdict["states"]
-    page = [[states[i]["fit_rms"], stairs[i]["fit_rms"]] for i in (0, 1, -1)]
-    noise = states[-1]["noise_rms"], stairs[-1]["noise_rms"], bench["noise_rms"]
+    page = [[states[i]["fit_rms"], fallen[i]] for i in (0, 1, -1)]
+    noise = states[-1]["noise_rms"], stairs[-1]["noise_rms_mm"], bench["noise_rms"]
     fitted = correction["whole"]["fit_rms"], bench["fit_rms"]
     for lengths in (
         [match_in(rf"The marks lie {LENGTH} RMS", compare), compared["rms_mm"], *page[0], raw[0]],

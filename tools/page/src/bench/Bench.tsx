@@ -70,7 +70,7 @@ function OpenBench({ bench }: { bench: Board }) {
       act={<Write bench={bench} choice={kept} />}
     >
       <Trouble>{live.refusal}</Trouble>
-      <Fall live={live} stairs={stairs} />
+      <Fall {...{ live, stairs, bench }} />
       <div>
         <h2>Effects</h2>
         {effects.map((effect) => (
@@ -86,7 +86,7 @@ function OpenBench({ bench }: { bench: Board }) {
           />
         ))}
         {now?.fit.intervals && kept.effects.length > 0 && (
-          <p class="intervals">In brackets: 95 %. {now.fit.intervals}</p>
+          <p class="intervals">In brackets: the interval. {now.fit.intervals}</p>
         )}
         {stairs && stairs.warnings.length > 0 && (
           <ul class="wrong">

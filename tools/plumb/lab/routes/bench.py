@@ -9,10 +9,9 @@ import numpy as np
 from fastapi import APIRouter, Depends, Query, Request
 from pydantic import BaseModel, Field, FiniteFloat
 
-from plumb.cure.add import add, add_to
+from plumb.cure.add import FitStep, Quality, add, add_to
 from plumb.cure.live_board import Chosen
 from plumb.cure.machine_file import record_of, toml_of
-from plumb.diagnosis.sizes import intervals_sentence
 from plumb.fit.covariates import Covariate
 from plumb.fit.expected import plausible_range
 from plumb.fit.fit import Fit
@@ -41,11 +40,12 @@ from plumb.lab.rounds import (
 )
 from plumb.lab.routes.project import ProjectAnswer, TheProject, of_lab, show
 from plumb.model.catalogue import every_effect, parameter_words
-from plumb.model.plain import noun_of, plain_size, plainly
+from plumb.model.plain import plain_size, plainly
 from plumb.model.predict import Array
 from plumb.text.answers import like
 from plumb.text.errors import InputError, on_page
 from plumb.text.values import Unit
+from plumb.words.verdict import noise_sentence
 
 router = APIRouter(tags=["bench"])
 NEW_MACHINE = "new.toml"
@@ -80,7 +80,6 @@ class BenchEffect(BaseModel):
 
     name: str
     noun: str
-    summary: str
     where: str  # "firmware" or "lab"
     in_settings: bool
     parameters: list[BenchParameter]
@@ -136,20 +135,11 @@ class BenchFit(State):
     command: str
 
 
-class BenchStair(BaseModel):
-    """An effect more, and what is left of the errors [mm]."""
-
-    noun: str
-    fit_rms: float
-    noise_rms: float | None  # that noise alone would leave
-    left_out_rms: float | None
-    only_fit: bool  # the fit got better, what it did not see got worse
-
-
 class BenchStairs(BaseModel):
     """The fall of the error, effect by effect, and the verdict on it."""
 
-    stairs: list[BenchStair]
+    before: Quality  # with the frame fitted
+    by_effect: tuple[FitStep, ...]
     warnings: list[str]
 
 
@@ -195,7 +185,7 @@ def refit(choice: BenchChoice, project: TheProject, warm: Warm) -> BenchFit:
     warm.live.refuse(chosen)
     fitted = warm.live.fit(chosen)
     sizes = _sizes(fitted, chosen, warm.inputs.unit)
-    intervals = intervals_sentence(fitted.sigma, warm.live.noise.source, warm.inputs.unit)
+    intervals = noise_sentence(fitted.sigma, warm.live.noise.source, warm.inputs.unit)
     title = f"+ {plainly(chosen.effects)}" if chosen.effects else "frame fitted"
     return BenchFit(
         **dict(fitted_state(title, fitted, warm.view, warm.doubts)),
@@ -227,23 +217,14 @@ def gain(choice: BenchChoice, warm: Warm) -> dict[str, float]:
 
 
 @router.post("/bench/stairs")
-def climb(choice: BenchChoice, project: TheProject, warm: Warm) -> BenchStairs:
+def climb(choice: BenchChoice, warm: Warm) -> BenchStairs:
     """Return how the error falls with each effect more. Nothing is written."""
     chosen = choice.chosen
     warm.live.refuse(chosen)
     result = add_to(warm.live, warm.raw, chosen)
-    qualities = [("frame fitted", result.before, False)]
-    qualities += [(f"+ {noun_of(step.effect)}", step, step.only_fit) for step in result.by_effect]
-    shown = as_set(warm.raw, doubts=warm.doubts)
-    first = BenchStair(
-        noun="as set", fit_rms=shown.fit_rms, noise_rms=None, left_out_rms=None, only_fit=False
-    )
-    stairs = [
-        like(BenchStair, quality, noun=noun, only_fit=only_fit)
-        for noun, quality, only_fit in qualities
-    ]
     return BenchStairs(
-        stairs=[first, *stairs],
+        before=result.before,
+        by_effect=result.by_effect,
         warnings=[*(slip.sentence for slip in warm.slips), *map(on_page, result.warnings)],
     )
 

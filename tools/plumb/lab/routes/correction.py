@@ -135,23 +135,41 @@ def _last_sent(project: Project) -> str:
 
 def correction_of(inputs: Inputs, decision: Decision, choices: Choices) -> CorrectionParts:
     """Return what the marks would change, and what is accepted of it."""
+    said = words.headline(decision)
+    reasons = list(map(on_page, words.said(decision)))
     # What was written stays in view: it goes to the machine, or is taken back.
     record = inputs.settings.fitted
     is_written = bool(record and record.is_of(each.digest for each in inputs.measurements.rounds))
     if decision.addition is None and not (decision.state == "good" and is_written):
         return CorrectionParts(
-            said=words.headline(decision),
-            reasons=list(map(on_page, words.said(decision))),
+            said=said,
+            reasons=reasons,
             nothing=STATES[decision.state].title,
             instead=words.step(decision),
             add=_auto_words(choices),
         )
-    return _parts(_corrected(decision, choices), decision, choices, is_written=is_written)
-
-
-def _corrected(decision: Decision, choices: Choices) -> Correction:
-    noise = decision.diagnosis.noise
-    return correct(decision.inputs, decision.chosen, choices.accepted, noise=noise)
+    made, noise = correct(decision, choices.accepted), decision.diagnosis.noise
+    whole, some = made.whole, made.accepted
+    fitted = some.parameters if some else ()
+    again = {each.name: _number(each, choices) for each in fitted if has_setting(each.name)}
+    numbers = [_number(number, choices) for number in made.numbers]
+    now = [again.get(number.name, number) for number in numbers]
+    left = partial(fitted_state, view=BoardView(LiveBoard(decision.inputs, noise=noise)))
+    return CorrectionParts(
+        **readings_of(decision.inputs.measurements, whole.raw, noise.sigma),
+        said=said,
+        reasons=reasons,
+        numbers=tuple(numbers),
+        asked=tuple(each for each in now if each.before != each.after or each.is_accepted),
+        notes=tuple(Note(each.weight, on_page(each.text)) for each in (some or whole).notes),
+        intervals=words.intervals(some or whole),
+        settings=choices.settings,
+        is_written=is_written,
+        as_set=as_set(whole.raw, title=f"as {choices.settings} says"),
+        accepted=left("with what you accepted", some.after_fit) if some else None,
+        whole=left("with all of it", whole.after_fit),
+        add=_add_words(made, decision.diagnosis.usual, choices),
+    )
 
 
 @router.post("/correction")
@@ -164,7 +182,7 @@ def write(known: Write, project: TheProject, line: TheLine) -> Written:
     decision = decide(inputs)
     if decision.addition is None:
         raise InputError(words.reason(decision))
-    made = _corrected(decision, choices).accepted
+    made = correct(decision, choices.accepted).accepted
     if made is None:
         raise InputError("no number is accepted, so there is nothing to write")
     name = project.free_name("machine", *WRITTEN)
@@ -206,33 +224,6 @@ def undo(known: Write, project: TheProject) -> ProjectAnswer:
     chosen = choices.model_copy(update={"settings": name, "settings_before": earlier})
     project.save({FILE: choices_text(chosen)}, read={FILE: known.choices})
     return show(project)
-
-
-def _parts(
-    made: Correction, decision: Decision, choices: Choices, *, is_written: bool
-) -> CorrectionParts:
-    whole, some = made.whole, made.accepted
-    numbers = tuple(_number(number, choices) for number in made.numbers)
-    fitted = some.parameters if some else ()
-    again = {each.name: _number(each, choices) for each in fitted if has_setting(each.name)}
-    now = [again.get(number.name, number) for number in numbers]
-    noise = decision.diagnosis.noise
-    left = partial(fitted_state, view=BoardView(LiveBoard(decision.inputs, noise=noise)))
-    return CorrectionParts(
-        **readings_of(decision.inputs.measurements, whole.raw, noise.sigma),
-        said=words.headline(decision),
-        reasons=list(map(on_page, words.said(decision))),
-        numbers=numbers,
-        asked=tuple(each for each in now if each.before != each.after or each.is_accepted),
-        notes=tuple(Note(each.weight, on_page(each.text)) for each in (some or whole).notes),
-        intervals=(some or whole).intervals_said,
-        settings=choices.settings,
-        is_written=is_written,
-        as_set=as_set(whole.raw, title=f"as {choices.settings} says"),
-        accepted=left("with what you accepted", some.after_fit) if some else None,
-        whole=left("with all of it", whole.after_fit),
-        add=_add_words(made, decision.diagnosis.usual, choices),
-    )
 
 
 def _add_words(made: Correction, usual: Sequence[Checked], choices: Choices) -> list[str]:

@@ -77,11 +77,11 @@ def board_and_known(project: Project, inputs: api.Inputs) -> list[str]:
 def verdict_of(inputs: api.Inputs, decision: Decision) -> Verdict:
     """Return the verdict as the page shows it."""
     diagnosis, raw = decision.diagnosis, api.compare(inputs)
-    doubts = Doubts.of(diagnosis.outliers, raw)
+    doubts, noise = Doubts.of(diagnosis.outliers, raw), diagnosis.noise
     reach = diagnosis.left_open.sentence
     slips = [slip.sentence for slip in diagnosis.outliers]
     return Verdict(
-        **readings_of(inputs.measurements, raw, diagnosis.noise.sigma, doubts),
+        **readings_of(inputs.measurements, raw, noise.sigma, doubts),
         title=words.title(diagnosis),
         sentence=words.sentence(diagnosis),
         warned=[*slips, *([f"{reach}."] if reach else [])],
@@ -93,7 +93,7 @@ def verdict_of(inputs: api.Inputs, decision: Decision) -> Verdict:
         sureness=of_decision.sureness(decision),
         unseen=words.unseen(diagnosis),
         why=[
-            diagnosis.noise.said(diagnosis.unit),
+            words.noise_sentence(noise.sigma, noise.source, diagnosis.unit),
             *diagnosis.disagreements,
             *map(on_page, diagnosis.warnings),
         ],
@@ -108,7 +108,7 @@ def _states(raw: Comparison, decision: Decision, doubts: Doubts) -> list[State]:
     if decision.diagnosis.outliers:
         return states
     live = LiveBoard(decision.inputs, noise=noise)
-    fits = [("frame fitted", addition.before_fit if addition else live.fit(Chosen((), {})))]
+    fits = [("frame fitted", addition.before.fit if addition else live.fit(Chosen((), {})))]
     named = addition and (addition.effects_added or decision.diagnosis.likely)
     if addition and named:
         fits.append((f"+ {plainly(named)}", addition.after_fit))
