@@ -11,7 +11,8 @@ from plumb.diary.file import RECHECK, folder_of, keep, read_diary
 from plumb.diary.recheck import Recheck, fit_of, recheck
 from plumb.fit.inputs import Inputs
 from plumb.job.home import HomeTouch, are_apart
-from plumb.words.recheck import KINDS, RecheckAnswer, in_words
+from plumb.words.recheck import RecheckAnswer, in_words
+from plumb.words.states import KINDS
 
 
 def checked_by_fit(inputs: Inputs, path: str) -> RecheckAnswer | None:
@@ -56,4 +57,4 @@ def report(arguments: argparse.Namespace, checked: RecheckAnswer) -> int:
     else:
         verdict = headline(checked.headline, KINDS[checked.state])
         print("\n\n".join([verdict, *in_text(checked.tables)]))
-    return int(checked.state != "as_fitted")
+    return int(KINDS[checked.state] == "bad")

@@ -24,7 +24,8 @@ from plumb.pictures.drawing import GOOD as CUT
 from plumb.pictures.drawing import NOWHERE, QUIET, Corners, Dot, Panel, Ways, draw, shades_of
 from plumb.settings.machine import MachineSettings
 from plumb.text.values import Unit
-from plumb.words.job import KINDS, JobAnswer, all_of, changes_said, colours, headline, runs_here
+from plumb.words.job import JobAnswer, all_of, changes_said, colours, headline, runs_here
+from plumb.words.states import KINDS
 
 NAMED = 30  # parts that get their number in the picture
 
@@ -60,7 +61,7 @@ def run(arguments: argparse.Namespace) -> int:
         print_json(JobAnswer(checked, list(files), changes))
     else:
         print("\n\n".join(_text(checked, changes, arguments, unit)))
-    return int(checked.state == "wrong")
+    return int(KINDS[checked.state] == "bad")
 
 
 def _text(

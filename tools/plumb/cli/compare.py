@@ -11,7 +11,8 @@ from plumb.cli.screen import headline, in_text, next_step, print_json, same_inpu
 from plumb.fit.compare import Comparison, compare
 from plumb.pictures.drawing import Panel, draw
 from plumb.text.errors import InputError
-from plumb.words.comparison import KINDS, conclusion, full, picture_title, short
+from plumb.words.comparison import conclusion, full, picture_title, short
+from plumb.words.states import KINDS
 
 
 def run(arguments: argparse.Namespace) -> int:

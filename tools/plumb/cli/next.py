@@ -24,6 +24,7 @@ from plumb.plan.proposal import form_of, program_of, worth
 from plumb.settings.machine import MachineSettings
 from plumb.text.errors import InputError
 from plumb.words import proposals as words
+from plumb.words.states import KINDS
 from plumb.words.verdict import in_words
 
 
@@ -109,7 +110,7 @@ def first_proposal(
     best: words.ProposalInWords | None, arguments: argparse.Namespace, settings: MachineSettings
 ) -> list[str]:
     """Return what to measure, how, and the commands after it."""
-    first = headline(words.headline(best), words.KINDS[worth(best)])
+    first = headline(words.headline(best), KINDS[worth(best)])
     if best is None:
         return [first]
     steps = in_text([words.to_read(best, best.steps, settings)])

@@ -18,7 +18,6 @@ from plumb.lab.rounds import (
     saved_round,
     settings_of,
 )
-from plumb.marks.model import Mark
 from plumb.plan.planned_visits import proof_places
 from plumb.text.errors import InputError
 
@@ -34,7 +33,8 @@ def proof_round(project: Project, *, anew: bool = False) -> Round:
         return saved_round(project, forms[-1], "proof")
     choices, inputs = project.choices, inputs_of_promise(project)
     names = next_names(project, PROOFS)
-    cut = [mark.target for form in forms if form not in names for mark in _marks(project, form)]
+    before = [form_of(project, choices, form) for form in forms if form not in names]
+    cut = [mark.target for form in before for mark in form.measurements.marks]
     # Far from the marks that were fitted, and from proof marks that were cut before.
     known = [*map(tuple, inputs.measurements.targets), *cut]
     places = proof_places(inputs.settings, np.array(known))
@@ -43,10 +43,6 @@ def proof_round(project: Project, *, anew: bool = False) -> Round:
     plan = planned(inputs.settings, "own", [(float(x), float(y)) for x, y in places])
     same_sheet = choices.model_copy(update={"new_sheet": False})
     return new_round(project, same_sheet, plan, names, origin="proof")
-
-
-def _marks(project: Project, form: str) -> tuple[Mark, ...]:
-    return form_of(project, project.choices, form).measurements.marks
 
 
 def proof_forms(project: Project) -> list[str]:

@@ -25,7 +25,7 @@ from plumb.plan.options import MARK, READING, ROUND
 from plumb.settings.cut_with import cut_with_lines, digest_of, with_form
 from plumb.settings.machine import MachineSettings
 from plumb.text.commands import quoted
-from plumb.text.errors import InputError, Source, on_page
+from plumb.text.errors import InputError, on_page
 from plumb.text.files import is_ours, numbered
 
 ENDING = ".toml"  # of a form
@@ -129,11 +129,6 @@ class Planned:
         """The time to cut and read them."""
         read = READING * len(self.spans)
         return ROUND + MARK * len(self.touches) + read
-
-    def form(self, path: str, *, settings: Source, new_sheet: bool = False) -> str:
-        """Return the form at that path that waits for readings of marks cut with these settings."""
-        named = cut_with_lines(settings, path)
-        return marks_list(self.grid, self.machine, named, new_sheet=new_sheet)
 
     def words(self) -> list[str]:
         """Return what `plumb grid` is given for these marks."""
@@ -246,7 +241,8 @@ def new_round(
     digests = {name: project.digest(name) for name in names}
     trouble = unreachable(plan, opened(project))
     text = "" if trouble else program(plan.grid, plan.machine)
-    filled = plan.form(path, settings=settings, new_sheet=new_sheet)
+    named = cut_with_lines(settings, path)
+    filled = marks_list(plan.grid, plan.machine, named, new_sheet=new_sheet)
     made = grid_command(project, choices, plan, form=form, program=file)
     return Round(
         origin=origin,

@@ -1,18 +1,17 @@
 """How far off the marks are: a headline, the worst in a few rows, or all."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 
 import numpy as np
 
-from plumb.fit.compare import ComparedDistance, ComparedMark, Comparison, Nearness
+from plumb.fit.compare import ComparedDistance, ComparedMark, Comparison
 from plumb.fit.inputs import Inputs
 from plumb.marks.model import Typed
 from plumb.model.plain import plain_size, ranked
 from plumb.settings.toml import FitRecord
 from plumb.text.values import Unit
-from plumb.words import Kind, Part, Rows, Sentences
+from plumb.words import Part, Rows, Sentences
 
-KINDS: Mapping[Nearness, Kind] = {"near_noise": "good", "off": "open"}
 WORST, NOTES = 8, 2  # rows and sentences of a short answer
 MARKS = ["mark", "target x", "y", "measured x", "y", "error x", "y", "length"]
 DISTANCES = ["distance", "predicted", "measured", "error"]

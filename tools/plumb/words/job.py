@@ -1,6 +1,6 @@
 """Will the job fit? What is wrong with a program, what to expect of it, and where it goes on."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from plumb.job.bits import INCH
@@ -13,10 +13,9 @@ from plumb.model.predict import CANNOT_HANG, REACH_WORDS
 from plumb.settings.machine import GRAVITY
 from plumb.text.answers import Internal, in_json, part
 from plumb.text.values import INCHES, MM, Unit, time_text
-from plumb.words import Kind, Rows, Sentences
 from plumb.words import Part as Said
+from plumb.words import Rows, Sentences
 
-KINDS: Mapping[Fitness, Kind] = {"clean": "good", "doubtful": "open", "wrong": "bad"}
 SHOWN = 12  # lines with the same fault, and parts in the table
 PASSES = 8  # of a job that goes on, that are named
 MEANING = (

@@ -1,6 +1,6 @@
 """What to measure? The best proposal with its steps, and the other ways in a few rows."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Annotated
 
@@ -16,15 +16,13 @@ from plumb.plan.proposal import (
     SETTLE,
     Next,
     Proposal,
-    Worth,
 )
 from plumb.settings.machine import MachineSettings
 from plumb.text.answers import Internal, in_json, key, part
 from plumb.text.values import Unit
-from plumb.words import Kind, Part, Rows, Sentences
+from plumb.words import Part, Rows, Sentences
 from plumb.words.verdict import DiagnosisInWords, share_words
 
-KINDS: Mapping[Worth, Kind] = {"settles": "good", "helps": "open", "nothing_would": "open"}
 FEW = 5  # proposals; the JSON has all
 HEADS = {
     SETTLE: "chance to settle",
@@ -232,7 +230,7 @@ def chances(outline: Outline) -> tuple[str, str]:
 def advised(
     seen: Preview, title: str, minutes: float, unit: Unit, *, instead_of: tuple[Preview, str] | None
 ) -> str:
-    """Return what the recommended marks could tell; `instead_of`: the usual marks, and their title."""
+    """Return what the recommended marks could tell; `instead_of`: the usual marks, and a title."""
     if seen.seen:
         few, usual = instead_of or (None, "")
         more = f", instead of {few.seen} and {few.named} with {usual.lower()}" if few else ""

@@ -1,6 +1,5 @@
 """Is it as it was? A sentence, each mark against the promise, and what may have changed."""
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 from math import dist
 from typing import Any
@@ -13,19 +12,12 @@ from plumb.diary.recheck import (
     LikelyChange,
     Recheck,
     RecheckedMark,
-    Sameness,
 )
 from plumb.model.plain import in_feet, plain_change, plain_name, words_of
 from plumb.text.answers import in_json, json_of
 from plumb.text.values import Unit
-from plumb.words import Kind, Rows
+from plumb.words import Rows
 
-KINDS: Mapping[Sameness, Kind] = {
-    "as_fitted": "good",
-    "sheet_moved": "bad",
-    "changed": "bad",
-    "beyond_these_marks": "bad",
-}
 SHOWN = 4  # changes
 
 

@@ -1,4 +1,4 @@
-"""What follows from each state of a diagnosis and of a decision, for terminal, page and JSON."""
+"""What follows from the state of each answer, for terminal, page and JSON."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -51,4 +51,19 @@ STATES: Mapping[str, Follows] = {
     "one_cause": Follows("good", 0, "Add it:", ADD),
     "impossible": Follows("bad", 1, "What to measure next:", NEXT),
     "better": Follows("good", 0, "Write it:", ADD, "correct", "Correct it: {}"),
+}
+# What follows from the states of all other answers; a bad one ends a command with 1.
+KINDS: Mapping[str, Kind] = {
+    "near_noise": "good",
+    "off": "open",
+    "settles": "good",
+    "helps": "open",
+    "nothing_would": "open",
+    "as_fitted": "good",
+    "sheet_moved": "bad",
+    "changed": "bad",
+    "beyond_these_marks": "bad",
+    "clean": "good",
+    "doubtful": "open",
+    "wrong": "bad",
 }
