@@ -9,6 +9,7 @@ from plumb.fit.inputs import Inputs
 from plumb.marks.model import Typed
 from plumb.model.plain import plain_size, ranked
 from plumb.settings.toml import FitRecord
+from plumb.text.errors import to_do
 from plumb.text.values import Unit
 from plumb.words import Part, Rows, Sentences
 
@@ -81,7 +82,7 @@ def short(comparison: Comparison, inputs: Inputs) -> list[Part]:
         left_out, said = len(comparison.distances) - len(distances), f"All in {unit.name}."
     if left_out:
         are = "is" if left_out == 1 else "are"
-        said += f" {left_out} more {are} off by less; --details shows them."
+        said += f" {left_out} more {are} off by less" + to_do("; --details shows them.", page=".")
     outside = outside_sentence(comparison.promised, unit) if comparison.promised else ""
     notes = [*filter(None, [outside]), *comparison.warnings][:NOTES]
     return [Rows(header, rows, note=said), *([Sentences(notes)] if notes else [])]

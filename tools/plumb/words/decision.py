@@ -210,7 +210,7 @@ def numbers(addition: Addition, notes: Sequence[Note]) -> list[Part]:
 def _first_of(notes: Sequence[Note]) -> list[str]:
     """Return the warnings; hints by their number."""
     hints = sum(note.weight == "hint" for note in notes)
-    more = [f"{hints} more to know: see --details"] if hints else []
+    more = [f"{hints} more to know" + to_do(": see --details", page="")] if hints else []
     return [*(note.text for note in notes if note.weight != "hint"), *more]
 
 
@@ -245,7 +245,8 @@ def _offer_sentence(decision: Decision) -> str:
     bought = f"{unit.bare(without)} to {unit.worded(with_patch)} on marks not used"
     if addition and PATCH in addition.effects_added:
         return f"The residual patch bought {bought}."
-    return f"A residual patch (--patch) would buy {bought}. {PATCH_WARNING}"
+    option = to_do(" (--patch)", page="")
+    return "A residual patch" + option + f" would buy {bought}. {PATCH_WARNING}"
 
 
 def everything(

@@ -10,6 +10,7 @@ from plumb.diagnosis.priors import LIKELIER
 from plumb.model.catalogue import every_effect
 from plumb.model.plain import noun_of, plainly, ranked
 from plumb.text.answers import in_json
+from plumb.text.errors import to_do
 from plumb.text.values import Unit
 from plumb.words import Part, Rows, Sentences, filled, paragraph
 from plumb.words.states import STATES
@@ -218,7 +219,8 @@ COLUMNS = (
 )
 UNKNOWN_ADVICE = (
     "Does the sled hang on a ring or linkage? On two brackets it leans and errs in another way.",
-    "Were the marks cut with these settings? If not, name the others with --cut-with.",
+    "Were the marks cut with these settings? If not, name the others"
+    + to_do(" with --cut-with.", page=" in the form, as cut_with."),
     "Does y run the way the file says? Measure a mark again.",
 )
 MOST_ALIKE = 3
