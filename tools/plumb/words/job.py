@@ -75,12 +75,9 @@ def runs_here(name: str) -> str:
 
 def colours(piece: Piece | None, unit: Unit) -> str:
     """Return what the colours of a picture of the job mean."""
+    meaning = "Blue: the bit in the wood; grey: above the sheet; orange: wrong, or not usable"
     depth = f"; brown: the wood, cut up to {unit.worded(piece.deepest)} deep" if piece else ""
-    return (
-        "Blue: the bit in the wood; grey: above the sheet; orange: wrong, or not usable"
-        + depth
-        + "."
-    )
+    return f"{meaning}{depth}."
 
 
 def all_of(checked: CheckedJob, unit: Unit) -> list[Said]:

@@ -170,6 +170,15 @@ def test_formatting_refuses(tmp_path):
     assert code == 1 and {line.partition(":")[0] for line in out.splitlines()} == {*bad}
 
 
+def test_no_sentence_is_composed_outside_the_room_of_words(tmp_path):
+    right = 'title = f"{mm} mm RMS"\nraise InputError(f"{name}: it is not there at all")\n'
+    good = {"tools/plumb/cli/add.py": right, "tools/plumb/words/a.py": 'f"{a} is {b} off by now"\n'}
+    assert said("sentences", plant(tmp_path, good))[0] == 0
+    refused(
+        "sentences", tmp_path, "tools/plumb/lab/routes/a.py", 'f"It is {a} mm off."\n', "belongs"
+    )
+
+
 @pytest.mark.parametrize(
     ("text", "word"),
     [
