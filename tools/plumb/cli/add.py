@@ -14,7 +14,6 @@ from plumb.cli.output import STDOUT, refuse_twins, say_failure, write_outputs
 from plumb.cli.screen import (
     AUTO,
     CLIENT_OF,
-    about,
     add_named,
     headline,
     in_text,
@@ -40,6 +39,7 @@ from plumb.text.errors import InputError
 from plumb.text.values import Unit
 from plumb.words import Kind, Part
 from plumb.words import decision as words
+from plumb.words.comparison import about
 from plumb.words.states import STATES
 
 NONE = "none"  # as an effect: the frame alone
@@ -193,18 +193,19 @@ def fall_of(result: Addition, *, form: str = "png") -> bytes:
     """Return the picture of how the error falls, effect by effect: as set, with the frame fitted,
     and with each effect.
     """
-    added = " and ".join(noun_of(step.effect) for step in result.by_effect)
-    done = f"Added: {added}" if added else "Frame fitted, nothing added"
-    before, after = about(result.raw.rms), about(result.after.fit_rms)
     fits = [("Frame fitted", result.before.fit)]
     fits += [(f"+ {noun_of(step.effect)}", step.fit) for step in result.by_effect]
-    stairs = [replace(panel_of(result.raw), title=f"As set\n{before} mm RMS")]
+    stairs = [replace(panel_of(result.raw), title=_titled("As set", result.raw.rms))]
     stairs += [
-        Panel(f"{title}\n{about(fit.rms)} mm RMS", fit.predicted, fit.errors, good=True)
-        for title, fit in fits
+        Panel(_titled(title, fit.rms), fit.predicted, fit.errors, good=True) for title, fit in fits
     ]
-    heading = f"{done}. From {before} to {after} mm RMS"
-    return draw(stairs, heading=heading, sheet=result.settings.sheet, form=form)
+    return draw(
+        stairs, heading=words.picture_heading(result), sheet=result.settings.sheet, form=form
+    )
+
+
+def _titled(title: str, rms: float) -> str:
+    return f"{title}\n{about(rms)} mm RMS"
 
 
 # The arguments of `plumb add`.

@@ -24,7 +24,7 @@ from plumb.pictures.drawing import GOOD as CUT
 from plumb.pictures.drawing import NOWHERE, QUIET, Corners, Dot, Panel, Ways, draw, shades_of
 from plumb.settings.machine import MachineSettings
 from plumb.text.values import Unit
-from plumb.words.job import JobAnswer, all_of, changes_said, headline
+from plumb.words.job import JobAnswer, all_of, changes_said, colours, headline, runs_here
 from plumb.words.states import KINDS
 
 NAMED = 30  # parts that get their number in the picture
@@ -48,7 +48,7 @@ def run(arguments: argparse.Namespace) -> int:
         mended = fixed(machine, lines, checked.findings, source=arguments.job)
         changes = mended.changes
         # In front of the first line, so that each line keeps its number.
-        title = f"(plumb: {comment_of(Path(arguments.job).name)} as this machine runs it) "
+        title = runs_here(comment_of(Path(arguments.job).name))
         files[arguments.fix] = (title + "\n".join([*mended.lines, ""])).encode()
         checked = _checked(arguments, settings, mended.lines, inputs) if changes else checked
     if arguments.picture:
@@ -111,12 +111,9 @@ def _picture(
 ) -> bytes:
     """Return the whole sheet with the job on it, and below it the job from near."""
     sheet = sheet_of(checked, settings, name)
-    meaning = "Blue: the bit in the wood; grey: above the sheet; orange: wrong, or not usable"
-    piece = checked.piece
-    depth = f"; brown: the wood, cut up to {unit.worded(piece.deepest)} deep." if piece else "."
     near = replace(sheet, title="From near", view=near_view(checked))
     panels = [replace(sheet, dots=()), near]
-    words = [f"{meaning}{depth}"]
+    words = [colours(checked.piece, unit)]
     return draw(panels, sheet=settings.sheet, words=words, columns=1, form=form)
 
 

@@ -7,11 +7,11 @@ import numpy as np
 from plumb.cli.arguments import BOARD, add_shared
 from plumb.cli.inputs import inputs_of, picture_form
 from plumb.cli.output import write_outputs
-from plumb.cli.screen import about, headline, in_text, next_step, print_json, same_inputs
+from plumb.cli.screen import headline, in_text, next_step, print_json, same_inputs
 from plumb.fit.compare import Comparison, compare
 from plumb.pictures.drawing import Panel, draw
 from plumb.text.errors import InputError
-from plumb.words.comparison import conclusion, full, short
+from plumb.words.comparison import conclusion, full, picture_title, short
 from plumb.words.states import KINDS
 
 
@@ -38,9 +38,8 @@ def panel_of(comparison: Comparison) -> Panel:
     """Return the comparison as a panel of a picture."""
     if not comparison.marks:
         raise InputError("--picture: there are distances only, so no errors to draw on a sheet")
-    sizes = f"{about(comparison.rms)} mm RMS, worst {about(comparison.worst)} mm"
     return Panel(
-        title=f"As the settings are: {sizes}",
+        title=picture_title(comparison),
         predicted=np.array([mark.predicted for mark in comparison.marks]),
         errors=np.array([mark.error for mark in comparison.marks]),
     )

@@ -159,11 +159,6 @@ def print_json(answer: object) -> None:
     print(json.dumps(json_of(answer), indent=2, allow_nan=False), flush=True)
 
 
-def about(millimetres: float) -> str:
-    """Return a length for the title of a picture: a decimal, two below a millimetre."""
-    return f"{millimetres:.1f}" if millimetres >= 0.95 else f"{millimetres:.2f}"
-
-
 def number(value: float | None) -> str:
     """Return a parameter for people: four figures, six for what is measured in metres."""
     if value is None or not math.isfinite(value):

@@ -23,9 +23,11 @@ from plumb.lab.routes.next import next_answer
 from plumb.lab.routes.project import ProjectAnswer, machine_of
 from plumb.lab.routes.verdict import Verdict, VerdictAnswer, verdict_of
 from plumb.plan import Next
-from plumb.words.comparison import conclusion
+from plumb.words.comparison import conclusion, readings_said
 
 PAGE = Path(__file__).parent / "page"
+SIGN = "A report of Plumb."  # by which the lab knows its own file
+SCRIPTLESS = "The plots need JavaScript."
 PACKAGES = ("plumb-maslow", "numpy", "scipy")
 
 
@@ -84,21 +86,15 @@ def _of_bench(
 
 def _about(inputs: Inputs, command: str) -> dict[str, object]:
     """Return what the report is of, and where all of it is from."""
-    measurements = inputs.measurements
     files = [("settings", inputs.settings.file)]
     if inputs.cut_with:
         files.append(("cut with", inputs.cut_with.file))
     said = [(what, file.name, file.sha256) for what, file in files if file]
     said += [("marks", name, digest) for name, digest in _rounds(inputs)]
-    counts = ((len(measurements.measured_marks), "mark"), (len(measurements.distances), "distance"))
-    read = [f"{count} {noun}{'s' if count != 1 else ''}" for count, noun in counts if count]
-    width, height = (inputs.unit.worded(length, 0) for length in inputs.settings.sheet)
-    dates = ", ".join(dict.fromkeys(part.date for part in measurements.rounds if part.date))
     names = " and ".join(name for what, name, _ in said if what == "marks")
     return {
         "title": f"{said[0][1]} with {names}",
-        "said": f"{' and '.join(read)} on a sheet of {width} by {height}"
-        f"{', measured ' if dates else ''}{dates}",
+        "said": readings_said(inputs),
         "files": [dict(zip(("what", "name", "digest"), each, strict=True)) for each in said],
         "versions": ", ".join(f"{name} {version(name)}" for name in PACKAGES),
         "command": command,
@@ -124,7 +120,7 @@ def _file(answers: Mapping[str, object], *, title: str, said: str) -> bytes:
     # A name from a file may hold the end of a script; as text of JSON it has no such sign.
     data = to_json(answers).decode().replace("<", "\\u003c")
     return f"""<!doctype html>
-<!-- A report of Plumb. -->
+<!-- {SIGN} -->
 <html lang="en">
 <head>
 <meta charset="utf-8">
@@ -136,7 +132,7 @@ def _file(answers: Mapping[str, object], *, title: str, said: str) -> bytes:
 </head>
 <body>
 <div id="lab"></div>
-<noscript><p>{escape(said)}</p><p>The plots need JavaScript.</p></noscript>
+<noscript><p>{escape(said)}</p><p>{SCRIPTLESS}</p></noscript>
 <script type="application/json" id="answers">{data}</script>
 <script type="module">{script}</script>
 </body>

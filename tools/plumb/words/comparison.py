@@ -41,6 +41,33 @@ def conclusion(comparison: Comparison, unit: Unit) -> str:
     return said
 
 
+def readings_said(inputs: Inputs) -> str:
+    """Return how many readings there are, on which sheet, and when they were taken."""
+    measured = inputs.measurements
+    counts = ((len(measured.measured_marks), "mark"), (len(measured.distances), "distance"))
+    read = [f"{count} {noun}{'s' if count != 1 else ''}" for count, noun in counts if count]
+    width, height = (inputs.unit.worded(length, 0) for length in inputs.settings.sheet)
+    dates = ", ".join(dict.fromkeys(part.date for part in measured.rounds if part.date))
+    when = f", measured {dates}" if dates else ""
+    return f"{' and '.join(read)} on a sheet of {width} by {height}{when}"
+
+
+def picture_title(comparison: Comparison) -> str:
+    """Return the title of a picture of the errors."""
+    worst = about(comparison.worst)
+    return f"As the settings are: {about(comparison.rms)} mm RMS, worst {worst} mm"
+
+
+def about(millimetres: float) -> str:
+    """Return a length for the title of a picture: a decimal, two below a millimetre."""
+    return f"{millimetres:.1f}" if millimetres >= 0.95 else f"{millimetres:.2f}"
+
+
+def without_doubted(comparison: Comparison, unit: Unit) -> str:
+    """Return how far off it is where readings that disagree were left out."""
+    return f"{conclusion(comparison, unit)} That is without what disagrees."
+
+
 def short(comparison: Comparison, inputs: Inputs) -> list[Part]:
     """Return what was compared in a few rows, the worst last, and what is to be known of it."""
     typed, unit = inputs.measurements.typed, inputs.unit

@@ -15,7 +15,7 @@ from plumb.text.answers import in_json
 from plumb.text.errors import in_both, to_do
 from plumb.words import Kind, Part, Rows, Sentences, filled, paragraph
 from plumb.words import verdict as of_marks
-from plumb.words.comparison import conclusion, outside_sentence, pose_sentence
+from plumb.words.comparison import about, conclusion, outside_sentence, pose_sentence
 from plumb.words.states import STATES
 from plumb.words.verdict import MOST_NAMED, named, odds_words
 
@@ -87,6 +87,14 @@ def of_named(addition: Addition) -> tuple[str, Kind]:
     if addition.stops:
         return f"Do not set the machine by {many}. {fall}", "bad"
     return f"NOT better with {many}. {fall}", "bad"
+
+
+def picture_heading(addition: Addition) -> str:
+    """Return the heading of a picture of how the error falls."""
+    added = " and ".join(noun_of(step.effect) for step in addition.by_effect)
+    done = f"Added: {added}" if added else "Frame fitted, nothing added"
+    before, after = about(addition.raw.rms), about(addition.after.fit_rms)
+    return f"{done}. From {before} to {after} mm RMS"
 
 
 def _noun(step: FitStep) -> str:

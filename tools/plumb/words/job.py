@@ -68,6 +68,21 @@ def headline(checked: CheckedJob, name: str) -> str:
     return f"{_count(len(lines), 'line')} of {name} {'is' if len(lines) == 1 else 'are'} wrong."
 
 
+def runs_here(name: str) -> str:
+    """Return the comment on the first line of a program that was changed for this machine."""
+    return f"(plumb: {name} as this machine runs it) "
+
+
+def colours(piece: Piece | None, unit: Unit) -> str:
+    """Return what the colours of a picture of the job mean."""
+    depth = f"; brown: the wood, cut up to {unit.worded(piece.deepest)} deep" if piece else ""
+    return (
+        "Blue: the bit in the wood; grey: above the sheet; orange: wrong, or not usable"
+        + depth
+        + "."
+    )
+
+
 def all_of(checked: CheckedJob, unit: Unit) -> list[Said]:
     """Return what is wrong, the job, its parts, and what else is to be known."""
     wrong, notes = _wrong(checked), _notes(checked, unit)

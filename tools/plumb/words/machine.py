@@ -1,6 +1,8 @@
 """What the connected machine does, and whether it holds what is open, in words."""
 
 from plumb.line.worker import LineState
+from plumb.settings.machine import MachineSettings
+from plumb.text.values import Unit
 
 
 def doing(state: LineState, subject: str) -> str:
@@ -24,6 +26,14 @@ def doing(state: LineState, subject: str) -> str:
     else:
         does = "stands" if state.phase == "ready" else "works"
     return f"{subject} {does}"
+
+
+def size(settings: MachineSettings, unit: Unit) -> str:
+    """Return how large a machine and its sheet are, and how many effects its settings know."""
+    gap, width, height = (unit.worded(mm, 1) for mm in (settings.motor_gap, *settings.sheet))
+    known = len(settings.effects)
+    effects = f", {known} {'effect' if known == 1 else 'effects'} known" if known else ""
+    return f"motors {gap} apart, a sheet of {width} by {height}{effects}."
 
 
 def held_otherwise(subject: str, file: str, *, is_fit: bool) -> str:

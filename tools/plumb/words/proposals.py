@@ -227,11 +227,15 @@ def chances(outline: Outline) -> tuple[str, str]:
     return "◐", f"would show, {said}"
 
 
-def advised(seen: Preview, title: str, minutes: float, unit: Unit) -> str:
-    """Return what the recommended marks could tell, without the full stop."""
+def advised(
+    seen: Preview, title: str, minutes: float, unit: Unit, *, instead_of: tuple[Preview, str] | None
+) -> str:
+    """Return what the recommended marks could tell; `instead_of`: the usual marks, their title."""
     if seen.seen:
-        return f"{title}, about {minutes:.0f} minutes: {could_tell(seen)}"
+        few, usual = instead_of or (None, "")
+        more = f", instead of {few.seen} and {few.named} with {usual.lower()}" if few else ""
+        return f"{title}, about {minutes:.0f} minutes: {could_tell(seen)}{more}."
     return (
         f"With a tape that reads to {unit.worded(seen.sigma)} no plan here would show a cause of "
-        "its usual size. Any of them shows causes that move marks further"
+        "its usual size. Any of them shows causes that move marks further."
     )

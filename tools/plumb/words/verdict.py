@@ -419,3 +419,10 @@ def ruled_out(diagnosis: Diagnosis) -> list[tuple[str, str]]:
     if len(others) == 1:
         return [*tempting, ("1 other", f"By itself it leaves {least}.")]
     return [*tempting, (f"{len(others)} others", f"Each by itself leaves {least} or more.")]
+
+
+def same_for_all(title: str, value: float | None, unit: str) -> str:
+    """Return that what errors might depend on is the same for all marks, or not known (None)."""
+    if value is None:
+        return f"{title} is not known"
+    return f"{title} is {value:.5g} {unit} for all marks".replace("  ", " ")

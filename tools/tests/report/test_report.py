@@ -114,7 +114,7 @@ def test_a_slip_changes_no_number_and_has_its_mark(made, opened):
     _, answer, path = made("slip")
     page = opened(path)
     assert answer["addition"] is None and answer["diagnosis"]["slips"][0]["sentence"]
-    page.get_by_role("heading", name="A reading disagrees: look at it first").first.wait_for()
+    page.get_by_role("heading", name="A reading disagrees: look at it first").wait_for()
     assert "(read it again)" in page.locator("tr.doubted").inner_text()
     assert page.locator(".slips li").all_inner_texts() == [
         slip["sentence"] for slip in answer["diagnosis"]["slips"]

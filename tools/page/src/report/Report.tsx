@@ -58,7 +58,7 @@ export function Report({ answers }: { answers: Readonly<Record<string, unknown>>
 function Numbers({ made }: { made: Schemas["CorrectionParts"] }) {
   return (
     <section>
-      <h2>{made.nothing || "The numbers, before and after"}</h2>
+      <h2>The numbers, before and after</h2>
       {made.numbers.length > 0 && <NumberTable numbers={made.numbers} />}
       <Notes made={made} weight="stop" />
       <Notes made={made} weight="by_hand" />

@@ -45,7 +45,7 @@ from plumb.model.predict import Array
 from plumb.text.answers import like
 from plumb.text.errors import InputError, on_page
 from plumb.text.values import Unit
-from plumb.words.verdict import noise_sentence
+from plumb.words.verdict import noise_sentence, same_for_all
 
 router = APIRouter(tags=["bench"])
 NEW_MACHINE = "new.toml"
@@ -310,10 +310,9 @@ def _covariate(covariate: Covariate, doubted: Collection[int]) -> BenchCovariate
 
 def _same(title: str, known: Array, unit: str) -> str:
     """Return that something is the same for all marks; empty: errors may depend on it."""
-    if not known.size:
-        return f"{title} is not known"
-    is_same = np.ptp(known) < SAME
-    return f"{title} is {known[0]:.5g} {unit} for all marks".replace("  ", " ") if is_same else ""
+    if known.size and np.ptp(known) >= SAME:
+        return ""
+    return same_for_all(title, known[0] if known.size else None, unit)
 
 
 def _sizes(fitted: Fit, chosen: Chosen, unit: Unit) -> dict[str, BenchSize]:

@@ -118,11 +118,9 @@ def layout_advice(project: TheProject) -> AdviceAnswer:
     minutes = {layout: planned(settings, layout, ()).minutes for layout in TITLES}
     worth = {layout: (each.named, each.seen, -minutes[layout]) for layout, each in previews.items()}
     best = max(TITLES, key=lambda layout: worth[layout])
-    said = advised(previews[best], TITLES[best], minutes[best], choices.unit)
-    few = previews["nine"]
-    if best != "nine" and previews[best].seen:
-        said += f", instead of {few.seen} and {few.named} with {TITLES['nine'].lower()}"
-    return AdviceAnswer(layout=best, sentence=f"{said}.")
+    usual = (previews["nine"], TITLES["nine"]) if best != "nine" else None
+    said = advised(previews[best], TITLES[best], minutes[best], choices.unit, instead_of=usual)
+    return AdviceAnswer(layout=best, sentence=said)
 
 
 class Desk:

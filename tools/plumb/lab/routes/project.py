@@ -32,7 +32,8 @@ from plumb.text.answers import like
 from plumb.text.errors import InputError, on_page
 from plumb.text.values import Unit
 from plumb.vm.practice import Score, score, secret_in
-from plumb.words.comparison import conclusion
+from plumb.words.comparison import conclusion, without_doubted
+from plumb.words.machine import size
 
 router = APIRouter(tags=["project"])
 # A settings' file gets a name of ours, whatever its owner calls it.
@@ -157,11 +158,7 @@ def laid_down(project: Project, file: UploadFile, ending: str) -> Iterator[Path]
 
 def machine_of(settings: MachineSettings, file: str, unit: Unit) -> Machine:
     """Return a machine as the page shows it."""
-    gap, width, height = (unit.worded(mm, 1) for mm in (settings.motor_gap, *settings.sheet))
-    known = len(settings.effects)
-    effects = f", {known} {'effect' if known == 1 else 'effects'} known" if known else ""
-    said = f"motors {gap} apart, a sheet of {width} by {height}{effects}."
-    return like(Machine, settings, file=file, said=said)
+    return like(Machine, settings, file=file, said=size(settings, unit))
 
 
 # Readings that disagree, asked for after each that is typed.
@@ -225,8 +222,8 @@ def _compared(inputs: Inputs, doubts: Sequence[Doubted]) -> str:
     )
     if not sure.measured_marks and not sure.distances:
         return ""
-    said = conclusion(compare(replace(inputs, measurements=sure)), inputs.unit)
-    return f"{said} That is without what disagrees." if off else said
+    compared = compare(replace(inputs, measurements=sure))
+    return (without_doubted if off else conclusion)(compared, inputs.unit)
 
 
 def _from_edges(doubt: Doubted, sheet: tuple[float, float], corner: str) -> Doubted:
