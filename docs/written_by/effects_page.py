@@ -10,8 +10,7 @@ from typing import Any
 import numpy as np
 from plumb.bench.causes import BARE
 from plumb.fit.compare import best_pose
-from plumb.fit.observations import observe, rms
-from plumb.fit.sighting import sighted
+from plumb.fit.observations import observe, rms, sighted
 from plumb.marks.read import Mark, Measurements
 from plumb.model.catalogue import (
     EVERY_MACHINE,

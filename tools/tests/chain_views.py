@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 from plumb.fit.compare import chain_errors, hung_places
-from plumb.fit.sighting import sighted
+from plumb.fit.observations import sighted
 from plumb.model.predict import settings_of
 
 
@@ -16,7 +16,7 @@ class ChainView(NamedTuple):
 
 
 def chain_view(values, outside, rows, like) -> ChainView:
-    """Return the marks of `rows` seen by a machine with `values`; `outside` as in sighting.py."""
+    """Return the marks of `rows` seen by a machine with `values`; `outside` as in sighted()."""
     model, marked = settings_of(values, like=like), rows.mark_rows
     how = {"over_top": like.feed == "top", "usual_weight": like.sled_weight, "names": ()}
     errors = rows.measured - sighted(values, outside, rows, **how).read.where[marked]

@@ -7,9 +7,16 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Annotated
 
-from plumb.cli.arguments import BOARD, add_shared, held_size
+from plumb.cli.arguments import (
+    BOARD,
+    add_shared,
+    add_stated,
+    held_size,
+    picture_form,
+    refuse_unfitted,
+    stated_inputs,
+)
 from plumb.cli.compare import panel_of
-from plumb.cli.inputs import add_stated, picture_form, refuse_unfitted, stated_inputs
 from plumb.cli.output import STDOUT, refuse_twins, say_failure, write_outputs
 from plumb.cli.screen import (
     AUTO,

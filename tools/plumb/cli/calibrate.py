@@ -4,9 +4,8 @@ import argparse
 from dataclasses import dataclass
 
 from plumb.cli.add import after_writing, written
-from plumb.cli.arguments import BOARD, add_shared
+from plumb.cli.arguments import BOARD, add_shared, add_stated, stated_inputs
 from plumb.cli.as_fitted import checked_by_fit, is_all, report
-from plumb.cli.inputs import add_stated, stated_inputs
 from plumb.cli.next import after, first_proposal
 from plumb.cli.screen import (
     auto_words,

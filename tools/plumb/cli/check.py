@@ -8,8 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from plumb.cli import screen
-from plumb.cli.arguments import PROGRAM, add_shared, file, length, unit_of
-from plumb.cli.inputs import inputs_of, picture_form
+from plumb.cli.arguments import PROGRAM, add_shared, file, inputs_of, length, picture_form, unit_of
 from plumb.cli.output import refuse_twins, say_failure, write_outputs
 from plumb.cli.screen import bar, free_name, in_text, next_step, print_json
 from plumb.cure.live_board import refuse_other_origin

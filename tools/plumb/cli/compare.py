@@ -4,8 +4,7 @@ import argparse
 
 import numpy as np
 
-from plumb.cli.arguments import BOARD, add_shared
-from plumb.cli.inputs import inputs_of, picture_form
+from plumb.cli.arguments import BOARD, add_shared, inputs_of, picture_form
 from plumb.cli.output import write_outputs
 from plumb.cli.screen import headline, in_text, next_step, print_json, same_inputs
 from plumb.fit.compare import Comparison, compare

@@ -3,8 +3,7 @@
 import argparse
 from dataclasses import dataclass
 
-from plumb.cli.arguments import BOARD, add_shared
-from plumb.cli.inputs import add_stated, stated_inputs
+from plumb.cli.arguments import BOARD, add_shared, add_stated, stated_inputs
 from plumb.cli.screen import headline, in_text, print_json, what_follows
 from plumb.diagnosis import diagnose
 from plumb.plan import propose

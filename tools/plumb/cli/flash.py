@@ -5,8 +5,7 @@ import shutil
 
 from plumb.cli.arguments import add_shared
 from plumb.cli.screen import bar, sentences
-from plumb.firmware.hex_file import program_in
-from plumb.line.bootloader import firmware_on, hex_file, write_program
+from plumb.line.bootloader import firmware_on, hex_file, program_in, write_program
 from plumb.line.port import port_for
 from plumb.line.sender import WRONG
 from plumb.text.errors import InputError

@@ -3,8 +3,7 @@
 import argparse
 from pathlib import Path
 
-from plumb.cli.arguments import BOARD, add_shared
-from plumb.cli.inputs import add_stated, stated_inputs
+from plumb.cli.arguments import BOARD, add_shared, add_stated, stated_inputs
 from plumb.cli.output import refuse_twins, write_outputs
 from plumb.cli.screen import (
     bar,

@@ -5,8 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from plumb.cli.arguments import add_shared, unit_of
-from plumb.cli.inputs import picture_form
+from plumb.cli.arguments import add_shared, picture_form, unit_of
 from plumb.cli.output import write_outputs
 from plumb.cli.screen import next_step, print_json, sentences, table
 from plumb.fit.inputs import settings_in

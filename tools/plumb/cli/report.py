@@ -5,8 +5,7 @@ from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 
-from plumb.cli.arguments import BOARD, add_shared
-from plumb.cli.inputs import add_stated, stated_inputs
+from plumb.cli.arguments import BOARD, add_shared, add_stated, stated_inputs
 from plumb.cli.output import STDOUT, write_outputs
 from plumb.cli.screen import bar, headline, print_json, same_inputs, sentences
 from plumb.cure.add import Addition

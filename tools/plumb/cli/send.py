@@ -20,8 +20,7 @@ from plumb.firmware.telemetry import telemetry_in, warnings
 from plumb.job.dry_run import program_in, refuse_other_files
 from plumb.line.memory import WrittenNumbers, kept_before, lines_for, read_numbers
 from plumb.line.port import LostError, SerialPort, port_for
-from plumb.line.progress import SAID_PAUSED, waits_in
-from plumb.line.reached import SureLines
+from plumb.line.progress import SAID_PAUSED, SureLines, waits_in
 from plumb.line.sender import PAUSED, RefusedError, Sender, StoppedError, cleaned
 from plumb.marks.form import read_form
 from plumb.model.predict import known_effects

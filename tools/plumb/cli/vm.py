@@ -8,7 +8,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 from plumb.cli.arguments import length, positive
-from plumb.firmware.hex_file import hex_bytes
+from plumb.line.bootloader import hex_bytes
 from plumb.settings.machine import MachineSettings
 from plumb.text.errors import InputError
 from plumb.text.files import read_bytes, write_whole

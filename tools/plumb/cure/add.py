@@ -15,8 +15,7 @@ from plumb.fit.covariates import PATCH, best_patch
 from plumb.fit.expected import PlausibleRange, plausible_range
 from plumb.fit.fit import Estimate, Fit
 from plumb.fit.inputs import Inputs
-from plumb.fit.observations import rms
-from plumb.fit.rounds import notes_on, unit_of
+from plumb.fit.observations import notes_on, rms, unit_of
 from plumb.model.catalogue import (
     NO_FIRMWARE,
     effect_names,

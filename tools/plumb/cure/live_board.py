@@ -13,7 +13,7 @@ from functools import cached_property, partial
 from threading import Lock
 from typing import Protocol
 
-from plumb.diagnosis.drawn import Drawn, drawn_by
+from plumb.diagnosis.expected_error import Drawn, drawn_by
 from plumb.diagnosis.explanation import Board, Explanation, explain
 from plumb.diagnosis.noise import Noise
 from plumb.diagnosis.outliers import described

@@ -8,7 +8,7 @@ from plumb.cure.add import Addition, Parameter, add
 from plumb.cure.decision import Decision
 from plumb.fit.covariates import PATCH
 from plumb.fit.inputs import Inputs
-from plumb.fit.rounds import POSE_AXES, ZERO_AXES
+from plumb.fit.observations import POSE_AXES, ZERO_AXES
 from plumb.marks.read import Round
 from plumb.model.catalogue import parameter_names, place_of
 from plumb.settings.files import published_machine

@@ -13,7 +13,7 @@ import numpy as np
 import scipy
 
 from plumb.diary.file import FIT, Diary, Entry
-from plumb.fit.sighting import SHEET_ROTATION
+from plumb.fit.observations import SHEET_ROTATION
 from plumb.job.home import TOUCH_SIGMA, HomeTouch, Point, believed_chains, turned_back
 from plumb.model.plain import ranked
 from plumb.model.predict import FOUND, NAMES, Array, places_with_slopes, values_of

@@ -9,9 +9,8 @@ from typing import Annotated, Literal
 import numpy as np
 
 from plumb.fit.inputs import Inputs, known_outside
-from plumb.fit.observations import Observations, chains_to, rms
+from plumb.fit.observations import Observations, Sighting, chains_to, rms, sighted
 from plumb.fit.problem import USUAL_SIGMA
-from plumb.fit.sighting import Sighting, sighted
 from plumb.marks.read import Measurements
 from plumb.model.predict import FOUND, FOUND_WORDS, values_of
 from plumb.settings.machine import MachineSettings

@@ -10,8 +10,7 @@ import numpy as np
 
 from plumb.fit.compare import hung_places
 from plumb.fit.fit import Fit
-from plumb.fit.observations import Observations
-from plumb.fit.rounds import strands_at
+from plumb.fit.observations import Observations, strands_at
 from plumb.model.catalogue import empirical_effects, parameter_names
 from plumb.model.plain import ranked
 from plumb.model.predict import Array, values_of

@@ -13,9 +13,8 @@ from typing import Any
 import numpy as np
 
 from plumb.fit.compare import best_pose
-from plumb.fit.observations import rms
+from plumb.fit.observations import SHEET_ROTATION, rms
 from plumb.fit.problem import PRIORS, Checked
-from plumb.fit.sighting import SHEET_ROTATION
 from plumb.model.catalogue import parameter_words
 from plumb.model.plain import plain_range
 from plumb.model.predict import (

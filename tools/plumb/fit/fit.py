@@ -6,10 +6,8 @@ from dataclasses import dataclass
 import numpy as np
 import scipy
 
-from plumb.fit.observations import Observations, rms
+from plumb.fit.observations import LAB_NAMES, SHEET_ROTATION, Observations, last_turn_of, rms
 from plumb.fit.problem import PRIORS, USUAL_SIGMA, Checked, Problem, Solution, solve
-from plumb.fit.rounds import last_turn_of
-from plumb.fit.sighting import LAB_NAMES, SHEET_ROTATION
 from plumb.model.catalogue import parameter_names
 from plumb.model.predict import Array, settings_of
 from plumb.settings.machine import MachineSettings

@@ -5,10 +5,14 @@ from collections.abc import Mapping, Sequence
 from dataclasses import KW_ONLY, dataclass, field, replace
 from os import PathLike
 
-from plumb.fit.observations import Observations, model_and_observations
+from plumb.fit.observations import (
+    POSE_AXES,
+    SHEET_ROTATION,
+    ZERO_AXES,
+    Observations,
+    model_and_observations,
+)
 from plumb.fit.problem import PRIORS, Checked
-from plumb.fit.rounds import POSE_AXES, ZERO_AXES
-from plumb.fit.sighting import SHEET_ROTATION
 from plumb.marks.read import Measurements, join_measurements, read_marks
 from plumb.model.predict import known_effects
 from plumb.settings.files import read_settings

@@ -1,16 +1,24 @@
 """Observations for a fit: chains that were paid out, and where the sled was measured."""
 
+import re
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
-from functools import partial
+from functools import cache, partial
+from typing import NamedTuple
 
 import numpy as np
 
+from plumb import _core
 from plumb.marks.read import Measurements
 from plumb.model.catalogue import WEIGHT_POWERS, ZEROING_NAMES
+from plumb.model.lab_effects import EDGES, LAB_EFFECTS, SLED, LabEffect, Seen
 from plumb.model.predict import (
     NAMES,
     believed_lengths,
+    compliance,
+    frame_words,
     lengths,
+    library,
     places_with_slopes,
     settings_of,
     values_of,
@@ -240,3 +248,317 @@ def rms(errors: Array) -> float:
     if len(errors) == 0:
         return float("nan")
     return float(np.sqrt(np.mean(np.sum(np.atleast_2d(errors.T).T ** 2, axis=1))))
+
+
+# From where the sled hangs to what is measured: friction, the turned sheet, edges, the tape.
+
+
+SHEET_ROTATION = "sheet_rotation"  # [rad] the sheet as measured, turned against the machine
+LAB_NAMES = tuple(effect.parameter for effect in LAB_EFFECTS)  # no setting holds them
+# A step for differences of the compliance, of each value's usual size: small against how it bends.
+_STEP = 1e-3
+
+
+@dataclass(frozen=True)
+class Places:
+    """Places with their slopes by the names that were asked for."""
+
+    where: Array  # (r, 2) [mm]
+    slopes: Array  # (r, 2, names) [mm per unit]
+
+
+@dataclass(frozen=True)
+class Sighting:
+    """Predicted readings of every visit."""
+
+    read: Places  # from the sheet's edges
+    taped: Places  # places whose distances are those that a tape gives
+    outcome: Array  # (r,) FOUND where the sled can hang
+
+    def taped_spans(self, ends: Array) -> Array:
+        """Return what a tape reads (m,) [mm] between the visits in each row of `ends` (m, 2)."""
+        where = self.taped.where[ends]
+        spans: Array = np.linalg.norm(where[:, 1] - where[:, 0], axis=1)
+        return spans
+
+
+def sighted(
+    values: Array,
+    outside: Mapping[str, float],
+    rows: Observations,
+    *,
+    over_top: bool,
+    usual_weight: float,
+    names: Sequence[str],
+) -> Sighting:
+    """Return what is measured of a machine with `values` on a board with `outside`: SHEET_ROTATION
+    and numbers of lab effects, zero if not named. Slopes are by `names` of any kind.
+    """
+    view = _View(values, outside, rows, over_top, usual_weight, tuple(names))
+    zeros = zeros_of(outside, rows)
+    where, by_value, outcome = visited(
+        values, rows, zeros=zeros, over_top=over_top, usual_weight=usual_weight
+    )
+    slopes = np.zeros((*where.shape, len(names)))
+    for i, name in enumerate(names):
+        if name in NAMES:
+            slopes[:, :, i] = by_value[:, :, NAMES.index(name)]
+        elif (unknown := zero_of(name)) is not None:
+            mine = rows.zero_groups == unknown.group
+            slopes[mine, :, i] = by_value[mine][:, :, ZERO_COLUMNS[unknown.axis]]
+    places = Places(where, slopes)
+    for effect in LAB_EFFECTS:
+        if effect.acts_on == SLED:
+            places = view.on_sled(effect, places)
+    read = taped = view.turned(places)
+    for effect in LAB_EFFECTS:
+        if effect.acts_on != SLED:
+            read = view.on_sheet(effect, read)
+            taped = taped if effect.acts_on == EDGES else view.on_sheet(effect, taped)
+    return Sighting(read, taped, outcome)
+
+
+@dataclass(frozen=True)
+class _View:
+    """A machine and a board, and the names whose slopes are asked for."""
+
+    values: Array
+    outside: Mapping[str, float]
+    rows: Observations
+    over_top: bool
+    usual_weight: float
+    names: tuple[str, ...]
+
+    def turned(self, places: Places) -> Places:
+        """Return the places turned with the sheet, and moved where a later sheet lies elsewhere."""
+        moved = poses_of(self.outside, self.rows)[self.rows.sheet_groups]
+        rotation = self.outside.get(SHEET_ROTATION, 0.0) + moved[:, 2]
+        cosine, sine = np.cos(rotation), np.sin(rotation)
+        turn = np.array([[cosine, -sine], [sine, cosine]])
+        where = np.einsum("ijn,nj->ni", turn, places.where)
+        slopes = np.einsum("ijn,njk->nik", turn, places.slopes)
+        across = np.stack([-where[:, 1], where[:, 0]], axis=1)
+        for i, name in enumerate(self.names):
+            if name == SHEET_ROTATION:
+                slopes[:, :, i] += across
+            elif (unknown := pose_of(name)) is not None:
+                mine = self.rows.sheet_groups == unknown.group
+                by_axis = across[mine] if unknown.axis == 2 else np.eye(2)[unknown.axis]
+                slopes[mine, :, i] += by_axis
+        return Places(where + moved[:, :2], slopes)
+
+    def on_sheet(self, effect: LabEffect, places: Places) -> Places:
+        """Read by way of an effect of edges or tape."""
+        if not self.asks_for(effect):
+            return places
+        stiff = np.zeros((len(places.where), 2, 2))
+        change = effect.change(self.size(effect), Seen(places.where, self.rows.approaches, stiff))
+        slopes = places.slopes + np.einsum("nij,njk->nik", change.by_place, places.slopes)
+        return Places(places.where + change.moved, self.with_size(effect, change.by_size, slopes))
+
+    def on_sled(self, effect: LabEffect, places: Places) -> Places:
+        """Return the sled at rest elsewhere."""
+        if not self.asks_for(effect) or not self.rows.approaches.any():
+            return places
+        size = self.size(effect)
+        change = effect.change(size, self.seen(self.values, places.where))
+        slopes = places.slopes.copy()
+        if size:
+            for i, name in enumerate(self.names):
+                slopes[:, :, i] += self.by_difference(effect, name, places, i)
+        return Places(places.where + change.moved, self.with_size(effect, change.by_size, slopes))
+
+    def by_difference(self, effect: LabEffect, name: str, places: Places, i: int) -> Array:
+        """Slope (r, 2) of the effect's move by a name: machine and place change together.
+
+        The core gives first slopes only, and the compliance is made of them already. Its central
+        differences are right to about a millionth.
+        """
+        if name not in NAMES:
+            return np.zeros_like(places.where)
+        step, size = _STEP * _SIZES[name], self.size(effect)
+        ends = []
+        for signed in (step, -step):
+            values = self.values.copy()
+            values[NAMES.index(name)] += signed
+            seen = self.seen(values, places.where + signed * places.slopes[:, :, i])
+            ends.append(effect.change(size, seen).moved)
+        return (ends[0] - ends[1]) / (2 * step)
+
+    def seen(self, values: Array, where: Array) -> Seen:
+        """Return places with the compliance of the sled of each visit."""
+        giving = np.zeros((len(where), 2, 2))
+        for weight in np.unique(self.rows.sled_weights):
+            mine = self.rows.sled_weights == weight
+            loaded_values, _ = loaded(values, weight, self.usual_weight)
+            giving[mine] = compliance(loaded_values, over_top=self.over_top, points=where[mine])
+        return Seen(where, self.rows.approaches, giving)
+
+    def size(self, effect: LabEffect) -> float:
+        """Return the effect's number."""
+        return self.outside.get(effect.parameter, 0.0)
+
+    def asks_for(self, effect: LabEffect) -> bool:
+        """Return whether the effect is there, or its slopes are wanted."""
+        return effect.parameter in self.names or self.size(effect) != 0.0
+
+    def with_size(self, effect: LabEffect, by_size: Array, slopes: Array) -> Array:
+        """Return the slopes with those by the effect's number added."""
+        if effect.parameter in self.names:
+            slopes[:, :, self.names.index(effect.parameter)] += by_size
+        return slopes
+
+
+def _sizes() -> dict[str, float]:
+    """Return the usual size of every value of the core."""
+    sizes = {frame["name"]: abs(frame["usual"]) or 10.0 for frame in frame_words()}
+    return sizes | {
+        f"{effect['name']}.{parameter['name']}": abs(parameter["typical"])
+        for effect in library()
+        for parameter in effect["parameters"]
+    }
+
+
+_SIZES = _sizes()
+
+
+# Differences between rounds of marks: chains zeroed again, another sheet.
+#
+# Each such round adds unknowns to those of the frame: how far the zeros of both chains moved, or
+# how the sheet lies against the first.
+
+
+ZERO_AXES = ("left", "right")
+POSE_AXES = ("x", "y", "rotation")
+# Standard deviations: a link or a tooth more or less is 6.35 mm; a sheet lies like the first.
+ZERO_SIGMA = 10.0  # [mm]
+POSE_SIGMAS = (20.0, 20.0, 0.02)  # [mm, mm, rad]
+_ZERO = re.compile(r"zero(\d+)\.(left|right)")
+_POSE = re.compile(r"sheet(\d+)\.(x|y|rotation)")
+
+
+class RoundUnknown(NamedTuple):
+    """An unknown of a later round."""
+
+    group: int  # which zero group or sheet group
+    axis: int  # index into ZERO_AXES or POSE_AXES
+
+
+def round_priors(rows: Observations) -> dict[str, float]:
+    """Return standard deviations [mm, rad] of all unknowns that later rounds have, by name."""
+    priors: dict[str, float] = {}
+    for group in range(1, _groups(rows.zero_groups)):
+        priors |= {f"zero{group + 1}.{axis}": ZERO_SIGMA for axis in ZERO_AXES}
+    # Distances between marks of one sheet do not feel where it lies.
+    placed = set(rows.sheet_groups[rows.mark_rows].tolist())
+    for group in range(1, _groups(rows.sheet_groups)):
+        if group in placed:
+            names = (f"sheet{group + 1}.{axis}" for axis in POSE_AXES)
+            priors |= dict(zip(names, POSE_SIGMAS, strict=True))
+    return priors
+
+
+def unit_of(name: str) -> str | None:
+    """Return the unit of an unknown of a round; None if it is none."""
+    unknown = zero_of(name) or pose_of(name)
+    if unknown is None:
+        return None
+    return "rad" if name.endswith(".rotation") else "mm"
+
+
+def notes_on(names: Iterable[str]) -> list[str]:
+    """Return a sentence for each group of round unknowns among these names."""
+    groups = sorted({name.partition(".")[0] for name in names if unit_of(name)})
+    meaning = {
+        "zero": "how much more chain is out at 12 o'clock since the chains were zeroed again",
+        "sheet": "how the new sheet lies against the first",
+    }
+    return [
+        f"{group}: {meaning[group.rstrip('0123456789')]}; no setting holds it" for group in groups
+    ]
+
+
+@cache
+def zero_of(name: str) -> RoundUnknown | None:
+    """Return the chain zero that a name stands for."""
+    return _parsed(_ZERO, ZERO_AXES, name)
+
+
+@cache
+def pose_of(name: str) -> RoundUnknown | None:
+    """Return the part of a sheet's pose that a name stands for."""
+    return _parsed(_POSE, POSE_AXES, name)
+
+
+def zeros_of(outside: Mapping[str, float], rows: Observations) -> Array:
+    """Return what each zero group adds to left and right chain zero, (groups, 2) [mm]."""
+    return _filled(outside, _groups(rows.zero_groups), 2, zero_of)
+
+
+def poses_of(outside: Mapping[str, float], rows: Observations) -> Array:
+    """Return how each sheet lies against the first, (groups, 3): x, y [mm], rotation [rad]."""
+    return _filled(outside, _groups(rows.sheet_groups), 3, pose_of)
+
+
+def _groups(numbers: Array) -> int:
+    return int(numbers.max(initial=0)) + 1
+
+
+def last_turn_of(names: Iterable[str]) -> str:
+    """Return the number that says how the last sheet is turned against the first; empty if none
+    does.
+    """
+    turns = {
+        unknown.group: name
+        for name in names
+        if (unknown := pose_of(name)) and POSE_AXES[unknown.axis] == "rotation"
+    }
+    return turns[max(turns)] if turns else ""
+
+
+def _parsed(pattern: re.Pattern[str], axes: tuple[str, ...], name: str) -> RoundUnknown | None:
+    match = pattern.fullmatch(name)
+    return RoundUnknown(int(match[1]) - 1, axes.index(match[2])) if match else None
+
+
+def _filled(
+    outside: Mapping[str, float],
+    groups: int,
+    axes: int,
+    parse: Callable[[str], RoundUnknown | None],
+) -> Array:
+    values_of_groups = np.zeros((groups, axes))
+    for name, value in outside.items():
+        unknown = parse(name)
+        if unknown is not None:
+            values_of_groups[unknown] = value
+    return values_of_groups
+
+
+@dataclass(frozen=True)
+class Strands:
+    """Both strands of each visit; columns are left and right."""
+
+    span: Array  # (n, 2) [mm] free chain between sprocket and ring
+    across: Array  # (n, 2) [1] cosine of the strand's angle below the horizontal
+    down: Array  # (n, 2) [1] its sine
+    tension: Array  # (n, 2) [N]
+    length: Array  # (n, 2) [mm] chain beyond the sprocket by all effects of the machine
+
+
+def strands_at(
+    values: Array, rows: Observations, where: Array, *, over_top: bool, usual_weight: float
+) -> Strands:
+    """Return both strands of a sled at `where` (r, 2) [mm], as heavy as on each visit."""
+    count = len(where)
+    shown = {name: np.zeros((count, 2)) for name in ("free", "cosine", "sine", "pull", "length")}
+    for weight in np.unique(rows.sled_weights):
+        mine = rows.sled_weights == weight
+        loaded_values, _ = loaded(values, weight, usual_weight)
+        points = np.ascontiguousarray(where[mine])
+        for name, column in _core.strands(loaded_values, over_top, points).items():
+            if name in shown:
+                shown[name][mine] = column
+        shown["pull"][mine] *= loaded_values[NAMES.index("sled_weight")]
+    free, cosine, sine, tension, length = shown.values()
+    return Strands(free, cosine, sine, tension, length)

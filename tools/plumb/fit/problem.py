@@ -19,9 +19,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from plumb.fit.observations import Observations
-from plumb.fit.rounds import round_priors
-from plumb.fit.sighting import SHEET_ROTATION, Sighting, sighted
+from plumb.fit.observations import SHEET_ROTATION, Observations, Sighting, round_priors, sighted
 from plumb.model.catalogue import parameter_names, parameter_words
 from plumb.model.predict import FOUND, NAMES, Array, values_of, with_parameters
 from plumb.settings.machine import FRAME_FIELDS, MachineSettings

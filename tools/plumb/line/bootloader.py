@@ -1,7 +1,7 @@
 """Writes a program into the Mega's flash: its bootloader takes it over the serial line (STK500v2).
 
-A reset starts the bootloader, which waits a second for a programmer. It never overwrites itself and
-leaves the EEPROM alone. So a board whose cable was pulled in the middle can be flashed again.
+A reset starts the bootloader, which waits a second for a programmer. It never overwrites itself,
+and leaves the EEPROM alone. So a board whose cable was pulled in the middle can be flashed again.
 """
 
 from __future__ import annotations
@@ -11,16 +11,47 @@ import subprocess
 import time
 from collections.abc import Callable
 from contextlib import suppress
+from io import StringIO
 from pathlib import Path
 
 import serial
 from arduinobootloader import ArduinoBootloader
+from intelhex import IntelHex, IntelHexError
 
-from plumb.firmware.hex_file import program_in
 from plumb.line.memory import OURS, firmware_of
 from plumb.line.port import SerialPort
 from plumb.line.sender import Sender
 from plumb.text.errors import InputError
+from plumb.text.files import read_text
+
+# Programs for the Mega as HEX files of Intel's form.
+
+
+MOST = 0x3E000  # [bytes] of the Mega's flash below its bootloader
+
+
+def hex_bytes(path: str | Path) -> bytes:
+    """Return the bytes of a HEX file from its first address on; raises InputError."""
+    records = IntelHex()
+    with suppress(IntelHexError):
+        records.loadhex(StringIO(read_text(path)))
+    content = bytes(records.tobinarray())
+    if not content:
+        raise InputError(path, "is not a HEX file with a program", remedy="give that of a build")
+    return content
+
+
+def program_in(path: Path) -> bytes:
+    """Return the program of a HEX file; InputError also where it does not fit below the Mega's
+    bootloader.
+    """
+    program = hex_bytes(path)
+    if len(program) > MOST:
+        raise InputError(path, f"is larger than the Mega's flash ({len(program)} bytes)")
+    return program
+
+
+# What the bootloader understands.
 
 BAUD = 115_200
 PAGE = 256  # [bytes] written at once

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 from chain_views import chain_view
-from plumb.diagnosis.drawn import drawn_by
+from plumb.diagnosis.expected_error import drawn_by
 from plumb.diagnosis.explanation import Board, explain
 from plumb.diagnosis.noise import KNOWN, Noise
 from plumb.diagnosis.sizes import hidden_share, sizes_of

@@ -4,8 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from plumb.diagnosis.drawn import model_by
-from plumb.diagnosis.expected_error import expected_error, rival_error
+from plumb.diagnosis.expected_error import expected_error, model_by, rival_error
 from plumb.diagnosis.explanation import Board, explain
 from plumb.fit.expected import places_over
 from plumb.fit.observations import observe

@@ -5,9 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from plumb.fit.fit import fit
-from plumb.fit.observations import model_and_observations, observe
+from plumb.fit.observations import SHEET_ROTATION, model_and_observations, observe
 from plumb.fit.problem import PRIORS, Problem
-from plumb.fit.sighting import SHEET_ROTATION
 from plumb.marks.read import Measurements, Round, join_measurements
 from synthetic import BELIEVED, EFFECTS, TRUE, distances_between, grid, marks_on
 

@@ -10,8 +10,7 @@ from plumb.cure.add import add
 from plumb.cure.machine_file import toml_of
 from plumb.fit.fit import fit
 from plumb.fit.inputs import Inputs
-from plumb.fit.observations import observe
-from plumb.fit.sighting import sighted
+from plumb.fit.observations import observe, sighted
 from plumb.marks.read import Measurements
 from plumb.model.lab_effects import LAB_EFFECTS
 from plumb.model.predict import FOUND, known_effects, values_of

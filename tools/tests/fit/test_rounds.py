@@ -7,8 +7,7 @@ import pytest
 from plumb.diagnosis import diagnose
 from plumb.fit.fit import fit
 from plumb.fit.inputs import Inputs
-from plumb.fit.observations import model_and_observations, observe
-from plumb.fit.rounds import round_priors
+from plumb.fit.observations import model_and_observations, observe, round_priors
 from plumb.marks.form import marks_toml
 from plumb.marks.read import Mark, Measurements, Round, join_measurements, read_marks
 from plumb.model.predict import lengths

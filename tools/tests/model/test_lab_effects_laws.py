@@ -5,8 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from plumb.fit.observations import observe
-from plumb.fit.sighting import LAB_NAMES, SHEET_ROTATION, sighted
+from plumb.fit.observations import LAB_NAMES, SHEET_ROTATION, observe, sighted
 from plumb.marks.read import Distance, Mark, Measurements
 from plumb.model.catalogue import parameter_names, parameter_words
 from plumb.model.lab_effects import EDGES, LAB_EFFECTS, SLED, TAPE

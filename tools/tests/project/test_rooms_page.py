@@ -57,7 +57,7 @@ STORIES = {
     "diagnosis/priors.py",
     # The example of an option, whose help must not wait for the catalogue.
     "cli/add.py",
-    "cli/inputs.py",
+    "cli/arguments.py",
     # A question to the owner about the links of a chain.
     "lab/known.py",
     "cure/machine_file.py",

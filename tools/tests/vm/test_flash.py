@@ -11,9 +11,8 @@ import pytest
 from example_machine import ROOT
 from intelhex import IntelHex
 from numbers_machine import NumbersMachine
-from plumb.firmware.hex_file import hex_bytes, program_in
 from plumb.lab.machine_line import MachineLine
-from plumb.line.bootloader import hex_file, version_in, write_program
+from plumb.line.bootloader import hex_bytes, hex_file, program_in, version_in, write_program
 from plumb.text.errors import InputError
 from served_machine import plumb
 

@@ -14,7 +14,6 @@ from fastapi import APIRouter, Body, WebSocket, WebSocketDisconnect
 from pydantic import BaseModel, Field, TypeAdapter
 
 from plumb.diary.file import write_and_keep
-from plumb.firmware.hex_file import program_in
 from plumb.firmware.settings import (
     called,
     digest_of_numbers,
@@ -28,7 +27,7 @@ from plumb.lab.guard import PROTOCOL
 from plumb.lab.machine_line import MachineLine, Port, TheLine, line_of, ports, refuse_foreign_fit
 from plumb.lab.project import Project, save_choices
 from plumb.lab.routes.project import ProjectAnswer, TheProject, show
-from plumb.line.bootloader import hex_file, version_in
+from plumb.line.bootloader import hex_file, program_in, version_in
 from plumb.line.memory import WrittenNumbers, kept_before, lines_for
 from plumb.line.sender import Sender
 from plumb.line.worker import LineState
