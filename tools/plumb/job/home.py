@@ -22,7 +22,8 @@ from plumb.settings.machine import MachineSettings
 from plumb.text.answers import in_json, key
 from plumb.text.errors import InputError, Source
 from plumb.text.files import parsed, read_text, write_whole
-from plumb.text.values import Table, pair, part, read_table, toml_text
+from plumb.text.tables import Table, part, read_table, toml_text
+from plumb.text.values import pair
 
 Point = tuple[float, float]
 NAME = "home.toml"

@@ -19,7 +19,8 @@ from pydantic import BaseModel, ConfigDict, Field
 from plumb.text.errors import InputError
 from plumb.text.files import Unlinked, numbered, opened, parsed, write_all
 from plumb.text.locks import alone
-from plumb.text.values import Unit, read_table, unit_called
+from plumb.text.tables import read_table
+from plumb.text.values import Unit, unit_called
 
 # A name is a single word without a folder, so no name from outside leads out of the project.
 NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_.-]{0,63}")

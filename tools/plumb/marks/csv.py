@@ -11,7 +11,8 @@ from plumb.marks.toml import MarkTable, marks_of
 from plumb.text.errors import InputError, Source, naming
 from plumb.text.files import read_text
 from plumb.text.ini import IniText, read_ini
-from plumb.text.values import INCH, Path, length_in, read_table, refuse_unknown
+from plumb.text.tables import Path, read_table
+from plumb.text.values import INCH, length_in, refuse_unknown
 
 # The columns of each key that a table [[mark]] of a marks.toml has.
 COLUMNS = {

@@ -18,17 +18,8 @@ from plumb.settings.toml import Known
 from plumb.text.answers import meant
 from plumb.text.errors import Source, naming
 from plumb.text.files import as_path, parsed, read_text
-from plumb.text.values import (
-    UNITS,
-    Number,
-    Table,
-    length,
-    pair,
-    point,
-    read_table,
-    with_quoted_fractions,
-    within,
-)
+from plumb.text.tables import Number, Table, read_table
+from plumb.text.values import UNITS, length, pair, point, with_quoted_fractions, within
 
 SLED_WEIGHT_RANGE = (30.0, 1000.0)  # [N] below it somebody wrote kilograms or pounds
 

@@ -31,7 +31,8 @@ from plumb.settings.toml import Known, read_machine_toml
 from plumb.text.errors import InputError, Source
 from plumb.text.files import CODE, parsed, read_bytes, read_text
 from plumb.text.ini import IniEntry, IniText, parse_ini, read_ini, with_values
-from plumb.text.values import number_in, read_table
+from plumb.text.tables import read_table
+from plumb.text.values import number_in
 
 Key = tuple[str, str]  # section and key of a file
 MASLOW, ADVANCED = "Maslow Settings", "Advanced Settings"

@@ -17,7 +17,7 @@ from pydantic.dataclasses import dataclass as pydantic_dataclass
 from plumb import _core
 from plumb.text.answers import meant
 from plumb.text.errors import InputError, Source
-from plumb.text.values import Number, Table, refuse_other_keys
+from plumb.text.tables import Number, Table, refuse_other_keys
 
 if TYPE_CHECKING:
     from plumb.settings.toml import FitRecord

@@ -21,7 +21,8 @@ from plumb.settings.machine import (
 from plumb.text.answers import meant
 from plumb.text.errors import InputError, Source, naming
 from plumb.text.files import parsed, read_text, write_whole
-from plumb.text.values import Number, Table, numbers, part, read_table, refuse_unknown, toml_text
+from plumb.text.tables import Number, Table, part, read_table, toml_text
+from plumb.text.values import numbers, refuse_unknown
 
 Known = Mapping[str, Sequence[str]] | None  # the parameters of each effect; None: any may be named
 Effects = dict[str, dict[str, Number]]
