@@ -1,5 +1,6 @@
 """A first visit, from an empty folder to a better machine: the whole way, in a browser."""
 
+import math
 import re
 import tomllib
 from itertools import pairwise
@@ -130,9 +131,8 @@ def check_two_marks(visit):
     visit.press("Let a tape read the 2 marks")
     visit.see(re.compile("The machine is as it was fitted"))
     rows = visit.page.locator("table.checked tbody tr")
-    return [
-        tuple(visit.millimetres(row.locator("td").nth(i)) for i in (0, 1)) for row in rows.all()
-    ]
+    said = [row.locator("td").all_inner_texts() for row in rows.all()]
+    return [(float(within), math.hypot(*map(float, off.split(",")))) for _, off, within, _ in said]
 
 
 def test_from_an_empty_folder_to_a_machine_whose_error_has_fallen(lab, page):
