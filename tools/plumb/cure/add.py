@@ -333,7 +333,7 @@ def _surprises(parameters: Sequence[Parameter], known: Collection[str], unit: Un
     for parameter in parameters:
         if parameter.possible and parameter.name not in known and may_be_zero(parameter):
             size = plain_size(parameter.name, parameter.value, unit=unit)
-            said.append(f"{size} may as well be zero: its interval contains it")
+            said.append(f"this may be zero, too: {size}")
         moved = parameter.value - parameter.before
         trusted = parameter.prior_sigma
         if trusted and not parameter.of_patch and abs(moved) > FAR * trusted:

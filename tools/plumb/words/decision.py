@@ -139,7 +139,7 @@ def reason(decision: Decision) -> str:
     elif not decision.is_explained:
         why = (", as far as it goes" if added else "") + "; read the worst marks again" + asked
     elif diagnosis.is_finding:
-        most = ", which takes most of the error"
+        most = ". That takes most of the error away"
         why = most if diagnosis.takes_most else ", likely whatever else acts"
     elif is_silent:
         why = ", more likely than not" if added else ": the marks show none"
