@@ -9,6 +9,7 @@ import threading
 import time
 from collections import deque
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field
 from pathlib import Path
 from subprocess import DEVNULL, PIPE, STDOUT, Popen
@@ -18,6 +19,8 @@ RESULTS = ROOT / ".pio/results"
 PIO = ROOT / ".venv/bin/pio"
 CORES = os.cpu_count() or 1
 NEWS_EVERY = 20.0  # [s] between two looks at how far the parts are
+PATIENCE = 5.0  # [s] until what was interrupted has ended
+STOPPED = threading.Event()  # by Ctrl-C: no further command begins
 LOOP = ["sh", "-c", "while :; do :; done"]
 TAIL = 40  # lines of a failed part's log
 ENVIRONMENT = {
@@ -64,11 +67,19 @@ class Part:
         self.began = time.monotonic()
         for command in self.commands:
             status = self._said_by([str(word) for word in command])
+            if STOPPED.is_set():
+                return
             if not self.is_suite:
                 self._count(Path(command[-1]).stem, "FAILED" if status else "PASSED")
             elif not self.failed and (status or not self.passed):
                 self._count(f"ended with {status}", "FAILED")
         self.wall = time.monotonic() - self.began
+
+    def stop(self) -> None:
+        """End what runs, with all that it started."""
+        if self.process and self.process.returncode is None:
+            with suppress(ProcessLookupError):
+                os.killpg(self.process.pid, signal.SIGTERM)
 
     def _said_by(self, command: Sequence[str]) -> int:
         """Return the exit code of a command, whose output goes to the part's log."""
@@ -117,19 +128,32 @@ def lanes(what: str) -> list[list[Part]]:
 
 
 def run(work: Sequence[Sequence[Part]]) -> None:
-    """Run the lanes side by side, and print now and then how far they are."""
+    """Run the lanes side by side, and print now and then how far they are. An interruption goes on
+    up when all has ended: who prints while Python leaves would break it off.
+    """
 
     def in_turn(lane: Sequence[Part]) -> None:
         for part in lane:
-            part.run()
+            if not STOPPED.is_set():
+                part.run()
 
     threads = [threading.Thread(target=in_turn, args=(lane,), daemon=True) for lane in work]
     for thread in threads:
         thread.start()
-    for thread in threads:
-        while thread.join(NEWS_EVERY) or thread.is_alive():
-            running = [part for lane in work for part in lane if part.began and not part.wall]
-            print(*(part.row() for part in running), sep="\n", flush=True)
+    parts = [part for lane in work for part in lane]
+    try:
+        for thread in threads:
+            while thread.join(NEWS_EVERY) or thread.is_alive():
+                running = [part for part in parts if part.began and not part.wall]
+                print(*(part.row() for part in running), sep="\n", flush=True)
+    except KeyboardInterrupt:
+        STOPPED.set()
+        end = time.monotonic() + PATIENCE
+        while any(thread.is_alive() for thread in threads) and time.monotonic() < end:
+            for part in parts:
+                part.stop()
+            time.sleep(0.05)
+        raise
 
 
 def sum_up(parts: Sequence[Part]) -> int:
@@ -160,9 +184,6 @@ def main() -> int:
         run([[firmware]])
         run(work)
     except KeyboardInterrupt:
-        for part in parts:
-            if part.process and part.process.returncode is None:
-                os.killpg(part.process.pid, signal.SIGTERM)
         return 130
     finally:
         for loop in loops:

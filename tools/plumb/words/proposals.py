@@ -127,11 +127,12 @@ def other_ways(advice: NextInWords, shown: int = 1) -> list[Part]:
     if not others:
         return []
     question = others[0][1].question
+    columns = 4 if HEADS[question] else 3  # a look around promises nothing
     rows = [
-        [f"{i}", each.option.title, f"{each.option.minutes:.0f}", each.promise]
+        [f"{i}", each.option.title, f"{each.option.minutes:.0f}", each.promise][:columns]
         for i, each in others
     ]
-    head = ["", "other ways", "minutes", HEADS[question]]
+    head = ["", "other ways", "minutes", HEADS[question]][:columns]
     return [Rows(head, rows, left=2, words=[3] if question == FIND else ())]
 
 

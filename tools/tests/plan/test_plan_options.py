@@ -1,5 +1,7 @@
 """Each kind of option: its marks, weights, sides and minutes; and what proposals say of them."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 from plan_cases import MACHINE, case_on, nine
@@ -24,7 +26,7 @@ from plumb.plan.proposal import CONFIRM, EXPLORE, FIND, REREAD, SETTLE, RoomThen
 from plumb.plan.separation import FRAME_CHECKS, effect_checks
 from plumb.settings.machine import GRAVITY
 from plumb.text.values import MM
-from plumb.words.proposals import ProposalInWords, percent
+from plumb.words.proposals import ProposalInWords, other_ways, percent
 from synthetic import grid
 
 USUAL = MACHINE.sled_weight
@@ -153,6 +155,12 @@ def test_the_headline_states_minutes_and_chance(question, hope):
     assert proposal(question, None).headline == "4 more marks; about 9 minutes"
     assert worth(proposal(question)) == worth(proposal(question, None)) == "helps"
     assert worth(proposal(question, 0.5)) == "settles" and worth(None) == "nothing_would"
+
+
+@pytest.mark.parametrize(("question", "columns"), [(SETTLE, 4), (EXPLORE, 3)])
+def test_a_look_around_has_no_column_of_promises(question, columns):
+    (rows,) = other_ways(SimpleNamespace(proposals=[proposal(question, None)] * 2))
+    assert len(rows.header) == len(rows.rows[0]) == columns and all(rows.header[1:])
 
 
 def test_without_a_proved_effect_the_headline_states_how_much_less_could_hide():

@@ -85,8 +85,11 @@ def test_a_run_that_is_interrupted_ends_all_that_it_started(results):
         "from pathlib import Path\n"
         f"run.RESULTS = Path({str(results / 'r')!r})\n"
         "run.PIO = 'true'\n"
-        "run.lanes = lambda what: [[run.Part('x', [['sh', '-c', 'echo begun; sleep 100']])]]\n"
-        "sys.argv[1:] = ['busy']; sys.exit(run.main())\n"
+        "long = ['sh', '-c', 'echo begun; sleep 100']\n"
+        "run.lanes = lambda what: [[run.Part('x', [long, long]), run.Part('y', [long])]]\n"
+        "sys.argv[1:] = ['busy']; code = run.main()\n"
+        "import time; time.sleep(0.5)  # in which nothing may begin\n"
+        "sys.exit(code)\n"
     )
     work = subprocess.Popen([sys.executable, "-c", script], start_new_session=True)
     log = results / "r/x.log"
@@ -99,3 +102,4 @@ def test_a_run_that_is_interrupted_ends_all_that_it_started(results):
     assert work.wait() == 130
     left = subprocess.run(session, capture_output=True, text=True)
     assert left.stdout.split() == []
+    assert log.read_text() == "begun\n" and not (results / "r/y.log").exists()
