@@ -8,7 +8,7 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
-from plumb.bench.causes import BARE
+from plumb.bench.boards import BARE
 from plumb.fit.compare import best_pose
 from plumb.fit.observations import observe, rms, sighted
 from plumb.marks.read import Mark, Measurements

@@ -13,10 +13,9 @@ from typing import Any
 
 import numpy as np
 from joblib import Parallel, delayed  # type: ignore[import-untyped]  # it brings no types
-from plumb.bench.boards import TrueMachine, measured, plan, read
-from plumb.bench.causes import PUBLISHED, SLED
-from plumb.bench.judged_board import shape_of, sheet
+from plumb.bench.boards import PUBLISHED, SLED, TrueMachine, measured, plan, read
 from plumb.bench.kinds import GRIDS, KINDS, board_of
+from plumb.bench.report import shape_of, sheet
 from plumb.cli.screen import table
 from plumb.cure.decision import decide
 from plumb.fit.inputs import Inputs

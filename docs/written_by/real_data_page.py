@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 from plumb.cure.add import Addition, add
 from plumb.cure.decision import Decision, decide
-from plumb.diagnosis.answer import left_out, left_out_refitted
+from plumb.diagnosis.diagnosis import left_out, left_out_refitted
 from plumb.fit.compare import Comparison, compare
 from plumb.fit.inputs import Inputs, read_inputs
 from plumb.fit.observations import rms

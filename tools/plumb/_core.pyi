@@ -5,7 +5,7 @@ from typing import Any, TypedDict
 import numpy as np
 from numpy.typing import NDArray
 
-from plumb.model.effect_words import EffectWords
+from plumb.model.predict import EffectWords
 
 Numbers = NDArray[np.float64]
 Answers = NDArray[np.uint8]

@@ -16,7 +16,7 @@ from plumb.diagnosis import diagnose
 from plumb.diagnosis.readings import clear_outliers
 from plumb.model.catalogue import effect_names
 from plumb.plan import propose
-from plumb.plan.outlook import DRAWS, Outlooks
+from plumb.plan.case import DRAWS, Outlooks
 
 FOLDER = "PLUMB_ANSWERS"  # in the environment: where they are
 

@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from plumb.bench import boards
-from plumb.bench.boards import BoardCut, cut
-from plumb.bench.causes import CAUSES, Cause, Hidden, Plan
+from plumb.bench.boards import CAUSES, BoardCut, Cause, Hidden, Plan, cut
 from plumb.marks.read import Measurements
 
 # One cause of each effect; the chains' pitch and the sprockets differ from side to side.

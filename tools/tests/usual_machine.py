@@ -1,11 +1,10 @@
 """A virtual machine without errors for tests, and how any is switched on."""
 
 import numpy as np
-from plumb.bench.causes import MAKER
+from plumb.bench.boards import MAKER
 from plumb.line.sender import Sender
 from plumb.model.predict import judged, lengths
-from plumb.vm.garage import VirtualMachine
-from plumb.vm.owner import InProcessPort, set_up
+from plumb.vm.garage import InProcessPort, VirtualMachine, set_up
 
 
 def usual_machine(**how) -> VirtualMachine:

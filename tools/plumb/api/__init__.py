@@ -15,10 +15,10 @@ from plumb.diagnosis import Checked
 from plumb.diagnosis import diagnose as diagnosed
 from plumb.fit.compare import Comparison, compare
 from plumb.fit.expected import refuse_absurd
+from plumb.fit.fit import priors_with
 from plumb.fit.inputs import Inputs, read_inputs
-from plumb.fit.problem import priors_with
 from plumb.plan import propose
-from plumb.settings.toml import write_machine_toml
+from plumb.settings.machine import write_machine_toml
 from plumb.text.compiled import refuse_stale
 from plumb.text.errors import InputError, Source
 from plumb.words import decision, proposals, verdict

@@ -33,10 +33,8 @@ from plumb.cli.screen import (
     what_follows,
 )
 from plumb.cli.settings import WrittenFiles, add_client, add_firmware, client_files_of, client_text
-from plumb.cure.add import Addition, add
-from plumb.cure.decision import decide
-from plumb.cure.live_board import refuse_other_origin
-from plumb.cure.machine_file import record_of, toml_of
+from plumb.cure.add import Addition, add, refuse_other_origin
+from plumb.cure.decision import decide, record_of, toml_of
 from plumb.diary.file import FIT, fit_entry, keep
 from plumb.fit.inputs import Inputs
 from plumb.model.plain import noun_of

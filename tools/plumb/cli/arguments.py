@@ -14,8 +14,8 @@ from typing import Any, NamedTuple, TypeVar
 from plumb.diagnosis import Checked
 from plumb.fit.by_hand import UNITS, number_read
 from plumb.fit.expected import refuse_absurd
+from plumb.fit.fit import PRIORS, priors_with
 from plumb.fit.inputs import Inputs, read_inputs
-from plumb.fit.problem import PRIORS, priors_with
 from plumb.marks.read import without_marks
 from plumb.model.catalogue import parameter_words
 from plumb.pictures.drawing import FORMATS

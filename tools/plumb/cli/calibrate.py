@@ -20,9 +20,8 @@ from plumb.cli.screen import (
     what_follows,
 )
 from plumb.cli.settings import WrittenFiles, add_client, add_firmware
-from plumb.cure.add import Addition
+from plumb.cure.add import Addition, refuse_other_origin
 from plumb.cure.decision import decide
-from plumb.cure.live_board import refuse_other_origin
 from plumb.fit.compare import Comparison, compare
 from plumb.fit.inputs import Inputs
 from plumb.plan import propose

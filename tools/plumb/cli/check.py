@@ -11,13 +11,13 @@ from plumb.cli import screen
 from plumb.cli.arguments import PROGRAM, add_shared, file, inputs_of, length, picture_form, unit_of
 from plumb.cli.output import refuse_twins, say_failure, write_outputs
 from plumb.cli.screen import bar, free_name, in_text, next_step, print_json
-from plumb.cure.live_board import refuse_other_origin
+from plumb.cure.add import refuse_other_origin
 from plumb.fit.inputs import Inputs, settings_in
-from plumb.job.bits import Tools
 from plumb.job.check import CheckedJob, check_job
 from plumb.job.dry_run import comment_of, outline_of, program_in
 from plumb.job.fixes import FixedLine, fixed, has_habit
 from plumb.job.resume import JobMachine
+from plumb.job.wood import Tools
 from plumb.pictures.drawing import BAD as WRONG
 from plumb.pictures.drawing import GOOD as CUT
 from plumb.pictures.drawing import NOWHERE, QUIET, Corners, Dot, Panel, Ways, draw, shades_of

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from plumb.cli.arguments import add_shared
 from plumb.cli.screen import next_step, number, print_json, sentences, table
 from plumb.model.catalogue import NO_FIRMWARE, empirical_effects, every_effect, label
-from plumb.model.effect_words import EffectWords
+from plumb.model.predict import EffectWords
 
 
 @dataclass(frozen=True)

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from time import monotonic
 
 from plumb.cli.screen import Bar, bar
-from plumb.job.time_left import TimeLeft, timetable
+from plumb.job.dry_run import TimeLeft, timetable
 from plumb.line.sender import Sender, Status, cleaned, plain
 from plumb.text.values import time_text
 

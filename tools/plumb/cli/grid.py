@@ -8,8 +8,8 @@ from typing import Annotated
 from plumb.cli.arguments import add_shared, any_length, unit_of
 from plumb.cli.output import refuse_twins, write_outputs
 from plumb.cli.screen import in_text, next_step, print_json
+from plumb.fit.fit import USUAL_SIGMA
 from plumb.fit.inputs import settings_in
-from plumb.fit.problem import USUAL_SIGMA
 from plumb.grid import (
     PRESETS,
     Grid,
@@ -24,7 +24,7 @@ from plumb.grid.options import APPROACH, NUMBERS, UNITS, demand, pairs
 from plumb.model.reach import plain_machine, refuse_way, with_soft_chains
 from plumb.pictures.grid_paper import grid_paper
 from plumb.plan.preview import Preview, as_read, preview
-from plumb.settings.cut_with import cut_with_lines, with_form
+from plumb.settings.files import cut_with_lines, with_form
 from plumb.settings.machine import MachineSettings
 from plumb.text.answers import meant
 from plumb.text.errors import InputError

@@ -13,13 +13,12 @@ from plumb.cli.screen import headline, print_json, sentences, table
 from plumb.cli.vm import add_brain, serve
 from plumb.model.predict import known_effects
 from plumb.settings.files import read_settings
-from plumb.settings.toml import machine_toml
+from plumb.settings.machine import machine_toml
 from plumb.text.errors import InputError
 from plumb.text.files import write_all, write_whole
 from plumb.text.values import Unit
-from plumb.vm.garage import VirtualMachine
+from plumb.vm.garage import BLANK, Tape, VirtualMachine
 from plumb.vm.practice import MACHINES, SECRET, Score, Secret, score, secret_in
-from plumb.vm.tape import BLANK, Tape
 
 SETTINGS, PORT = "machine.toml", "port"
 NOISE = 0.4  # [mm] of the tape

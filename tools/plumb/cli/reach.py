@@ -8,11 +8,11 @@ import numpy as np
 from plumb.cli.arguments import add_shared, picture_form, unit_of
 from plumb.cli.output import write_outputs
 from plumb.cli.screen import next_step, print_json, sentences, table
+from plumb.fit.fit import priors_with
 from plumb.fit.inputs import settings_in
-from plumb.fit.problem import priors_with
 from plumb.model.reach import Extreme, Survey, percent
 from plumb.pictures.drawing import Panel, draw
-from plumb.plan.sheet_reach import MEANING, SheetReach, reach_of
+from plumb.plan.preview import MEANING, SheetReach, reach_of
 from plumb.text.values import Unit
 
 CUT_THERE = ("--marks", "marks.toml", "--output", "grid.nc")

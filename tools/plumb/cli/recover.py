@@ -14,23 +14,26 @@ from plumb.cli.screen import headline, in_text, next_step, print_json, sentences
 from plumb.diary.file import HOME, SLIP, keep
 from plumb.fit.inputs import settings_in
 from plumb.job.home import (
+    CANNOT_TELL,
     SAME,
     HomeMark,
     HomeTouch,
     Point,
+    find_slip,
     hole_program,
     home_file,
     home_fit,
     new_home_mark,
+    next_hole,
     read_home_marks,
     refuse_repeated,
+    repair_program,
     write_home_marks,
 )
-from plumb.job.slip import CANNOT_TELL, find_slip, next_hole, repair_program
 from plumb.settings.machine import MachineSettings
 from plumb.text.answers import json_of
 from plumb.text.errors import InputError
-from plumb.text.locks import alone
+from plumb.text.files import alone
 from plumb.words.recover import (
     KINDS,
     HomeAnswer,

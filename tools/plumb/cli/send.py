@@ -20,12 +20,19 @@ from plumb.firmware.telemetry import telemetry_in, warnings
 from plumb.job.dry_run import program_in, refuse_other_files
 from plumb.line.memory import WrittenNumbers, kept_before, lines_for, read_numbers
 from plumb.line.port import LostError, SerialPort, port_for
-from plumb.line.progress import SAID_PAUSED, SureLines, waits_in
-from plumb.line.sender import PAUSED, RefusedError, Sender, StoppedError, cleaned
+from plumb.line.sender import (
+    PAUSED,
+    SAID_PAUSED,
+    RefusedError,
+    Sender,
+    StoppedError,
+    SureLines,
+    cleaned,
+    waits_in,
+)
 from plumb.marks.form import read_form
 from plumb.model.predict import known_effects
-from plumb.settings.cut_with import form_of
-from plumb.settings.files import read_settings
+from plumb.settings.files import form_of, read_settings
 from plumb.settings.machine import MachineSettings
 from plumb.text.answers import meant
 from plumb.text.errors import InputError

@@ -14,14 +14,14 @@ from plumb.text.errors import InputError
 from plumb.text.files import read_bytes, write_whole
 from plumb.vm.garage import (
     Garage,
+    InProcessPort,
     VirtualMachine,
     described,
     hide,
     random_garage,
+    set_up,
 )
-from plumb.vm.owner import InProcessPort, set_up
-from plumb.vm.served_port import BOOTLOADER, Pace, ServedPort
-from plumb.vm.socket_port import ANY, SocketPort
+from plumb.vm.served_port import ANY, BOOTLOADER, Pace, ServedPort, SocketPort
 
 EEPROM_BYTES = 4096
 TRAVELS = struct.Struct("<3d")  # behind them: the left chain, the right chain, z [mm]

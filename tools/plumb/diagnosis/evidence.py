@@ -11,22 +11,37 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
-from itertools import combinations, product
+from functools import cache, cached_property
+from itertools import combinations, compress, product
 
 import numpy as np
 import scipy
 
-from plumb.diagnosis.linear import Disturbance, LinearBoard, Metric, rows_in_metric
-from plumb.diagnosis.priors import (
+from plumb.diagnosis.explanation import (
     ALL,
     NOISE_DEGREES,
     OUTLIER_SPREADS,
+    PITCH,
+    PITCH_CHANCE,
     TOGETHER,
+    Disturbance,
+    Explanation,
+    LinearBoard,
+    Metric,
+    beyond,
     chance_of,
+    explain,
     noise_prior,
+    rows_in_metric,
+    span,
+    usual_checks,
+    zero_checks,
 )
 from plumb.fit.inputs import Stated
+from plumb.fit.observations import Observations
+from plumb.model.catalogue import EVERY_MACHINE
+from plumb.text.errors import to_do
+from plumb.text.values import Unit
 
 Array = np.ndarray
 Effects = tuple[str, ...]
@@ -366,3 +381,289 @@ def _off(part: AccountGroup, fit: Fitted, rows: Array, kept: Array) -> Array:
 
         weights.append(np.logaddexp.reduce(_with_mass(loose, mass, axis=0), axis=0))
     return np.asarray(np.logaddexp.reduce(weights))
+
+
+# The noise of a reading: what is stated, repeats and scatter say of it, as one posterior.
+
+
+KNOWN = np.inf  # degrees of freedom of a noise that needs no estimate
+KNOWN_QUANTILE = 1.96  # half-width of a 95 % interval where the noise is known
+ORIGINS = {
+    "stated": "as stated",
+    "stated and marks": "as stated, and from the scatter of the marks",
+    "marks": "from the scatter of the marks",
+}
+FEWEST_SPARE = 0.5  # numbers that a fit must leave over to say anything of its misfit
+DRAWN = 99  # noises of the prior
+SURPRISING = 2.5  # spreads of what was stated by which the marks may differ from it
+
+
+@dataclass(frozen=True)
+class Noise:
+    """Standard deviation of one coordinate or distance, and how well it is known."""
+
+    sigma: float  # [mm]
+    degrees: float  # of freedom; KNOWN if it was not estimated
+    source: str  # one of ORIGINS
+    notes: tuple[str, ...] = ()
+
+    @property
+    def quantile(self) -> float:
+        """Half-width of a 95 % interval, in standard deviations."""
+        return (
+            KNOWN_QUANTILE
+            if np.isinf(self.degrees)
+            else float(scipy.special.stdtrit(self.degrees, 0.975))
+        )
+
+    @property
+    def upper_quantile(self) -> float:
+        """Distance of a 95 % upper limit, in standard deviations."""
+        return 1.645 if np.isinf(self.degrees) else float(scipy.special.stdtrit(self.degrees, 0.95))
+
+
+def noise_by(sigmas: Array, weights: Array, stated: Stated | None, unit: Unit) -> Noise:
+    """Return the noise by log weights (m,) of some standard deviations [mm].
+
+    The logarithm of a standard deviation that is known with n degrees of freedom spreads by
+    1 / sqrt(2 n), so Student's t with as many degrees follows for what is fitted.
+    """
+    if not noise_prior(stated)[1]:
+        return Noise(float(sigmas[0]), KNOWN, "stated")
+    chances = np.exp(weights - np.logaddexp.reduce(weights))
+    logs = np.log(sigmas)
+    middle = float(chances @ logs)
+    variance = float(chances @ (logs - middle) ** 2)
+    variance = variance or NOISE_STEP**2 / 12  # where one is left, it is known to a step
+    noise = Noise(float(np.exp(middle)), 0.5 / variance, "stated and marks" if stated else "marks")
+    return noise if stated is None else _compared(noise, stated, unit)
+
+
+def _compared(noise: Noise, stated: Stated, unit: Unit) -> Noise:
+    """Return the noise with a note if the marks contradict what was stated."""
+    _, spread = noise_prior(stated)
+    off = np.log(noise.sigma / stated.sigma)
+    if abs(off) < SURPRISING * spread:
+        return noise
+    than = "more" if off > 0 else "less"
+    note = (
+        f"the marks scatter by {unit.worded(noise.sigma)}, {than} than the stated "
+        f"{unit.worded(stated.sigma)}: read three marks three times, "
+        + to_do("or say with --sigma what holds", page="or correct what your tape is good to")
+    )
+    return Noise(noise.sigma, noise.degrees, noise.source, (note,))
+
+
+# Lack of fit: the last guard, whether an account leaves more than noise ever would.
+
+
+def misfit_chance(explanation: Explanation, stated: Stated | None) -> float:
+    """Return the chance that noise leaves as much as this explanation does, over all noises that
+    were likely before the marks (a posterior-predictive check, Gelman, Meng and Stern 1996).
+
+    Repeats that scatter more than was stated make noises likelier. Repeats that scatter less do
+    not: they share what is wrong with a mark, and say nothing of how marks differ.
+    """
+    basis, count = explanation.basis, explanation.board.rows.count
+    # How near the frame is to what was stated says nothing of how well the marks are explained.
+    left = float(explanation.numbers @ explanation.numbers)
+    spare = count - float(np.sum(basis[:count] ** 2))
+    if spare < FEWEST_SPARE:
+        return 1.0
+    middle, spread = noise_prior(stated)
+    logs = spread * scipy.special.stdtrit(NOISE_DEGREES, (np.arange(DRAWN) + 0.5) / DRAWN)
+    variances = (middle * np.exp(logs)) ** 2
+    squares, degrees = _repeats(explanation.board.rows)
+    by_repeats = -(degrees * np.log(variances) + squares / variances) / 2
+    by_repeats = np.exp(by_repeats - np.logaddexp.reduce(by_repeats))
+    tails = scipy.special.chdtrc(spare, left / variances)
+    return float(max(tails.mean(), by_repeats @ tails))
+
+
+def _repeats(rows: Observations) -> tuple[float, int]:
+    """Return the sum of squares [mm^2] of readings of a mark in a round about their mean, and its
+    degrees of freedom.
+    """
+    errors = rows.measured - rows.targets
+    alike: dict[object, list[int]] = {}
+    for i, row in enumerate(rows.mark_rows):
+        alike.setdefault((rows.names[i], *rows.chains[row], rows.rounds[row]), []).append(i)
+    groups = [errors[group] for group in alike.values()]
+    squares = sum(float(np.sum((group - group.mean(axis=0)) ** 2)) for group in groups)
+    return squares, 2 * (len(errors) - len(groups))
+
+
+def left_by_noise(explanation: Explanation, noise: Noise) -> float:
+    """Return what noise alone would leave of a fit [mm], as `Explanation.rms` counts it."""
+    leverages = np.sum(explanation.basis**2, axis=1)
+    return noise.sigma * explanation.board.rows.rms_of_noise(leverages)
+
+
+def library_basis(explanation: Explanation) -> Array:
+    """Orthonormal columns of what was fitted and of every effect of the library."""
+    raw = explanation.slopes[:, explanation.board.columns(explanation.board.effect_columns)]
+    basis = explanation.basis
+    return np.hstack([basis, span(beyond(basis, raw), against=raw)])
+
+
+# Sets of effects on a machine as every machine is: what the marks ask for beyond that.
+#
+# Every chain stretches and sags, and half of all chains are a little long or short. So this is in
+# each account within what is usual, and is asked for only where the marks move it.
+
+
+ONE_IN = 20.0  # times less likely after the marks than before: then what the settings say is wrong
+
+
+@dataclass(frozen=True)
+class Clean:
+    """Log evidences (sets, boards) of all sets, and what hangs on them."""
+
+    total: Array
+    nominal: Array  # without what chains usually are longer or shorter
+    at_settings: dict[int, Array]  # of each usual number: log ratio of its densities, after to
+    # before the marks, where the settings have it
+    by_noise: Array  # (m,) of the first board
+
+    def on(self, board: int) -> Clean:
+        """Return the same of one board, as arrays (sets,)."""
+        ratios = {column: each[:, board] for column, each in self.at_settings.items()}
+        return Clean(self.total[:, board], self.nominal[:, board], ratios, self.by_noise)
+
+
+def clean_of(
+    board: LinearBoard, accounts: Accounts, noises: Noises, other: Disturbance | None = None
+) -> Clean:
+    """Weigh all sets, with nominal chains and with chains as makers sell them; beside something
+    else if it is given.
+    """
+    usual = [int(column) for column in np.flatnonzero(board.sizes.usual)]
+    shape = (len(accounts.effects), board.read.shape[1])
+    by_pitch, density = [], {column: np.full(shape, -np.inf) for column in usual}
+    by_noise = np.full(len(noises.sigmas), -np.inf)
+    for is_drifting, log_chance in pitches(board):
+        total = np.full(shape, -np.inf)
+        metric = Metric.of(board, noises.sigmas, other, pitch=is_drifting)
+        for part in accounts.parts:
+            fit = fitted(part, metric)
+            weight = _by_noise(fit.evidence, part) + noises.log_prior + log_chance
+            add_by_set(total, part, np.logaddexp.reduce(weight, axis=2).T)
+            by_noise = np.logaddexp(by_noise, np.logaddexp.reduce(weight[0], axis=0))
+            for column in usual:
+                there = weight + _by_noise(_density_at_settings(board, part, fit, column), part)
+                add_by_set(density[column], part, np.logaddexp.reduce(there, axis=2).T)
+        by_pitch.append(total)
+    whole = np.logaddexp.reduce(by_pitch)
+    weighed = np.where(np.isfinite(whole), whole, 0.0)
+    at_settings = {
+        column: each - weighed - _prior_at_settings(board, column)
+        for column, each in density.items()
+    }
+    return Clean(whole, by_pitch[0], at_settings, by_noise)
+
+
+def _by_noise(values: Array, part: AccountGroup) -> Array:
+    """Return values (boards, a * m) as (boards, a, m)."""
+    return values.reshape(len(values), len(part.sets), -1)
+
+
+def pitches(board: LinearBoard) -> list[tuple[bool, float]]:
+    """Return whether chains are as makers sell them, with the logarithm of its chance."""
+    if not board.sizes.pitch.any():
+        return [(False, 0.0)]
+    return [(False, float(np.log(1 - PITCH_CHANCE))), (True, float(np.log(PITCH_CHANCE)))]
+
+
+def _density_at_settings(board: LinearBoard, part: AccountGroup, fit: Fitted, column: int) -> Array:
+    """Return the log density (boards, a * m) of a size where the settings have it."""
+    noises = fit.inverse.shape[2] // len(part.sets)
+    place = np.repeat(np.argmax(part.index == column, axis=1), noises)
+    each = np.arange(len(place))
+    return _log_density(board, column, fit.mean[place, :, each].T, fit.inverse[place, place, each])
+
+
+def _prior_at_settings(board: LinearBoard, column: int) -> float:
+    spread = board.sizes.usual[column]
+    return float(_log_density(board, column, np.zeros(1), np.full(1, spread**2))[0])
+
+
+def _log_density(board: LinearBoard, column: int, mean: Array, variance: Array) -> Array:
+    """Return the log density at the settings' value of normals without their impossible part."""
+    at = -board.sizes.mean[column]
+    edge = board.sizes.mean[column] - board.sizes.least[column]
+    normal = -0.5 * (at - mean) ** 2 / variance - 0.5 * np.log(2 * np.pi * variance)
+    density: Array = normal - scipy.special.log_ndtr((mean + edge) / np.sqrt(variance))
+    return density
+
+
+def asked_for(
+    board: LinearBoard, accounts: Accounts, clean: Clean, sets: Iterable[int]
+) -> list[Effects]:
+    """Return what the marks ask for by each of some sets: its effects, and of what every machine
+    has only what the settings cannot have right (its density there fell to a twentieth, Dickey
+    1971). `clean` is of one board.
+    """
+    names, chosen = tuple(board.columns), np.array(list(sets), dtype=int)
+    of_column = {int(column): name for name in names for column in board.columns[name]}
+    every = tuple(of_column[column] for column in clean.at_settings)
+    wrong = [ratio[chosen] < -np.log(ONE_IN) for ratio in clean.at_settings.values()]
+    drifts = clean.nominal[chosen] < clean.total[chosen] - np.log(ONE_IN + 1)
+    if not board.sizes.pitch.any():
+        drifts[:] = False
+    flags = np.stack([drifts, *wrong], axis=1).tolist()
+    return [
+        _asked(names, every, accounts.effects[i], tuple(each))
+        for i, each in zip(chosen.tolist(), flags, strict=True)
+    ]
+
+
+@cache
+def _asked(names: Effects, every: Effects, acting: Effects, flags: tuple[bool, ...]) -> Effects:
+    """Return what a set asks for, in one order, so that the same effects are one account whichever
+    set asks for them. flags: whether chains are longer or shorter than nominal, and which settings
+    of what every machine has are wrong.
+    """
+    drifts, *wrong = flags
+    wanted = {*acting, PITCH} if drifts else {*acting}
+    only_some = (name for name in names if name in wanted and name not in every)
+    return (*only_some, *compress(every, wrong))
+
+
+# The fit of an account: the frame and its effects, with what every machine has held near usual.
+
+
+def felt_effects(frame: Explanation) -> Effects:
+    """Effects that change any of the measured numbers."""
+    board = frame.board
+    return tuple(
+        name for name in board.effect_columns if np.any(frame.slopes[:, board.columns([name])])
+    )
+
+
+def explain_account(frame: Explanation, asked: Effects, acting: Effects) -> Explanation:
+    """Refit the frame and the effects of an account; what every machine has and the settings leave
+    out too, held near what is usual where it does not act beyond that. What cannot be negative and
+    fits best there is held at zero.
+    """
+    board = frame.board
+    left_out = [
+        name
+        for name in EVERY_MACHINE
+        if name not in asked and not board.problem.start[board.columns([name])].any()
+    ]
+    effects = (*asked, *left_out)
+    usual = usual_checks(board, [name for name in effects if name not in acting])
+    fitted = explain(board.with_usual(usual), effects, start=frame)
+    impossible = zero_checks(fitted)
+    if not impossible:
+        return fitted
+    return explain(board.with_usual((*usual, *impossible)), effects, start=frame)
+
+
+def about(at: Explanation, effects: Effects) -> tuple[LinearBoard, Accounts]:
+    """Return the board made linear about a fit, and the account of its effects."""
+    names = [name for name in felt_effects(at) if name in (*effects, *EVERY_MACHINE, PITCH)]
+    linear = LinearBoard.of(at, names)
+    accounts = accounts_of(linear, len(effects))
+    wanted = [{*names} == {*effects} for names in accounts.effects]
+    return linear, accounts.among(np.array(wanted))

@@ -1,4 +1,4 @@
-"""An explanation: the frame and some effects refitted together, and the slopes at that fit."""
+"""A board, its priors, and an explanation: frame and effects refitted, with the slopes there."""
 
 from __future__ import annotations
 
@@ -9,14 +9,18 @@ from functools import cached_property
 import numpy as np
 import scipy
 
-from plumb.fit.inputs import Inputs
+from plumb.fit.expected import plausible_range
+from plumb.fit.fit import AT_REST, PRIORS, USUAL_SIGMA, Checked, Linearized, Problem, solve
+from plumb.fit.inputs import Inputs, Stated
 from plumb.fit.observations import Observations, different_numbers
-from plumb.fit.problem import AT_REST, PRIORS, USUAL_SIGMA, Checked, Linearized, Problem, solve
 from plumb.marks.read import Measurements
-from plumb.model.catalogue import effect_names, parameter_names
+from plumb.model.catalogue import EVERY_MACHINE, ZEROING_NAMES, effect_names, parameter_names
 from plumb.settings.machine import MachineSettings
 from plumb.text.errors import InputError
 from plumb.text.values import MM, Unit
+
+# An explanation: the frame and some effects refitted together, and the slopes at that fit.
+
 
 Array = np.ndarray
 INVISIBLE = 1e-5  # share of a column's length below which its rest is rounding
@@ -289,3 +293,369 @@ def _root(covariance: Array, least: float) -> Array:
     root = np.zeros((len(covariance), rank))
     root[pivots - 1] = np.tril(lower)[:, :rank]
     return root
+
+
+# Priors of the posterior: machines and readings before any mark is read.
+#
+# Each number stands here with its source. To change what the lab believes, change it here.
+
+
+LIKELIER = 0.5  # chance from which on something is likelier than not
+
+# How likely each thing is on a machine in question. No machines were counted, so
+# these are guesses; docs/diagnosis.md says which answers hang on them, and by how much.
+ACTS = 0.1  # an effect
+UNUSUAL = 0.05  # that what every machine has is far from usual
+ALL = 0.01  # that every effect of the library acts at once
+TOGETHER = 3  # effects at once in an account; the marks of one sheet hardly carry more
+FIELD = 0.15  # that the machine also does what no effect of the library does: half of it all over
+# the sheet, half about a single place
+OUTLIER = 0.1  # that some reading is off
+MOVED = 0.05  # that a later round was not cut by the same machine on the same sheet
+TURNED = 0.01  # that all y errors have the wrong sign
+
+# [mm] Readings that are off: a misread tick, a wrong hook, exchanged digits. All as likely.
+OUTLIER_SPREADS = (4.0, 20.0, 200.0)
+# [mm] and halves of what the marks span: what a smooth field of no effect does. All as likely.
+FIELD_SPREADS = (1.0, 2.0, 4.0)
+FIELD_WIDTHS = (0.35, 0.7, 1.4)
+SPOT_WIDTHS = (0.25, 0.45)  # of a field that acts about a single place
+ROUND_SPREAD = 6.0  # [mm] of a sheet laid elsewhere, and of a chain hung by a link less
+
+# The noise of a reading: the logarithm of its standard deviation is Student's t about what is
+# stated. A careful owner's tape reads to about 0.5 mm.
+NOISE_DEGREES = 4.0
+STATED_SPREAD = 0.22  # how well people know it
+UNSTATED_SPREAD = 0.5  # of tapes in general, about USUAL_SIGMA
+
+
+@dataclass(frozen=True)
+class Usual:
+    """Usual sizes of a parameter on every machine, as shares of its typical size."""
+
+    mean: float  # of machines whose settings do not know it
+    spread: float  # from machine to machine, where the settings do not know it
+    known: float  # the same about the value that the settings have
+
+
+# Stretch: makers and owners state 4.1e-6 to 8.1e-6 1/N for this chain; WebControl takes 5.17e-6.
+# Sag goes with the square of the chain's weight, which differs by a tenth from maker to maker.
+USUAL: Mapping[str, Usual] = {
+    "chain_stretch.compliance": Usual(mean=1.0, spread=0.6, known=0.3),
+    "chain_sag.weight_ratio_squared": Usual(mean=1.0, spread=0.2, known=0.12),
+}
+# Pitch: ANSI allows this chain to be up to 0.26 % too long. Half of all chains are taken to be a
+# little off, each chain by itself.
+PITCH = "chain_pitch"
+PITCH_CHANCE, PITCH_SPREAD = 0.5, 0.0005
+# Where pitch is far from usual, both chains are off by about as much, for they come from one reel:
+# the only machine whose two numbers are published has 0.35 and 0.36 %.
+PITCH_CORRELATION = 0.9
+ZERO = 1e-4  # of a typical size: how near zero what cannot be negative is held
+
+
+@dataclass(frozen=True)
+class SizePriors:
+    """Normal priors of the parameters of some effects, in typical sizes off the settings' values.
+
+    A parameter that cannot be negative is at least its `least`. What every machine has counts in
+    each account, about `mean` with `usual`; an effect that acts adds one of two spreads. All are
+    independent; the pitches of both chains are not, and stand as `turned` has them.
+    """
+
+    mean: Array  # (p,)
+    usual: Array  # (p,) standard deviation on every machine; 0: only where the effect acts
+    typical: Array  # (p,) spread of the sizes that are met most
+    largest: Array  # (p,) spread of the sizes that were met at all
+    least: Array  # (p,) off the settings' value; -inf: it has either sign
+    pitch: Array  # (p,) usual standard deviation that half of all machines have
+
+
+def size_priors(board: Board, columns: Array) -> SizePriors:
+    """Return the priors of these columns of a board's unknowns."""
+    problem = board.problem
+    names = [problem.names[column] for column in columns]
+    scale, start = problem.scale[columns], problem.start[columns] / problem.scale[columns]
+    met = [plausible_range(name) for name in names]
+    usual = [USUAL.get(name) for name in names]
+    is_set = start != 0
+    alike, drift = np.ones(len(names)), np.zeros(len(names))
+    pair = _pitches(board, columns)
+    if pair:
+        alike[pair] = np.sqrt([1 + PITCH_CORRELATION, 1 - PITCH_CORRELATION])
+        # Settings that have the pitch of a chain know that of the other too.
+        drift[pair] = 0.0 if is_set[pair].any() else PITCH_SPREAD / scale[pair]
+    return SizePriors(
+        mean=np.array([each.mean if each else 0.0 for each in usual]) * ~is_set,
+        usual=np.array(
+            [
+                (each.known if known else each.spread) if each else 0.0
+                for each, known in zip(usual, is_set, strict=True)
+            ]
+        ),
+        typical=alike,
+        largest=largest_met(board, columns) * alike,
+        least=np.where([each.low >= 0 for each in met], -start, -np.inf),
+        pitch=drift,
+    )
+
+
+def largest_met(board: Board, columns: Array) -> Array:
+    """Return the largest sizes (p,) that real machines have of these columns, in typical sizes."""
+    met = [plausible_range(board.problem.names[column]) for column in columns]
+    sizes = np.array([max(abs(each.low), abs(each.high)) for each in met])
+    largest: Array = sizes / board.problem.scale[columns]
+    return largest
+
+
+def turned(board: Board, columns: Array, slopes: Array) -> Array:
+    """Return the slopes (n, p) of these columns, with those of the pitches of both chains along
+    their sum and their difference, each over the root of two: these are independent.
+    """
+    pair = _pitches(board, columns)
+    if pair:
+        slopes = slopes.copy()
+        slopes[:, pair] = slopes[:, pair] @ (np.array([[1.0, 1.0], [1.0, -1.0]]) / np.sqrt(2))
+    return slopes
+
+
+def _pitches(board: Board, columns: Array) -> list[int]:
+    """Return the places of both pitches among some columns; none where that effect is not."""
+    names = [board.problem.names[column] for column in columns]
+    return [place for place, name in enumerate(names) if name.startswith(f"{PITCH}.")]
+
+
+def usual_checks(board: Board, effects: Iterable[str]) -> tuple[Checked, ...]:
+    """Return what is usual of the parameters of some effects, as if it had been measured."""
+    problem, checks = board.problem, []
+    for column in board.columns(effects):
+        name, scale, start = problem.names[column], problem.scale[column], problem.start[column]
+        known = USUAL.get(name)
+        if known:
+            share = known.known if start else known.spread
+            checks.append(Checked(name, float(start or known.mean * scale), float(share * scale)))
+        elif name.startswith(f"{PITCH}."):
+            checks.append(Checked(name, float(start), PITCH_SPREAD))
+    return tuple(checks)
+
+
+def zero_checks(fitted: Explanation) -> tuple[Checked, ...]:
+    """Return the sizes of an explanation that are below zero and cannot be, as zero."""
+    problem = fitted.board.problem
+    checks = []
+    for column in fitted.board.columns(fitted.effects):
+        name, scale = problem.names[column], float(problem.scale[column])
+        value = problem.start[column] + scale * fitted.unknowns[column]
+        if plausible_range(name).low >= 0 and value < 0:
+            checks.append(Checked(name, 0.0, ZERO * scale))
+    return tuple(checks)
+
+
+def chance_of(effect: str) -> float:
+    """Return how likely an effect acts, or is unusual on this machine, before the marks."""
+    return UNUSUAL if effect in EVERY_MACHINE or effect == PITCH else ACTS
+
+
+def noise_prior(stated: Stated | None) -> tuple[float, float]:
+    """Return the middle [mm] of the noise, and the spread of its logarithm; 0: it is known."""
+    if stated is None:
+        return USUAL_SIGMA, UNSTATED_SPREAD
+    return stated.sigma, 0.0 if stated.is_final else STATED_SPREAD
+
+
+# A board made linear about a fit, and what is left of it once noise and frame are allowed for.
+#
+# What is measured is then a sum of normals: noise, the frame within its priors, effects, and
+# perhaps a smooth field or a round that moved. With Z = [frame, effects, readings] as columns, all
+# that any account needs is the Gram matrix Z' C^-1 Z, where C holds noise and field. The frame is
+# integrated out by a Schur complement. A field is written in few orthonormal columns U with
+# variances l, so Woodbury's identity gives C^-1 for each noise s and each field without another
+# factorization:
+#
+# C^-1 = (1 - U diag(l / (s^2 + l)) U') / s^2
+
+
+ROUNDING = 1e-9  # [mm] less than that moves nothing
+LEFT_OUT = 1e-3  # share of the noise's variance to which a field is described
+
+
+@dataclass(frozen=True)
+class LinearBoard:
+    """Readings and slopes about a fit. Measured numbers come first, then direct checks.
+
+    Rows of measured numbers are in mm, those of checks in their standard deviations; effects are
+    in typical sizes (pitches as `turned` has them), the frame in standard deviations of its priors.
+    """
+
+    measured: int  # rows of measured numbers
+    frame: Array  # (n, f)
+    effects: Array  # (n, p)
+    read: Array  # (n, boards) less what the settings predict with usual sizes
+    columns: dict[str, Array]  # of each effect that is felt, among the p
+    sizes: SizePriors
+
+    @staticmethod
+    def of(at: Explanation, felt: Sequence[str]) -> LinearBoard:
+        """Make the board of an explanation linear about its fit, with the effects that are felt."""
+        board = at.board
+        count, held = board.rows.count, int(board.problem.held.sum())
+        kept = np.r_[0:count, count + held : len(at.residual) - board.usual]
+        slopes = _unwhitened(at.slopes[kept], count, board.sigma)
+        read = at.residual[kept] + at.slopes[kept] @ at.unknowns
+        columns = board.columns(felt)
+        sizes = size_priors(board, columns)
+        read = _unwhitened(read[:, np.newaxis], count, board.sigma)
+        starts = np.cumsum([0, *(len(board.columns([name])) for name in felt)])
+        return LinearBoard(
+            measured=count,
+            frame=slopes[:, board.frame],
+            effects=turned(board, columns, slopes[:, columns]),
+            read=read - slopes[:, columns] @ sizes.mean[:, np.newaxis],
+            columns={
+                name: np.arange(low, high)
+                for name, low, high in zip(felt, starts[:-1], starts[1:], strict=True)
+            },
+            sizes=sizes,
+        )
+
+
+def _unwhitened(rows: Array, measured: int, sigma: float) -> Array:
+    return np.vstack([rows[:measured] * sigma, rows[measured:]])
+
+
+# What else may move readings: a smooth field, and a round that was moved.
+
+
+@dataclass(frozen=True)
+class Disturbance:
+    """Something that moves the measured numbers as independent normals do."""
+
+    axes: Array  # (n, r) orthonormal
+    variances: Array  # (r,) [mm^2]
+
+    @staticmethod
+    def of(columns: Array) -> Disturbance:
+        """Return what columns (n, c) [mm] of independent normals move."""
+        left, sizes, _ = np.linalg.svd(columns, full_matrices=False)
+        seen = sizes > 1e-6 * max(sizes.max(initial=0.0), 1e-9)
+        return Disturbance(left[:, seen], sizes[seen] ** 2)
+
+    def times(self, length: float) -> Disturbance:
+        """Return the same, larger by a factor."""
+        return replace(self, variances=self.variances * length**2)
+
+
+def smooth_fields(frame: Explanation, sigma: float) -> list[Disturbance]:
+    """Return smooth fields that no effect draws, of all usual widths and spreads; sigma [mm]."""
+    least = LEFT_OUT * sigma**2 / max(FIELD_SPREADS) ** 2
+    return [
+        unit.times(spread)
+        for columns in gaussian_process_columns(frame, FIELD_WIDTHS, least)
+        for unit in [Disturbance.of(columns)]
+        for spread in FIELD_SPREADS
+    ]
+
+
+@dataclass(frozen=True, eq=False)
+class MovedRound:
+    """A later round that does not go with the others, and what would make it so."""
+
+    number: int
+    cause: str  # "new_sheet", "chains_rezeroed", or "" for another machine
+    other: Disturbance
+
+
+def moved_rounds(frame: Explanation) -> list[MovedRound]:
+    """Return how each later round may have been moved; none if all marks are of one round."""
+    board, rows = frame.board, frame.board.rows
+    number = np.concatenate([np.repeat(rows.rounds[rows.mark_rows], 2), rows.distance_rounds])
+    slopes = frame.slopes[: rows.count] * board.sigma
+    by_cause = _causes_of_moves(board, slopes)
+    return [
+        MovedRound(int(later), cause, Disturbance.of(columns[:, moved] * mine[:, np.newaxis]))
+        for later in np.unique(number)[1:]
+        for mine in [number == later]
+        for cause, columns in by_cause.items()
+        for moved in [np.any(np.abs(columns[mine]) > ROUNDING, axis=0)]
+        if moved.any()
+    ]
+
+
+def _causes_of_moves(board: Board, slopes: Array) -> dict[str, Array]:
+    """Columns (n, c) [mm] of what may change from one round to the next."""
+    names, scale, marks = board.problem.names, board.problem.scale, board.rows.measured.size
+    shifts = np.zeros((len(slopes), 2))
+    for axis in (0, 1):
+        shifts[axis:marks:2, axis] = ROUND_SPREAD
+    zeros = [names.index(name) for name in ZEROING_NAMES]
+    hung = slopes[:, zeros] * ROUND_SPREAD / scale[zeros]
+    turned = slopes[:, [i for i in board.frame if names[i] == "sheet_rotation"]]
+    everything = np.hstack([shifts, hung, slopes[:, board.frame]])
+    return {"new_sheet": np.hstack([shifts, turned]), "chains_rezeroed": hung, "": everything}
+
+
+# Gram matrices of readings and effects, for each noise, with the frame integrated out.
+
+
+@dataclass(frozen=True)
+class Metric:
+    """Distances between readings: for each of m noises, with noise, frame and one other thing."""
+
+    sigmas: Array  # (m,) [mm] of the noise
+    gram: Array  # (m, p, p) of the effects
+    along: Array  # (m, p, boards) of effects and readings
+    square: Array  # (m, boards) of the readings
+    log_determinant: Array  # (m,) of the covariance of the readings
+
+    @staticmethod
+    def of(
+        board: LinearBoard, sigmas: Array, other: Disturbance | None = None, *, pitch: bool = False
+    ) -> Metric:
+        """Return the metrics for noises (m,) [mm]; `pitch`: with chains as makers sell them."""
+        columns = np.hstack([board.frame, board.effects, board.read])
+        inside, beyond = np.split(columns, [board.measured])
+        precision = 1 / sigmas**2
+        whole = precision[:, np.newaxis, np.newaxis] * (inside.T @ inside) + beyond.T @ beyond
+        log_determinant = board.measured * 2 * np.log(sigmas)
+        if other is not None:
+            seen = other.axes.T @ inside
+            taken = other.variances / (sigmas[:, np.newaxis] ** 2 + other.variances)
+            weights = precision[:, np.newaxis] * taken
+            whole = whole - np.einsum("ri,mr,rj->mij", seen, weights, seen, optimize=True)
+            log_determinant = log_determinant - np.sum(np.log1p(-taken), axis=1)
+        return _without_frame(board, sigmas, whole, log_determinant, pitch=pitch)
+
+
+def _without_frame(
+    board: LinearBoard, sigmas: Array, whole: Array, log_determinant: Array, *, pitch: bool
+) -> Metric:
+    """Integrate the frame out of Gram matrices (m, z, z), and usual pitch if asked."""
+    frame, effects = board.frame.shape[1], board.effects.shape[1]
+    drifting = np.flatnonzero(board.sizes.pitch) if pitch else np.zeros(0, dtype=int)
+    loose = np.concatenate([np.arange(frame), frame + drifting])
+    spread = np.concatenate([np.ones(frame), board.sizes.pitch[drifting]])
+    kept = np.arange(frame, whole.shape[1])
+    inner = whole[:, loose[:, np.newaxis], loose] * np.outer(spread, spread) + np.eye(len(loose))
+    mixed = whole[:, loose[:, np.newaxis], kept] * spread[:, np.newaxis]
+    rest = whole[:, frame:, frame:] - np.swapaxes(mixed, 1, 2) @ np.linalg.solve(inner, mixed)
+    return Metric(
+        sigmas=sigmas,
+        gram=rest[:, :effects, :effects],
+        along=rest[:, :effects, effects:],
+        square=np.diagonal(rest[:, effects:, effects:], axis1=1, axis2=2),
+        log_determinant=log_determinant + np.linalg.slogdet(inner)[1],
+    )
+
+
+def rows_in_metric(board: LinearBoard, sigma: float) -> tuple[Array, Array]:
+    """Return C^-1 [effects, first readings] (n, p + 1), and C^-1 among the two numbers of each
+    mark or the number of each distance, with noise and frame in C.
+    """
+    weight = np.r_[
+        np.full(board.measured, 1 / sigma**2), np.ones(len(board.frame) - board.measured)
+    ]
+    weighted = weight[:, np.newaxis] * board.frame
+    inner = np.eye(board.frame.shape[1]) + board.frame.T @ weighted
+    root = np.linalg.solve(np.linalg.cholesky(inner), weighted.T).T
+    drawn = np.hstack([board.effects, board.read[:, :1]])
+    return weight[:, np.newaxis] * drawn - root @ (root.T @ drawn), root

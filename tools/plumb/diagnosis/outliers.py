@@ -8,8 +8,8 @@ from typing import Annotated
 
 import numpy as np
 
+from plumb.diagnosis.evidence import library_basis
 from plumb.diagnosis.explanation import Board
-from plumb.diagnosis.noise import library_basis
 from plumb.fit.compare import Comparison
 from plumb.fit.inputs import Inputs
 from plumb.fit.observations import Observations

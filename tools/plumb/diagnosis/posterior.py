@@ -1,63 +1,344 @@
-"""One posterior over all accounts of the marks: every answer of a diagnosis is a reading of it.
-
-An account says which effects act, and whether a reading is off as well, a round was moved, or
-a smooth field acts that no effect draws. Accounts that ask for the same effects count together:
-what every machine has is in each account, and is asked for only where the marks say that the
-settings have it wrong.
-"""
+"""One posterior over all accounts of the marks: every answer of a diagnosis is a reading of it."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
+from itertools import product
 
 import numpy as np
 
-from plumb.diagnosis.every_machine import Clean, asked_for, clean_of, pitches
 from plumb.diagnosis.evidence import (
     FEWER,
     Accounts,
+    Clean,
     Effects,
+    Noise,
     Noises,
+    about,
     accounts_of,
+    asked_for,
+    clean_of,
+    explain_account,
+    felt_effects,
+    noise_by,
     noises_of,
     outlier_weights,
+    pitches,
     weights_of,
 )
-from plumb.diagnosis.explanation import Board, Explanation
-from plumb.diagnosis.fields import (
-    Fields,
-    WithFields,
-    weigh_fields,
-    weights_with,
-)
-from plumb.diagnosis.linear import (
-    LinearBoard,
-    Metric,
-    MovedRound,
-    moved_rounds,
-    smooth_fields,
-)
-from plumb.diagnosis.noise import Noise, noise_by
-from plumb.diagnosis.outliers import Reading, readings_of
-from plumb.diagnosis.priors import (
+from plumb.diagnosis.explanation import (
+    FIELD,
     FIELD_SPREADS,
     LIKELIER,
     MOVED,
     OUTLIER,
+    SPOT_WIDTHS,
     TOGETHER,
     TURNED,
+    Board,
+    Disturbance,
+    Explanation,
+    LinearBoard,
+    Metric,
+    MovedRound,
+    half_span,
+    measured_columns,
+    moved_rounds,
     noise_prior,
+    places_of,
+    smooth_fields,
 )
-from plumb.diagnosis.refit import explain_account, felt_effects
+from plumb.diagnosis.outliers import Reading, readings_of
 from plumb.fit.inputs import Stated
 from plumb.model.catalogue import EVERY_MACHINE
 from plumb.model.plain import ascending, greatest, ranked
 
+# Spots: places of the sheet about which the machine does what no effect draws.
+#
+# A spot falls off as a Gauss bell does and moves the sled each way by normals. Of a grid of spots
+# over the whole sheet those are looked for that the marks ask for most, if all effects act at once;
+# about the best of them the grid is made finer as long as that pays for its smaller share.
+
+
 Array = np.ndarray
+GRID = (9, 5)  # middles across and up
+SEEN = 0.5  # of a spot's size: one that moves no reading by that is left out
+MOST = 10  # spots that are worth a look
+FAR_BELOW = 8.0  # nats below the best: what is less likely is not looked at
+# Across, up, and logarithm of the width: half of the way to the next of the grid.
+STEP = (0.125, 0.25, 0.3)
+FINER = 8  # spots of half the step in the room of one
+
+
+@dataclass(frozen=True, eq=False)
+class Spot:
+    """A spot, and what it moves of the measured numbers."""
+
+    middle: Array  # (2,) [mm]
+    share: float  # of all spots
+    other: Disturbance
+
+
+def likely_spots(frame: Explanation, board: LinearBoard, sigmas: Array) -> list[Spot]:
+    """Return the spots that are worth a look with some noise (m,) [mm], if all effects act."""
+    seek = _Seek(frame, board, sigmas)
+    grid = np.array(
+        list(product(*(np.linspace(-1, 1, count) for count in GRID), np.log(SPOT_WIDTHS)))
+    )
+    gains = seek.gains(grid)
+    order = ascending(-gains.ravel())[:MOST].tolist()
+    likely = [
+        (int(place), int(spread))
+        for i in order
+        for place, spread in [np.unravel_index(i, gains.shape)]
+        if gains[place, spread] > gains.max() - FAR_BELOW
+    ]
+    if not likely:
+        return []
+    place, spread = likely[0]
+    best = seek.closer(grid[place], float(gains[place, spread]), 1 / gains.size)
+    return [*(seek.spot(grid[i], j, 1 / gains.size) for i, j in likely), *best]
+
+
+@dataclass(frozen=True)
+class _Seek:
+    """The search of spots (k, 3): x and y of the middle in halves of what the marks span, from the
+    middle of it, and the logarithm of the width in the same halves.
+    """
+
+    frame: Explanation
+    board: LinearBoard
+    sigmas: Array
+
+    def spot(self, spot: Array, spread: int, share: float) -> Spot:
+        """Return the spot of a place and a spread."""
+        places = places_of(self.frame)
+        middle = (places.max(axis=0) + places.min(axis=0)) / 2 + half_span(places) * spot[:2]
+        (columns,) = self._columns(spot[np.newaxis])
+        other = Disturbance.of(columns[: self.board.measured]).times(FIELD_SPREADS[spread])
+        return Spot(middle, share, other)
+
+    def closer(self, spot: Array, gain: float, share: float) -> list[Spot]:
+        """Return the best spot on ever finer grids about this; none if they do not pay."""
+        step, found = np.array(STEP), list[Spot]()
+        while True:
+            near = spot + step * np.array(list(product((-1, 0, 1), repeat=3)))
+            gains = self.gains(near)
+            place, spread = np.unravel_index(greatest(gains.ravel()), gains.shape)
+            if not gains[place, spread] > gain + np.log(FINER):
+                return found
+            spot, gain = near[place], float(gains[place, spread])
+            step, share = step / 2, share / FINER
+            found = [self.spot(spot, int(spread), share)]
+
+    def gains(self, spots: Array) -> Array:
+        """Return the log evidence that each spot adds (k, spreads), with the noise for which that
+        is most; -inf for a spot that moves no reading by half of its size.
+        """
+        columns = self._columns(spots)
+        gains = np.max([_gains(self.board, sigma, columns) for sigma in self.sigmas], axis=0)
+        gains[np.abs(columns).max(axis=(1, 2)) < SEEN] = -np.inf
+        return np.asarray(gains)
+
+    def _columns(self, spots: Array) -> Array:
+        """Return what spots move (k, n, 2) [mm], 1 mm to the right in the middle, and upwards."""
+        places = places_of(self.frame)
+        half = half_span(places)
+        middle = (places.max(axis=0) + places.min(axis=0)) / 2
+        apart = np.sum(((places - middle) / half - spots[:, np.newaxis, :2]) ** 2, axis=2)
+        moved = np.exp(-apart / (2 * np.exp(2 * spots[:, [2]])))
+        measured = measured_columns(moved.T, places, self.frame.board.rows)
+        columns = np.zeros((len(spots), len(self.board.read), 2))
+        columns[:, : len(measured)] = measured.reshape(len(measured), 2, -1).transpose(2, 0, 1)
+        return columns
+
+
+def _gains(board: LinearBoard, sigma: float, spots: Array) -> Array:
+    """Return the log evidence that each of some spots (k, n, 2) [mm] adds, for each spread
+    (k, s), if all effects act: ln N(y; 0, C + s^2 U U') - ln N(y; 0, C).
+    """
+    spreads = np.sqrt(board.sizes.usual**2 + board.sizes.largest**2)
+    drawn = np.hstack([board.frame, board.effects * spreads])
+    weight = np.r_[np.full(board.measured, sigma**-2), np.ones(len(drawn) - board.measured)]
+    weighted = weight[:, np.newaxis] * drawn
+    inner = np.eye(drawn.shape[1]) + drawn.T @ weighted
+    root = np.linalg.solve(np.linalg.cholesky(inner), weighted.T)
+    seen = np.einsum("rn,kni->kri", root, spots, optimize=True)
+    square = np.einsum("kni,n,knj->kij", spots, weight, spots, optimize=True)
+    square -= np.einsum("kri,krj->kij", seen, seen, optimize=True)
+    read = board.read[:, 0]
+    pull = np.einsum("kni,n->ki", spots, weight * read - root.T @ (root @ read), optimize=True)
+    gains = []
+    for spread in FIELD_SPREADS:
+        whole = square + np.eye(2) * spread**-2
+        taken = np.linalg.solve(whole, pull[:, :, np.newaxis])[:, :, 0]
+        size = np.linalg.slogdet(whole)[1] + 4 * np.log(spread)
+        gains.append((np.sum(pull * taken, axis=1) - size) / 2)
+    return np.stack(gains, axis=1)
+
+
+# Accounts in which the machine also does what no effect of the library draws.
+#
+# That is a smooth field all over the sheet, or a spot of it. It adds to effects: sets of up to
+# three are weighed beside it, and the likeliest are made linear about the fit of each.
+
+
+NEGLIGIBLE = 0.02  # chance of a field below which its accounts are not looked at more closely
+NEAR = 5.0  # nats below the best within which a field, and a set beside it, count
+MOST_FIELDS = 6  # that are weighed with sets of three
+BEAM = 12  # sets of two that are tried with a third effect
 REFITTED = 6  # likeliest sets that are made linear about the fit of each
-NEAR = 5.0  # nats below the best within which they are
+
+
+@dataclass(frozen=True)
+class Fields:
+    """Fields that may act, and the logarithm of the chance of each."""
+
+    each: tuple[Disturbance, ...]
+    log_chances: Array  # (fields,)
+    spots: tuple[Spot, ...] = ()  # the last of `each`
+
+    @staticmethod
+    def of(
+        frame: Explanation, board: LinearBoard, noises: Noises, smooth: Sequence[Disturbance]
+    ) -> Fields:
+        """Return these smooth fields, and the spots that are worth a look."""
+        spots = likely_spots(frame, board, noises.sigmas)
+        chances = [FIELD / 2 / len(smooth)] * len(smooth)
+        chances += [FIELD / 2 * spot.share for spot in spots]
+        others = (*smooth, *(spot.other for spot in spots))
+        return Fields(others, np.log(chances), tuple(spots))
+
+    def among(self, kept: Sequence[int]) -> Fields:
+        """Return some of them; the places rise."""
+        first = len(self.each) - len(self.spots)
+        return Fields(
+            tuple(self.each[i] for i in kept),
+            self.log_chances[kept],
+            tuple(self.spots[i - first] for i in kept if i >= first),
+        )
+
+    def weights(self, board: LinearBoard, accounts: Accounts, noises: Noises) -> Array:
+        """Return the log weights (fields, sets, m) of sets with each field."""
+        return np.stack(
+            [
+                weights_with(board, accounts, noises, other) + log
+                for other, log in zip(self.each, self.log_chances, strict=True)
+            ]
+        )
+
+    def weight_about(self, at: Explanation, effects: Effects, noises: Noises) -> float:
+        """Return the log weight of a set with any of the fields, linear about a fit."""
+        return float(np.logaddexp.reduce(self.weights(*about(at, effects), noises), axis=None))
+
+
+@dataclass(frozen=True)
+class WithFields:
+    """Log weights of accounts with a field."""
+
+    fields: Fields  # that are worth a look
+    total: Array  # (sets,)
+    by_noise: Array  # (m,)
+    beside: Clean | None  # of the same sets beside the likeliest field; None: no field is likely
+    spots: Array  # (spots,) share of all these weights that each has
+
+    @property
+    def spot(self) -> Spot | None:
+        """Spot that acts, where one is likelier than a field all over the sheet."""
+        if not np.sum(self.spots) > LIKELIER:
+            return None
+        return self.fields.spots[greatest(self.spots)]
+
+
+def weights_with(
+    board: LinearBoard, accounts: Accounts, noises: Noises, other: Disturbance
+) -> Array:
+    """Return the log weights (sets, m) with something else too, as likely as that is itself."""
+    weights: Array = np.logaddexp.reduce(
+        [
+            weights_of(accounts, Metric.of(board, noises.sigmas, other, pitch=is_drifting), noises)
+            + log
+            for is_drifting, log in pitches(board)
+        ]
+    )
+    return weights
+
+
+def weigh_fields(
+    frame: Explanation,
+    board: LinearBoard,
+    accounts: Accounts,
+    noises: Noises,
+    every: Fields,
+    clean: float,
+) -> WithFields:
+    """Weigh all sets of up to two effects with each field; sets of three and what is likeliest more
+    closely, where a field is likely at all. clean: log weight of all sets without any.
+    """
+    weights = every.weights(board, accounts.up_to(2), noises)
+    of_field = np.logaddexp.reduce(weights, axis=(1, 2))
+    if np.logaddexp.reduce(of_field) < clean + np.log(NEGLIGIBLE):
+        return _summed(every, weights)
+    order = ascending(-of_field)[:MOST_FIELDS]
+    near = sorted(i for i in order.tolist() if of_field[i] > of_field.max() - NEAR)
+    kept = every.among(near)
+    closer = kept.weights(board, accounts.among(_worth_a_look(accounts, weights)), noises)
+    found = _summed(kept, np.logaddexp(weights[near], closer))
+    weighed = accounts.among(np.isfinite(found.total))
+    beside = clean_of(board, weighed, noises, kept.each[greatest(of_field[near])]).on(0)
+    total = _refitted(frame, board, accounts, noises, found)
+    return replace(found, total=total, beside=beside)
+
+
+def _summed(each: Fields, weights: Array) -> WithFields:
+    by_field = np.logaddexp.reduce(weights, axis=(1, 2))
+    of_spots = by_field[len(each.each) - len(each.spots) :]
+    return WithFields(
+        each,
+        np.logaddexp.reduce(weights, axis=(0, 2)),
+        np.logaddexp.reduce(weights, axis=(0, 1)),
+        None,
+        np.exp(of_spots - np.logaddexp.reduce(by_field)),
+    )
+
+
+def _worth_a_look(accounts: Accounts, weights: Array) -> Array:
+    """Return which sets of three (sets,) hold one of the likeliest sets of two with a field."""
+    total = np.logaddexp.reduce(weights, axis=(0, 2))
+    pairs = [i for i in ascending(-total).tolist() if len(accounts.effects[i]) == TOGETHER - 1]
+    best = [{*accounts.effects[i]} for i in pairs[:BEAM]]
+    return np.array(
+        [
+            len(names) == TOGETHER and any(pair < {*names} for pair in best)
+            for names in accounts.effects
+        ]
+    )
+
+
+def _refitted(
+    frame: Explanation, board: LinearBoard, accounts: Accounts, noises: Noises, found: WithFields
+) -> Array:
+    """Return the weights (sets,) with the likeliest sets made linear about the fit of each."""
+    total = found.total.copy()
+    for i in ascending(-total)[:REFITTED].tolist():
+        acting = accounts.effects[i]
+        if not acting or len(acting) > TOGETHER or total[i] < total.max() - NEAR:
+            continue
+        at = explain_account(frame, acting, acting)
+        linear = LinearBoard.of(at, tuple(board.columns))
+        only = accounts.among(np.arange(len(total)) == i)
+        total[i] = np.logaddexp.reduce(found.fields.weights(linear, only, noises)[:, i], axis=None)
+    return total
+
+
+# An account says which effects act, and whether a reading is off as well, a round was moved, or
+# a smooth field acts that no effect draws. Accounts that ask for the same effects count together:
+# what every machine has is in each account, and is asked for only where the marks say that the
+# settings have it wrong.
+
+
 LISTED = 0.95  # of all weight that the listed accounts hold together
 MOST_LISTED = 8
 
@@ -258,7 +539,7 @@ def posterior_of(board: Board, stated: Stated | None) -> Posterior:
     smooth = smooth_fields(frame, middle)
     noises = noises_of(linear, accounts, stated, smooth[1 :: len(FIELD_SPREADS)])
     clean = clean_of(linear, accounts, noises).on(0)
-    clean = _refitted(frame, felt, accounts, noises, clean)
+    clean = _refitted_sets(frame, felt, accounts, noises, clean)
     few = accounts.up_to(2)
     fields = Fields.of(frame, linear, noises, smooth)
     with_fields = weigh_fields(
@@ -357,7 +638,7 @@ def _asked(
     }
 
 
-def _refitted(
+def _refitted_sets(
     frame: Explanation, felt: Effects, accounts: Accounts, noises: Noises, clean: Clean
 ) -> Clean:
     """Return the weights with the likeliest sets made linear about the fit of each.

@@ -6,8 +6,8 @@ from functools import cached_property
 
 import numpy as np
 
+from plumb.diagnosis.evidence import KNOWN_QUANTILE, Noise, explain_account
 from plumb.diagnosis.explanation import Board, Explanation, board_of, explain
-from plumb.diagnosis.noise import KNOWN_QUANTILE, Noise
 from plumb.diagnosis.outliers import (
     EXPLANATIONS,
     REPEATS,
@@ -21,11 +21,9 @@ from plumb.diagnosis.outliers import (
     without,
 )
 from plumb.diagnosis.posterior import Account, Posterior, posterior_of
-from plumb.diagnosis.refit import explain_account
 from plumb.fit.inputs import Inputs, Stated
 from plumb.fit.observations import model_and_observations
-from plumb.marks.plausible import far_reading
-from plumb.marks.read import Measurements
+from plumb.marks.read import Measurements, far_reading
 from plumb.model.plain import greatest
 
 DOUBTED = 1 / 3  # chance from which on a reading is read again: that costs a minute

@@ -17,8 +17,7 @@ from plumb.fit.observations import SHEET_ROTATION
 from plumb.job.home import TOUCH_SIGMA, HomeTouch, Point, believed_chains, turned_back
 from plumb.model.plain import ranked
 from plumb.model.predict import FOUND, NAMES, Array, places_with_slopes, values_of
-from plumb.settings.machine import MachineSettings
-from plumb.settings.toml import machine_in
+from plumb.settings.machine import MachineSettings, machine_in
 from plumb.text.answers import Internal, Moment, in_json, key, part
 from plumb.text.values import MM, Unit
 

@@ -7,9 +7,8 @@ those of plumb next.
 from collections.abc import Iterable, Mapping
 from dataclasses import replace
 
-from plumb.model.effect_words import RuleReading
-from plumb.model.lab_effects import LAB_EFFECTS
-from plumb.model.predict import library
+from plumb.model.catalogue import LAB_EFFECTS
+from plumb.model.predict import RuleReading, library
 from plumb.settings.machine import GRAVITY, MachineSettings
 from plumb.text.values import INCH, INCHES, Unit, length_in, number_in
 

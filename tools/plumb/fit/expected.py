@@ -13,8 +13,8 @@ from typing import Any
 import numpy as np
 
 from plumb.fit.compare import best_pose
+from plumb.fit.fit import PRIORS, Checked
 from plumb.fit.observations import SHEET_ROTATION, rms
-from plumb.fit.problem import PRIORS, Checked
 from plumb.model.catalogue import parameter_words
 from plumb.model.plain import plain_range
 from plumb.model.predict import (

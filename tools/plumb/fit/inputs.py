@@ -5,6 +5,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import KW_ONLY, dataclass, field, replace
 from os import PathLike
 
+from plumb.fit.fit import PRIORS, Checked
 from plumb.fit.observations import (
     POSE_AXES,
     SHEET_ROTATION,
@@ -12,12 +13,10 @@ from plumb.fit.observations import (
     Observations,
     model_and_observations,
 )
-from plumb.fit.problem import PRIORS, Checked
 from plumb.marks.read import Measurements, join_measurements, read_marks
 from plumb.model.predict import known_effects
 from plumb.settings.files import read_settings
-from plumb.settings.machine import MachineSettings
-from plumb.settings.toml import FitRecord
+from plumb.settings.machine import FitRecord, MachineSettings
 from plumb.text.errors import InputError, to_do
 from plumb.text.values import MM, Unit
 

@@ -10,8 +10,15 @@ import numpy as np
 
 from plumb import _core
 from plumb.marks.read import Measurements
-from plumb.model.catalogue import WEIGHT_POWERS, ZEROING_NAMES
-from plumb.model.lab_effects import EDGES, LAB_EFFECTS, SLED, LabEffect, Seen
+from plumb.model.catalogue import (
+    EDGES,
+    LAB_EFFECTS,
+    SLED,
+    WEIGHT_POWERS,
+    ZEROING_NAMES,
+    LabEffect,
+    Seen,
+)
 from plumb.model.predict import (
     NAMES,
     believed_lengths,

@@ -28,8 +28,7 @@ from plumb.guide.talk import (
 from plumb.line.memory import read_numbers
 from plumb.line.sender import RefusedError, Sender
 from plumb.model.reach import percent, survey_sheet
-from plumb.settings.machine import GRAVITY, MachineSettings, frame_of
-from plumb.settings.toml import machine_toml
+from plumb.settings.machine import GRAVITY, MachineSettings, frame_of, machine_toml
 from plumb.text.files import numbered, read_bytes, write_whole
 
 SETTINGS = "machine.toml"

@@ -10,16 +10,19 @@ from typing import Literal
 import numpy as np
 import scipy
 
-from plumb.diagnosis.explanation import measured_board
-from plumb.diagnosis.priors import largest_met
+from plumb.diagnosis.explanation import largest_met, measured_board
 from plumb.diagnosis.readings import clean_readings
+from plumb.fit.fit import Problem
 from plumb.fit.inputs import Inputs
-from plumb.fit.problem import Problem
-from plumb.job.bits import Tools
-from plumb.job.dry_run import STEP, Done, Moves, Rows, Run, Samples
-from plumb.job.findings import (
+from plumb.job.dry_run import (
+    STEP,
+    Done,
     Finding,
     Hanging,
+    Moves,
+    Rows,
+    Run,
+    Samples,
     Slower,
     Times,
     ends_too_high,
@@ -29,7 +32,7 @@ from plumb.job.findings import (
     slower_moves,
     times_of,
 )
-from plumb.job.wood import Piece, spoiled, take
+from plumb.job.wood import Piece, Tools, spoiled, take
 from plumb.model.predict import FOUND, NAMES, Array, lengths, places_with_slopes
 from plumb.settings.machine import MachineSettings
 from plumb.text.answers import Internal

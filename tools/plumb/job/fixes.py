@@ -13,11 +13,9 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from plumb.job.bits import INCH
-from plumb.job.dry_run import CLEAR, Moves, pieces
-from plumb.job.findings import GOUGES, HALTS, Finding, findings_of
+from plumb.job.dry_run import CLEAR, GOUGES, HALTS, Finding, Moves, findings_of, pieces
 from plumb.job.resume import JobMachine, Place
-from plumb.job.wood import FOREIGN
+from plumb.job.wood import FOREIGN, INCH
 from plumb.model.predict import Array
 from plumb.text.answers import Internal
 from plumb.text.errors import InputError

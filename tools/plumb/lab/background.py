@@ -11,8 +11,8 @@ from dataclasses import dataclass, field, replace
 from threading import Lock
 from typing import Generic, TypeVar, cast
 
+from plumb.cure.add import BoardView, LiveBoard
 from plumb.cure.decision import Decision, decide
-from plumb.cure.live_board import BoardView, LiveBoard
 from plumb.diagnosis import Diagnosis, diagnose
 from plumb.diagnosis.outliers import Doubts, Outlier, sure_readings
 from plumb.fit.compare import Comparison, compare

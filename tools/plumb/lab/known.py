@@ -8,10 +8,10 @@ from pydantic import ConfigDict
 from plumb.diagnosis import Checked
 from plumb.fit.by_hand import WEIGHED, WEIGHT, readings
 from plumb.fit.expected import WIDE, is_absurd, plausible_range, refuse_absurd
-from plumb.fit.problem import priors_with
+from plumb.fit.fit import priors_with
 from plumb.lab.project import Choices, Number
-from plumb.model.effect_words import RuleReading
-from plumb.plan.separation import FRAME_CHECKS, NumberCheck, effect_checks
+from plumb.model.predict import RuleReading
+from plumb.plan.proposal import FRAME_CHECKS, NumberCheck, effect_checks
 from plumb.settings.machine import GRAVITY, MachineSettings
 from plumb.text.errors import InputError
 from plumb.text.values import Unit

@@ -30,7 +30,7 @@ from plumb.line.sender import Sender, StoppedError
 from plumb.line.worker import LineState, LineWorker
 from plumb.settings.machine import MachineSettings
 from plumb.text.errors import InputError
-from plumb.vm.owner import PacedPort, VirtualOwner, set_up
+from plumb.vm.garage import PacedPort, VirtualOwner, set_up
 
 Result = TypeVar("Result")
 PATIENCE = 60.0  # [s] for an answer of the machine

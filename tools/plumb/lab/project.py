@@ -17,8 +17,7 @@ from typing import Annotated, Literal
 from pydantic import BaseModel, ConfigDict, Field
 
 from plumb.text.errors import InputError
-from plumb.text.files import Unlinked, numbered, opened, parsed, write_all
-from plumb.text.locks import alone
+from plumb.text.files import Unlinked, alone, numbered, opened, parsed, write_all
 from plumb.text.tables import read_table
 from plumb.text.values import Unit, unit_called
 

@@ -10,7 +10,7 @@ from pathlib import Path
 from pydantic_core import to_json
 
 from plumb.cure.decision import Decision
-from plumb.diagnosis.answer import Diagnosis
+from plumb.diagnosis.diagnosis import Diagnosis
 from plumb.diary.file import Diary
 from plumb.fit.compare import compare
 from plumb.fit.inputs import Inputs

@@ -6,7 +6,7 @@ from typing import Any, TypeVar
 
 from pydantic import BaseModel, ConfigDict
 
-from plumb.cure.live_board import BoardView
+from plumb.cure.add import BoardView
 from plumb.diagnosis.outliers import NOTHING_DOUBTED, Doubts
 from plumb.fit.compare import ComparedMark, Comparison
 from plumb.fit.fit import Fit

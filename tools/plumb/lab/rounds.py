@@ -10,8 +10,8 @@ from pathlib import PurePath
 from typing import Literal
 
 from plumb import api
+from plumb.fit.fit import PRIORS, Checked
 from plumb.fit.inputs import settings_in
-from plumb.fit.problem import PRIORS, Checked
 from plumb.grid import PRESETS, Grid, PlainMachine, marks_list, program, spans_of, touches_of
 from plumb.grid.pattern import Touch
 from plumb.lab.known import refuse_absurd_known, stated
@@ -21,8 +21,8 @@ from plumb.marks.read import Mark, read_marks
 from plumb.model.predict import known_effects
 from plumb.model.reach import plain_machine, refuse_way, with_soft_chains
 from plumb.plan import planned_visits
-from plumb.plan.options import MARK, READING, ROUND
-from plumb.settings.cut_with import cut_with_lines, digest_of, with_form
+from plumb.plan.proposal import MARK, READING, ROUND
+from plumb.settings.files import cut_with_lines, digest_of, with_form
 from plumb.settings.machine import MachineSettings
 from plumb.text.commands import quoted
 from plumb.text.errors import InputError, on_page

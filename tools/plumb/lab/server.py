@@ -23,7 +23,7 @@ from plumb.lab.app import lab_app
 from plumb.lab.guard import Address
 from plumb.lab.phones import Phones, Sharing
 from plumb.text.errors import InputError
-from plumb.text.locks import is_private
+from plumb.text.files import is_private
 
 HOST, NETWORK = "127.0.0.1", "0.0.0.0"  # the second takes what comes by the network too
 TOKEN_FILE = ".lab.token"  # keeps the token, so that an open page survives a restart

@@ -13,7 +13,7 @@ import serial
 from serial.tools import list_ports
 
 from plumb.text.errors import InputError, to_do
-from plumb.text.locks import NO_LINKS, close_to_others, hold
+from plumb.text.files import NO_LINKS, close_to_others, hold
 
 
 class LostError(InputError):

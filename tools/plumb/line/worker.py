@@ -16,8 +16,21 @@ from typing import Any, Literal, TypeVar
 
 from plumb.line.memory import firmware_of, read_numbers
 from plumb.line.port import LinePort, LostError
-from plumb.line.progress import SAID_PAUSED, Came, LineCourse, Progress, waits_in
-from plumb.line.sender import HALTED, REPORTS, STANDS, Sender, Status, StoppedError, Watch, cleaned
+from plumb.line.sender import (
+    HALTED,
+    REPORTS,
+    SAID_PAUSED,
+    STANDS,
+    Came,
+    LineCourse,
+    Progress,
+    Sender,
+    Status,
+    StoppedError,
+    Watch,
+    cleaned,
+    waits_in,
+)
 from plumb.text.answers import Internal, in_json
 from plumb.text.errors import InputError, on_page
 

@@ -12,9 +12,8 @@ import tomlkit
 
 from plumb.grid.pattern import spans_in
 from plumb.marks.model import Mark, Measurements, Point
-from plumb.marks.plausible import Sheet
-from plumb.marks.toml import read_marks_toml
-from plumb.settings.toml import Known
+from plumb.marks.read import Sheet, read_marks_toml
+from plumb.settings.machine import Known
 from plumb.text.errors import Source
 from plumb.text.files import read_text
 from plumb.text.values import UNITS, with_quoted_fractions

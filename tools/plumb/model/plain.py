@@ -18,7 +18,7 @@ from plumb.model.predict import frame_words
 from plumb.text.values import INCHES, Unit
 
 if TYPE_CHECKING:
-    from plumb.model.effect_words import PlainWords
+    from plumb.model.predict import PlainWords
 
 
 PER_METRE, PER_FOOT = "for each metre", "for each foot"

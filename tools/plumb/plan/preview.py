@@ -1,8 +1,5 @@
-"""Power of a plan before any hole is drilled: effect against effect, in sigmas.
-
-Each effect is there in its typical size. A cell is the length of what the row's effect draws and
-neither the refitted frame nor the column's effect can imitate, over the reading error. With several
-parameters it is the root of their squares, so no sign or mixture of them is preferred.
+"""What a plan of marks is good for before any hole is drilled: where it reaches, and which effects
+it tells apart.
 """
 
 import math
@@ -13,21 +10,99 @@ from typing import Annotated
 import numpy as np
 import scipy
 
-from plumb.diagnosis.answer import NOTHING
-from plumb.diagnosis.explanation import FEWEST_NUMBERS, Board, Explanation
-from plumb.diagnosis.priors import chance_of, largest_met
-from plumb.diagnosis.sizes import hidden_share
+from plumb.diagnosis.diagnosis import NOTHING, hidden_share
+from plumb.diagnosis.explanation import FEWEST_NUMBERS, Board, Explanation, chance_of, largest_met
+from plumb.fit.expected import Expected, expected_anywhere, expected_priors, expected_sentence
+from plumb.fit.fit import PRIORS
 from plumb.fit.observations import different_numbers, model_and_observations
-from plumb.fit.problem import PRIORS
 from plumb.grid.options import APPROACH
 from plumb.grid.pattern import Touch
 from plumb.marks.read import Distance, Mark, Measurements
 from plumb.model.catalogue import effect_names, parameter_words
 from plumb.model.plain import noun_of, ranked
-from plumb.plan.separation import apart
+from plumb.model.predict import REACH_WORDS
+from plumb.model.reach import Extreme, Survey, conclusion_of, percent, survey_sheet
+from plumb.plan.proposal import apart
 from plumb.settings.machine import MachineSettings
-from plumb.text.answers import Matrix, in_json, key
+from plumb.text.answers import Internal, Matrix, in_json, key, part
 from plumb.text.errors import InputError
+from plumb.text.values import MM, Unit
+
+# The part of a sheet that a machine can use, and how far off is normal there: one answer.
+
+
+SIGNS = ".TSV#"  # by verdict
+MEANING = (
+    "usable",
+    "too tight: a chain pulls more than its gearbox should",
+    "too slack: a chain pulls less than its gears need to lie on one side",
+    "too vertical: only a slack chain holds the sled, which gives sideways",
+    "no sled hangs there, or its ring touches a sprocket",
+)
+MAP_STEP = 4  # every fourth place of the survey
+
+
+@dataclass(frozen=True)
+class Share:
+    """A share of the sheet, and what is to be said of it."""
+
+    sign: str  # on the map
+    share: str
+    meaning: str
+
+
+@dataclass(frozen=True, kw_only=True)
+class SheetReach:
+    """The usable part of the sheet, and what limits the rest."""
+
+    survey: Internal[Survey]
+    expected: Expected | None  # None: no sled hangs on this sheet
+    unit: Internal[Unit] = MM  # of the lengths in what is said of it
+
+    extremes = part("survey.extremes", tuple[Extreme, ...])
+    assumed = part("survey.assumed", tuple[str, ...], "What the settings do not say.")
+
+    @in_json
+    def conclusion(self) -> str:
+        """The usable part in a sentence."""
+        return conclusion_of(self.survey)
+
+    @in_json
+    def normal(self) -> str:
+        """The expected error in sentences; empty if no mark can be made."""
+        return expected_sentence(self.expected, self.unit)
+
+    @in_json
+    def shares(self) -> dict[str, float]:
+        """The share of the sheet of each verdict."""
+        return {word.replace(" ", "_"): share for word, share in self.survey.shares.items()}
+
+    @in_json
+    def legend(self) -> list[Share]:
+        """The verdicts that the map has."""
+        each = zip(SIGNS, map(self.survey.shares.get, REACH_WORDS), MEANING, strict=True)
+        return [Share(sign, percent(share), meaning) for sign, share, meaning in each if share]
+
+    @in_json
+    def map(self) -> list[str]:
+        """The sheet in characters, from the top down; edges included."""
+        rows = self.survey.reached.verdict.reshape(len(self.survey.y), len(self.survey.x))
+        return ["".join(SIGNS[each] for each in row) for row in rows[::MAP_STEP, ::MAP_STEP]]
+
+
+def reach_of(
+    settings: MachineSettings, known: Mapping[str, float]
+) -> tuple[Survey, Expected | None]:
+    """Return what a SheetReach is made of; `known`: how far stated numbers may be off."""
+    return survey_sheet(settings), expected_anywhere(settings, expected_priors(known))
+
+
+# Power of a plan before any hole is drilled: effect against effect, in sigmas.
+#
+# Each effect is there in its typical size. A cell is the length of what the row's effect draws and
+# neither the refitted frame nor the column's effect can imitate, over the reading error. With
+# several parameters it is the root of their squares, so no sign or mixture of them is preferred.
+
 
 Array = np.ndarray
 POWER = 0.8  # chance with which the smallest size that counts as proved is proved

@@ -14,7 +14,7 @@ from pydantic_core import ErrorDetails
 from plumb.text.errors import InputError, Source
 from plumb.text.values import number, refuse_unknown, shortened
 
-Path = tuple[int | str, ...]  # of a value: the names of tables and keys, and numbers in lists
+KeyPath = tuple[int | str, ...]  # of a value: the names of tables and keys, and numbers in lists
 Number = Annotated[float, BeforeValidator(number)]
 
 
@@ -56,7 +56,7 @@ def read_table(
     said: Mapping[str, Any],
     source: Source,
     *,
-    place: Callable[[Path], str] | None = None,
+    place: Callable[[KeyPath], str] | None = None,
     context: object = None,
 ) -> Kind:
     """Return what a file says, or raise InputError; `place` names a value, if not as in TOML."""
@@ -68,7 +68,7 @@ def read_table(
         raise InputError(source, refusal(first), place=where) from None
 
 
-def place_in(said: Mapping[str, Any], path: Path) -> str:
+def place_in(said: Mapping[str, Any], path: KeyPath) -> str:
     """Return the table and the key of a value, as a TOML file names them."""
     value: Any = said
     for step in path:

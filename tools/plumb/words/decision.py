@@ -4,11 +4,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from plumb.cure.add import Addition, FitStep, Note
-from plumb.cure.decision import Decision
-from plumb.cure.machine_file import PATCH_WARNING, has_setting
-from plumb.diagnosis.noise import ORIGINS
-from plumb.fit.compare import Comparison
-from plumb.fit.covariates import PATCH
+from plumb.cure.decision import PATCH_WARNING, Decision, has_setting
+from plumb.diagnosis.evidence import ORIGINS
+from plumb.fit.compare import PATCH, Comparison
 from plumb.model.plain import noun_of, plain_before, plain_size, plainly
 from plumb.plan import Proposal
 from plumb.text.answers import in_json

@@ -3,12 +3,11 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from plumb.job.bits import INCH
 from plumb.job.check import CheckedJob, Error, Fitness, Part
-from plumb.job.findings import HALTS, IGNORED, SINKS, WAITS, Finding, Hanging, Slower
+from plumb.job.dry_run import HALTS, IGNORED, SINKS, WAITS, Finding, Hanging, Slower
 from plumb.job.fixes import FixedLine
 from plumb.job.resume import Resumed
-from plumb.job.wood import Piece
+from plumb.job.wood import INCH, Piece
 from plumb.model.predict import CANNOT_HANG, REACH_WORDS
 from plumb.settings.machine import GRAVITY
 from plumb.text.answers import Internal, in_json, part

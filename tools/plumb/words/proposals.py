@@ -6,12 +6,12 @@ from typing import Annotated
 
 from plumb.fit.by_hand import what_to_type
 from plumb.model.plain import noun_of, plain_before, plainly
-from plumb.plan.options import READ_ONLY
 from plumb.plan.preview import POWER, Outline, Preview
 from plumb.plan.proposal import (
     CONFIRM,
     EXPLORE,
     FIND,
+    READ_ONLY,
     REREAD,
     SETTLE,
     Next,

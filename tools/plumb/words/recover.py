@@ -5,16 +5,21 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from plumb.job.home import HomeFit, HomeMark, HomeTouch, Point, lost_sign, place_of
-from plumb.job.slip import (
+from plumb.job.home import (
     CANNOT_TELL,
     LINK,
     NOTHING,
     OTHER,
     SHEET,
     SLIP,
+    HomeFit,
+    HomeMark,
+    HomeTouch,
+    Point,
     SlipAccount,
     SlipFinding,
+    lost_sign,
+    place_of,
     repair_program,
 )
 from plumb.settings.machine import MachineSettings

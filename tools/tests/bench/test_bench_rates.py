@@ -4,13 +4,9 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from plumb.bench.boards import cut, plan
-from plumb.bench.causes import CAUSES, MAKER, OUTSIDE, Hidden
-from plumb.bench.hiding import PenSlip, slip
-from plumb.bench.judged_board import judge_board
-from plumb.bench.kinds import KINDS, board_of
-from plumb.bench.report import WantedBoards, play, row_of
-from plumb.bench.shown import Truth
+from plumb.bench.boards import CAUSES, MAKER, OUTSIDE, Hidden, cut, plan
+from plumb.bench.kinds import KINDS, PenSlip, board_of, slip
+from plumb.bench.report import Truth, WantedBoards, judge_board, play, row_of
 from plumb.diagnosis import diagnose
 from plumb.fit.inputs import Inputs
 from plumb.model.catalogue import effect_names

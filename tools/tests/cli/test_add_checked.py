@@ -11,7 +11,7 @@ from example_machine import EXAMPLE, checked
 from plumb import api
 from plumb.cli.main import main
 from plumb.settings.files import read_settings
-from plumb.settings.toml import write_machine_toml
+from plumb.settings.machine import write_machine_toml
 from synthetic import BELIEVED, csv_of, grid, marks_on
 from systems import words_of
 

@@ -8,12 +8,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from plumb.bench.boards import cut, plan
-from plumb.bench.causes import MAKER, PUBLISHED
-from plumb.bench.hiding import slip
-from plumb.bench.kinds import KINDS
+from plumb.bench.boards import MAKER, PUBLISHED, cut, plan
+from plumb.bench.kinds import KINDS, slip
 from plumb.marks.form import marks_toml
-from plumb.settings.toml import write_machine_toml
+from plumb.settings.machine import write_machine_toml
 
 DATA = Path(__file__).resolve().parents[1] / "data"
 QUICK = {"compare": (), "diagnose": (), "add": ("--effect", "auto")}

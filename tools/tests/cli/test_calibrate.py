@@ -14,7 +14,7 @@ import pytest
 from example_machine import EXAMPLE, TRUE_NUMBERS, checked
 from plumb.cli.main import build_parser
 from plumb.settings.files import read_settings
-from plumb.settings.toml import write_machine_toml
+from plumb.settings.machine import write_machine_toml
 from synthetic import BELIEVED, EFFECTS, TRUE, csv_of, grid, marks_on
 from systems import widest, words_of
 
@@ -216,7 +216,7 @@ def test_marks_in_a_row_are_too_few_and_more_are_asked_for(run, file):
 
 
 def test_too_few_marks_for_an_effect_are_no_refusal_where_nobody_named_it(run, monkeypatch):
-    monkeypatch.setattr("plumb.cure.live_board.different_numbers", lambda *_: 5)
+    monkeypatch.setattr("plumb.cure.add.different_numbers", lambda *_: 5)
     code, said, complaint = run("calibrate", INI, "marks.toml")
     assert (code, complaint) == (1, "") and "5 measured numbers cannot settle" in said
     assert "Not yet: first measure " in said and not Path("machine.toml").exists()

@@ -8,8 +8,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 from plumb.model.catalogue import effect_names
-from plumb.settings.cut_with import digest_of
-from plumb.settings.toml import write_machine_toml
+from plumb.settings.files import digest_of
+from plumb.settings.machine import write_machine_toml
 from published_marks import MARKS, SETTINGS
 from synthetic import BELIEVED, TRUE, csv_of, grid, marks_on
 from systems import widest

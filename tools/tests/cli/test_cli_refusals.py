@@ -2,7 +2,7 @@
 
 import pytest
 from example_machine import POCKET as JOB
-from plumb.settings.toml import write_machine_toml
+from plumb.settings.machine import write_machine_toml
 from published_marks import MARKS, SETTINGS
 from synthetic import BELIEVED
 

@@ -10,11 +10,10 @@ import pytest
 from example_machine import EXAMPLE
 from numbers_machine import NumbersMachine
 from plumb import api
-from plumb.cure.machine_file import record_of, toml_of
+from plumb.cure.decision import record_of, toml_of
 from plumb.firmware.settings import numbers_in_force
-from plumb.settings.cut_with import form_of, with_form
-from plumb.settings.files import read_settings
-from plumb.settings.toml import write_machine_toml
+from plumb.settings.files import form_of, read_settings, with_form
+from plumb.settings.machine import write_machine_toml
 from synthetic import BELIEVED, TRUE, csv_of, grid, marks_on
 
 OTHER = replace(BELIEVED, motor_gap=BELIEVED.motor_gap + 30)

@@ -7,7 +7,7 @@ import pytest
 from example_machine import EXAMPLE, INI, MARKS
 from plumb.cli import followed, screen
 from plumb.cli.screen import Bar, table
-from plumb.job.time_left import TimeLeft, Timetable
+from plumb.job.dry_run import TimeLeft, Timetable
 from systems import widest
 
 COLOUR = re.compile(r"\x1b\[[0-9;]*3[0-9]")

@@ -8,7 +8,7 @@ import pytest
 from example_machine import EXAMPLE, INI
 from plumb.cli.main import COMMANDS, GONE
 from plumb.settings.files import read_settings
-from plumb.settings.toml import write_machine_toml
+from plumb.settings.machine import write_machine_toml
 from plumb.text.files import read_text
 from synthetic import TRUE
 

@@ -4,11 +4,11 @@ from dataclasses import replace
 
 import pytest
 from plumb.cure.add import add
+from plumb.diagnosis.diagnosis import sizes_of
+from plumb.diagnosis.evidence import KNOWN, Noise
 from plumb.diagnosis.explanation import explain, measured_board
-from plumb.diagnosis.noise import KNOWN, Noise
-from plumb.diagnosis.sizes import sizes_of
+from plumb.fit.fit import PRIORS, priors_with
 from plumb.fit.inputs import Inputs
-from plumb.fit.problem import PRIORS, priors_with
 from plumb.marks.read import Measurements
 from plumb.model.catalogue import effect_names, parameter_words
 from published_marks import SETTINGS

@@ -8,11 +8,9 @@ import pytest
 from example_machine import EXAMPLE
 from hidden_boards import HIDDEN, board, size_for
 from plumb import api
-from plumb.bench.boards import plan
-from plumb.bench.causes import BARE, MAKER, PUBLISHED
-from plumb.cure.add import add
+from plumb.bench.boards import BARE, MAKER, PUBLISHED, plan
+from plumb.cure.add import Chosen, LiveBoard, add
 from plumb.cure.decision import decide
-from plumb.cure.live_board import Chosen, LiveBoard
 from plumb.diagnosis import diagnose
 from plumb.fit.inputs import Inputs
 from plumb.marks.read import read_marks, without_marks

@@ -4,14 +4,13 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from plumb.bench.boards import TrueMachine, chains_for, cut, plan
-from plumb.bench.causes import MAKER, Hidden, causes_of
-from plumb.bench.judged_board import shape_error
+from plumb.bench.boards import MAKER, Hidden, TrueMachine, causes_of, chains_for, cut, plan
+from plumb.bench.report import shape_error
 from plumb.cli.main import main
 from plumb.cure.decision import decide
 from plumb.fit.inputs import Inputs, read_inputs
 from plumb.marks.read import Mark, Measurements
-from plumb.settings.toml import write_machine_toml
+from plumb.settings.machine import write_machine_toml
 from plumb.words.verdict import sentence
 from synthetic import csv_of
 

@@ -1,8 +1,7 @@
 """Linear boards that no machine made, small enough for the covariance of all readings."""
 
 import numpy as np
-from plumb.diagnosis.linear import LinearBoard
-from plumb.diagnosis.priors import SizePriors
+from plumb.diagnosis.explanation import LinearBoard, SizePriors
 from scipy import stats
 
 NAMES = ("chain_stretch", "chain_plane", "sheet_skew", "frame_flex")

@@ -6,8 +6,7 @@ Each kind of verdict on a few seeded boards; test_bench_rates.py counts how ofte
 import numpy as np
 import pytest
 from hidden_boards import HIDDEN, board, size_for
-from plumb.bench.boards import plan
-from plumb.bench.causes import MAKER
+from plumb.bench.boards import MAKER, plan
 from plumb.diagnosis import diagnose
 from plumb.fit.inputs import Inputs
 

@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 from chain_views import chain_view
+from plumb.diagnosis.diagnosis import hidden_share, sizes_of
+from plumb.diagnosis.evidence import KNOWN, Noise
 from plumb.diagnosis.expected_error import drawn_by
 from plumb.diagnosis.explanation import Board, explain
-from plumb.diagnosis.noise import KNOWN, Noise
-from plumb.diagnosis.sizes import hidden_share, sizes_of
 from plumb.fit.expected import plausible_range
 from plumb.fit.fit import fit
 from plumb.fit.observations import observe

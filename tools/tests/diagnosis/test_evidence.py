@@ -5,10 +5,17 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from linear_boards import NAMES, covariance_of, in_full, log_density, made_up
-from plumb.diagnosis.every_machine import ONE_IN, Clean, asked_for, clean_of
-from plumb.diagnosis.evidence import Noises, accounts_of, fitted, noises_of
-from plumb.diagnosis.linear import Metric
-from plumb.diagnosis.priors import ACTS, ALL, PITCH, PITCH_CHANCE, UNUSUAL
+from plumb.diagnosis.evidence import (
+    ONE_IN,
+    Clean,
+    Noises,
+    accounts_of,
+    asked_for,
+    clean_of,
+    fitted,
+    noises_of,
+)
+from plumb.diagnosis.explanation import ACTS, ALL, PITCH, PITCH_CHANCE, UNUSUAL, Metric
 from plumb.fit.inputs import Stated
 from scipy import integrate, special, stats
 

@@ -4,17 +4,16 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from plumb.bench.boards import cut, plan
-from plumb.bench.causes import MAKER, Hidden
+from plumb.bench.boards import MAKER, Hidden, cut, plan
 from plumb.cure.decision import decide
 from plumb.diagnosis import diagnose
+from plumb.diagnosis.diagnosis import room_for
+from plumb.diagnosis.evidence import KNOWN, Noise
 from plumb.diagnosis.explanation import Board, explain
-from plumb.diagnosis.noise import KNOWN, Noise
-from plumb.diagnosis.sizes import room_for
 from plumb.fit.expected import expected_error
+from plumb.fit.fit import PRIORS, Checked
 from plumb.fit.inputs import Inputs
 from plumb.fit.observations import observe
-from plumb.fit.problem import PRIORS, Checked
 from plumb.marks.read import Distance, Measurements
 from plumb.text.errors import InputError
 from plumb.words.decision import reason

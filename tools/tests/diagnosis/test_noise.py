@@ -5,13 +5,18 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from hidden_boards import board, board_cut, size_for
-from plumb.bench.boards import cut, plan
-from plumb.bench.causes import BARE, MAKER, Hidden
+from plumb.bench.boards import BARE, MAKER, Hidden, cut, plan
 from plumb.diagnosis import diagnose
-from plumb.diagnosis.explanation import Board, explain, measured_board
-from plumb.diagnosis.noise import KNOWN, SURPRISING, Noise, left_by_noise, misfit_chance, noise_by
+from plumb.diagnosis.evidence import (
+    KNOWN,
+    SURPRISING,
+    Noise,
+    left_by_noise,
+    misfit_chance,
+    noise_by,
+)
+from plumb.diagnosis.explanation import STATED_SPREAD, Board, explain, measured_board
 from plumb.diagnosis.posterior import LISTED, MOST_LISTED, listing, posterior_of
-from plumb.diagnosis.priors import STATED_SPREAD
 from plumb.fit.inputs import Inputs, Stated
 from plumb.fit.observations import observe
 from plumb.marks.read import Measurements

@@ -5,14 +5,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from plumb.diagnosis import diagnose
-from plumb.diagnosis.explanation import Board, explain
-from plumb.diagnosis.linear import moved_rounds
+from plumb.diagnosis.explanation import Board, explain, moved_rounds
 from plumb.diagnosis.outliers import MixedPair, find_mixed_up
 from plumb.fit.inputs import Inputs
 from plumb.fit.observations import model_and_observations
 from plumb.marks.form import marks_toml
 from plumb.marks.read import Measurements, Round, join_measurements
-from plumb.settings.toml import machine_toml
+from plumb.settings.machine import machine_toml
 from synthetic import BELIEVED, distances_between, grid, marks_on
 
 PITCH = replace(BELIEVED, effects={"chain_pitch": {"left": 0.002, "right": 0.0005}})

@@ -5,8 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from plumb.bench.boards import cut, plan
-from plumb.bench.causes import MAKER, Hidden, causes_of
+from plumb.bench.boards import MAKER, Hidden, causes_of, cut, plan
 from plumb.cure.add import add
 from plumb.cure.decision import decide
 from plumb.diagnosis import diagnose

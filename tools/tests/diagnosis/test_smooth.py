@@ -2,8 +2,7 @@
 
 import numpy as np
 import pytest
-from plumb.bench.boards import cut, plan
-from plumb.bench.causes import MAKER, Hidden
+from plumb.bench.boards import MAKER, Hidden, cut, plan
 from plumb.diagnosis.explanation import Board, explain, gaussian_process_columns
 from plumb.fit.observations import observe
 

@@ -4,10 +4,9 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from plumb.diagnosis.answer import MISFIT, NOTHING, UNKNOWN, is_silent, judge
-from plumb.diagnosis.linear import MovedRound
+from plumb.diagnosis.diagnosis import MISFIT, NOTHING, UNKNOWN, is_silent, judge
+from plumb.diagnosis.explanation import LIKELIER, MovedRound
 from plumb.diagnosis.posterior import LISTED, Account, Posterior
-from plumb.diagnosis.priors import LIKELIER
 
 TINY = 1e-12
 
@@ -30,8 +29,8 @@ def judged(shares, monkeypatch, *, field=TINY, moved=TINY, misfit=0.5, outliers=
         noises=None,
         with_fields=SimpleNamespace(spot=None),
     )
-    monkeypatch.setattr("plumb.diagnosis.answer.misfit_chance", lambda fitted, stated: misfit)
-    monkeypatch.setattr("plumb.diagnosis.answer.nearest", lambda frame, posterior: ("a",))
+    monkeypatch.setattr("plumb.diagnosis.diagnosis.misfit_chance", lambda fitted, stated: misfit)
+    monkeypatch.setattr("plumb.diagnosis.diagnosis.nearest", lambda frame, posterior: ("a",))
     fit = SimpleNamespace(rms=1.0)  # takes nothing of the error
     readings = SimpleNamespace(
         posterior=posterior, frame=fit, outliers=outliers, explained=lambda account: fit

@@ -12,15 +12,15 @@ from plumb.diary.file import (
     Entry,
     append,
     fit_entry,
+    history_of,
     keep,
     noted,
     program_entry,
     read_diary,
 )
-from plumb.diary.history import history_of
 from plumb.fit.inputs import Inputs
 from plumb.marks.read import Measurements
-from plumb.settings.toml import machine_toml, read_machine_toml
+from plumb.settings.machine import machine_toml, read_machine_toml
 from plumb.text.values import MM
 from synthetic import BELIEVED, TRUE, grid, marks_on
 

@@ -5,16 +5,16 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from plumb.bench.causes import MAKER
+from plumb.bench.boards import MAKER
 from plumb.cure.add import add
-from plumb.cure.machine_file import record_of
+from plumb.cure.decision import record_of
 from plumb.diary.file import FIT, append, fit_entry, read_diary
 from plumb.diary.recheck import LEFT, RIGHT, SHEET_Y, fit_of, recheck
 from plumb.fit.inputs import Inputs
 from plumb.job.home import HomeTouch
 from plumb.marks.read import Measurements
 from plumb.model.predict import lengths, places
-from plumb.settings.toml import machine_toml
+from plumb.settings.machine import machine_toml
 from synthetic import BELIEVED, TRUE, grid, marks_on
 
 AT = np.array([(-900.0, 250.0), (900.0, -250.0)])

@@ -3,11 +3,10 @@
 from dataclasses import replace
 
 import pytest
-from plumb.bench.causes import MAKER
+from plumb.bench.boards import MAKER
 from plumb.fit.expected import refuse_absurd
-from plumb.fit.fit import fit
+from plumb.fit.fit import PRIORS, Checked, fit
 from plumb.fit.observations import observe
-from plumb.fit.problem import PRIORS, Checked
 from plumb.marks.read import Measurements
 from plumb.text.errors import InputError
 from synthetic import BELIEVED, TRUE, grid, marks_on

@@ -14,8 +14,8 @@ from plumb.fit.expected import (
     expected_priors,
     places_over,
 )
+from plumb.fit.fit import PRIORS
 from plumb.fit.observations import rms
-from plumb.fit.problem import PRIORS
 from plumb.model.catalogue import parameter_words
 from plumb.model.predict import FOUND, NAMES, lengths, places
 from synthetic import BELIEVED, grid

@@ -4,9 +4,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from plumb.fit.fit import fit
+from plumb.fit.fit import PRIORS, Problem, fit
 from plumb.fit.observations import SHEET_ROTATION, model_and_observations, observe
-from plumb.fit.problem import PRIORS, Problem
 from plumb.marks.read import Measurements, Round, join_measurements
 from synthetic import BELIEVED, EFFECTS, TRUE, distances_between, grid, marks_on
 

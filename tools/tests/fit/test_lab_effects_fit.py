@@ -7,15 +7,15 @@ import numpy as np
 import pytest
 from plumb.cli.screen import in_text
 from plumb.cure.add import add
-from plumb.cure.machine_file import toml_of
+from plumb.cure.decision import toml_of
 from plumb.fit.fit import fit
 from plumb.fit.inputs import Inputs
 from plumb.fit.observations import observe, sighted
 from plumb.marks.read import Measurements
-from plumb.model.lab_effects import LAB_EFFECTS
+from plumb.model.catalogue import LAB_EFFECTS
 from plumb.model.predict import FOUND, known_effects, values_of
 from plumb.settings.files import read_settings
-from plumb.settings.toml import write_machine_toml
+from plumb.settings.machine import write_machine_toml
 from plumb.text.answers import json_of
 from plumb.text.errors import InputError
 from plumb.words.decision import everything

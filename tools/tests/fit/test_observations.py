@@ -5,8 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from chain_views import chain_view
-from plumb.fit.compare import compare
-from plumb.fit.covariates import covariates
+from plumb.fit.compare import compare, covariates
 from plumb.fit.inputs import Inputs
 from plumb.fit.observations import model_and_observations, observe
 from plumb.marks.read import Distance, Mark, Measurements

@@ -5,12 +5,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from hidden_boards import board
-from plumb.bench.boards import plan
-from plumb.bench.causes import MAKER
+from plumb.bench.boards import MAKER, plan
 from plumb.cure.add import add
 from plumb.cure.decision import decide
-from plumb.fit.compare import compare
-from plumb.fit.covariates import PATCH
+from plumb.fit.compare import PATCH, compare
 from plumb.fit.inputs import Inputs
 from plumb.model.catalogue import effect_names, parameter_names
 from plumb.text.errors import InputError

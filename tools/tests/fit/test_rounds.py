@@ -11,7 +11,7 @@ from plumb.fit.observations import model_and_observations, observe, round_priors
 from plumb.marks.form import marks_toml
 from plumb.marks.read import Mark, Measurements, Round, join_measurements, read_marks
 from plumb.model.predict import lengths
-from plumb.settings.toml import machine_toml
+from plumb.settings.machine import machine_toml
 from plumb.text.errors import InputError
 from synthetic import BELIEVED, SHEET, TRUE, distances_between, grid, marks_on
 

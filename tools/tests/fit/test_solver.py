@@ -5,8 +5,8 @@ from dataclasses import dataclass
 
 import numpy as np
 import pytest
+from plumb.fit.fit import PRIORS, Checked, Linearized, Problem, solve
 from plumb.fit.observations import observe
-from plumb.fit.problem import PRIORS, Checked, Linearized, Problem, solve
 from plumb.marks.read import Measurements
 from plumb.text.errors import InputError
 from scipy.optimize import least_squares

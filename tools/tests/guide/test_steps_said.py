@@ -16,7 +16,7 @@ from plumb.guide.steps import (
     tell_numbers,
 )
 from plumb.guide.talk import GuideProgress, progress_in
-from plumb.settings.toml import machine_toml
+from plumb.settings.machine import machine_toml
 from plumb.text.errors import InputError
 from plumb.text.values import MM
 from prepared_owner import PreparedOwner

@@ -1,14 +1,13 @@
 """The guide's words after a jog of a virtual machine with a fault in its wires."""
 
 import pytest
-from plumb.bench.causes import Hidden
+from plumb.bench.boards import Hidden
 from plumb.guide.steps import GuideVisit, check_wires
 from plumb.guide.talk import GuideProgress, chain_jog, ran_away, remedy
 from plumb.line.memory import read_numbers
 from plumb.line.sender import Sender
 from plumb.text.values import MM
-from plumb.vm.garage import Garage
-from plumb.vm.owner import InProcessPort
+from plumb.vm.garage import Garage, InProcessPort
 from prepared_owner import PreparedOwner
 from usual_machine import switched_on
 

@@ -4,15 +4,13 @@ from dataclasses import replace
 from functools import cache
 
 import numpy as np
-from plumb.bench.boards import cut, plan
-from plumb.bench.causes import MAKER
-from plumb.bench.hiding import as_bought, usual_machine
+from plumb.bench.boards import MAKER, cut, plan
+from plumb.bench.kinds import as_bought, usual_machine
 from plumb.fit.fit import fit
 from plumb.fit.inputs import Inputs
-from plumb.job.home import HomeTouch
-from plumb.job.slip import LINK, NO_LINKS
+from plumb.job.home import LINK, NO_LINKS, HomeTouch
 from plumb.model.predict import lengths, places
-from plumb.settings.toml import FitRecord
+from plumb.settings.machine import FitRecord
 
 HOLES = np.array([(-900.0, 250.0), (900.0, -250.0)])  # [mm] that the machine made
 HAND = 0.3  # [mm] of a coordinate: how well a bit sits in its hole

@@ -7,12 +7,22 @@ import numpy as np
 import pytest
 from example_machine import EXAMPLE
 from plumb import _judge
-from plumb.bench.causes import MAKER
+from plumb.bench.boards import MAKER
 from plumb.cli.check import WRONG, _picture, near_view, sheet_of
 from plumb.fit.inputs import Inputs
 from plumb.job.check import Believed, Part, check_job, with_errors
-from plumb.job.dry_run import hull_of, outline_of
-from plumb.job.findings import ARC, CHAINS, GREATEST, HALTS, IGNORED, LEAVES, WAITS, Z
+from plumb.job.dry_run import (
+    ARC,
+    CHAINS,
+    GREATEST,
+    HALTS,
+    IGNORED,
+    LEAVES,
+    WAITS,
+    Z,
+    hull_of,
+    outline_of,
+)
 from plumb.marks.read import read_marks
 from plumb.model.predict import judged, lengths
 from plumb.settings.files import read_settings

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from plumb.bench.causes import MAKER
+from plumb.bench.boards import MAKER
 from plumb.firmware.telemetry import telemetry_in
 from plumb.job.dry_run import Run, pieces
 from scipy.spatial import cKDTree

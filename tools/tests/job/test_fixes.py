@@ -4,13 +4,13 @@ import re
 
 import numpy as np
 import pytest
-from plumb.bench.causes import MAKER
+from plumb.bench.boards import MAKER
 from plumb.cli.main import main
-from plumb.job.bits import Tools
 from plumb.job.check import check_job
 from plumb.job.fixes import fixed
 from plumb.job.resume import JobMachine
-from plumb.settings.toml import write_machine_toml
+from plumb.job.wood import Tools
+from plumb.settings.machine import write_machine_toml
 from plumb.text.errors import InputError
 from workshop import NAMES, lines_of, run_dry
 

@@ -2,13 +2,11 @@
 
 import numpy as np
 import pytest
-from plumb.bench.causes import MAKER, Hidden, causes_of
-from plumb.job.home import hole_program, home_fit, new_home_mark, read_home_marks
-from plumb.job.slip import repair_program
+from plumb.bench.boards import MAKER, Hidden, causes_of
+from plumb.job.home import hole_program, home_fit, new_home_mark, read_home_marks, repair_program
 from plumb.model.predict import lengths
 from plumb.text.errors import InputError
-from plumb.vm.garage import random_garage
-from plumb.vm.tape import marks_on
+from plumb.vm.garage import marks_on, random_garage
 from usual_machine import switched_on
 
 LEFT, RIGHT = (-900.0, 250.0), (900.0, -250.0)

@@ -2,13 +2,12 @@
 
 import numpy as np
 import pytest
-from plumb.bench.causes import MAKER
+from plumb.bench.boards import MAKER
 from plumb.cli.main import main
 from plumb.firmware.settings import values_of
 from plumb.job.check import check_job
-from plumb.job.findings import SINKS
-from plumb.job.time_left import TimeLeft, Timetable, timetable
-from plumb.settings.toml import machine_toml
+from plumb.job.dry_run import SINKS, TimeLeft, Timetable, timetable
+from plumb.settings.machine import machine_toml
 from plumb.vm.garage import hide, random_garage
 from usual_machine import switched_on
 from workshop import lines_of, run_dry

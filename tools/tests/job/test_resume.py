@@ -5,10 +5,9 @@ import re
 import numpy as np
 import pytest
 from example_machine import INI
-from plumb.bench.causes import MAKER
+from plumb.bench.boards import MAKER
 from plumb.job.check import check_job
-from plumb.job.dry_run import IN_WOOD
-from plumb.job.findings import GOUGES, HALTS
+from plumb.job.dry_run import GOUGES, HALTS, IN_WOOD
 from plumb.job.resume import JobMachine, cycles_after, resume_at_line, resume_at_place, tools_after
 from plumb.text.errors import InputError
 from scipy.spatial import cKDTree

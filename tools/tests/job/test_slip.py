@@ -5,9 +5,8 @@ from itertools import product
 
 import numpy as np
 import pytest
-from plumb.bench.causes import MAKER
-from plumb.job.home import HomeTouch, sigma_of
-from plumb.job.slip import (
+from plumb.bench.boards import MAKER
+from plumb.job.home import (
     CANNOT_TELL,
     COUNTS,
     GATE,
@@ -17,8 +16,10 @@ from plumb.job.slip import (
     OTHER,
     SHEET,
     SLIP,
+    HomeTouch,
     find_slip,
     next_hole,
+    sigma_of,
 )
 from plumb.model.predict import lengths, places
 from slipped_machine import fitted_machine, record_of, touched

@@ -2,10 +2,10 @@
 
 import numpy as np
 import pytest
-from plumb.bench.causes import MAKER
-from plumb.job.bits import Tools
+from plumb.bench.boards import MAKER
 from plumb.job.check import check_job
-from plumb.job.findings import DEEP, GOUGES, STILL
+from plumb.job.dry_run import DEEP, GOUGES, STILL
+from plumb.job.wood import Tools
 
 R = 6.35 / 2  # [mm] of the usual bit
 PLUNGE = "a rapid move drives the bit {} mm down into wood that nothing has cut"

@@ -2,11 +2,9 @@
 
 import threading
 
-from plumb.vm.garage import hide, random_garage
-from plumb.vm.owner import InProcessPort, VirtualOwner, set_up
+from plumb.vm.garage import InProcessPort, VirtualOwner, hide, marks_on, random_garage, set_up
 from plumb.vm.pseudo_terminal import PseudoTerminal
 from plumb.vm.served_port import Pace
-from plumb.vm.tape import marks_on
 
 SPEED = 200  # times as fast as a real machine
 RESTS_MS = 30_000  # in which a machine goes on, if it has its lines

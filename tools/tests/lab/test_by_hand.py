@@ -4,11 +4,11 @@ import math
 
 import pytest
 from folder import choose, got, with_marks
-from plumb.bench.causes import MAKER
+from plumb.bench.boards import MAKER
 from plumb.fit.by_hand import readings
-from plumb.plan.separation import FRAME_CHECKS, effect_checks
+from plumb.plan.proposal import FRAME_CHECKS, effect_checks
 from plumb.settings.machine import GRAVITY
-from plumb.vm.owner import true_value
+from plumb.vm.garage import true_value
 
 WEIGHT = 98.1  # [N]
 EACH = readings(MAKER, WEIGHT)

@@ -2,8 +2,7 @@
 
 import pytest
 from line_board import SlowBoard, until
-from plumb.line.progress import LATE, Progress, SureLines, Wait, waits_in
-from plumb.line.sender import PAUSED, PER_SECOND, Sender
+from plumb.line.sender import LATE, PAUSED, PER_SECOND, Progress, Sender, SureLines, Wait, waits_in
 from plumb.line.worker import LineState, LineWorker
 
 

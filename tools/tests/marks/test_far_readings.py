@@ -6,8 +6,7 @@ import re
 import pytest
 from example_machine import ROOT
 from plumb.marks.model import Mark, Measurements
-from plumb.marks.plausible import far_reading
-from plumb.marks.read import read_marks
+from plumb.marks.read import far_reading, read_marks
 from plumb.text.errors import InputError
 
 SHEET = (2440.0, 1220.0)

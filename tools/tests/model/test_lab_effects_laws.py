@@ -7,8 +7,7 @@ import numpy as np
 import pytest
 from plumb.fit.observations import LAB_NAMES, SHEET_ROTATION, observe, sighted
 from plumb.marks.read import Distance, Mark, Measurements
-from plumb.model.catalogue import parameter_names, parameter_words
-from plumb.model.lab_effects import EDGES, LAB_EFFECTS, SLED, TAPE
+from plumb.model.catalogue import EDGES, LAB_EFFECTS, SLED, TAPE, parameter_names, parameter_words
 from plumb.model.predict import NAMES, frame_words, known_effects, library, values_of
 from synthetic import BELIEVED, TRUE, grid, marks_on
 

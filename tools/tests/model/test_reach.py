@@ -18,8 +18,8 @@ from plumb.model.predict import (
     reach,
 )
 from plumb.model.reach import survey_sheet, with_soft_chains
-from plumb.plan.sheet_reach import SIGNS, SheetReach
-from plumb.settings.toml import write_machine_toml
+from plumb.plan.preview import SIGNS, SheetReach
+from plumb.settings.machine import write_machine_toml
 from published_marks import SETTINGS
 from synthetic import BELIEVED, SHEET, TRUE
 

@@ -3,7 +3,7 @@
 import numpy as np
 import other_calibrations as others
 import pytest
-from plumb.bench.judged_board import shape_of, sheet
+from plumb.bench.report import shape_of, sheet
 from real_data_page import HOLES, real_set
 
 FRAME_OFF = {"motor_gap": 2982.0, "motor_height": 1069.0}

@@ -5,21 +5,17 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from plan_cases import MACHINE, SIGMA, case_on, nine
-from plumb.diagnosis.answer import NOTHING
-from plumb.diagnosis.every_machine import asked_for, clean_of
-from plumb.diagnosis.evidence import Noises, accounts_of, fitted
-from plumb.diagnosis.explanation import Board, explain
-from plumb.diagnosis.linear import LinearBoard, Metric
+from plumb.diagnosis.diagnosis import NOTHING
+from plumb.diagnosis.evidence import Noises, accounts_of, asked_for, clean_of, fitted
+from plumb.diagnosis.explanation import Board, LinearBoard, Metric, explain, turned
 from plumb.diagnosis.posterior import listing
-from plumb.diagnosis.priors import turned
 from plumb.fit.observations import model_and_observations
 from plumb.marks.read import Mark, Measurements
 from plumb.model.catalogue import EVERY_MACHINE
-from plumb.plan.case import PlannedCheck, PlannedMeasurement
-from plumb.plan.options import many_marks
-from plumb.plan.outlook import Outlooks, _is_right, _shown
+from plumb.plan.case import Outlooks, PlannedCheck, PlannedMeasurement, _is_right, _shown
 from plumb.plan.planned_visits import nowhere
 from plumb.plan.preview import POWER, preview
+from plumb.plan.proposal import many_marks
 from synthetic import BELIEVED, grid, marks_on
 
 NOISES = Noises(np.array([SIGMA]), np.zeros(1))

@@ -5,8 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from hidden_boards import board, board_cut, size_for
-from plumb.bench.boards import plan
-from plumb.bench.causes import MAKER
+from plumb.bench.boards import MAKER, plan
 from plumb.diagnosis import Checked, diagnose
 from plumb.fit.compare import compare
 from plumb.fit.inputs import Inputs
@@ -15,9 +14,8 @@ from plumb.model.catalogue import effect_names
 from plumb.model.predict import FOUND, lengths
 from plumb.plan import propose
 from plumb.plan.case import case_of
-from plumb.plan.options import ROOM_FOR_A_SECOND, many_marks, options
 from plumb.plan.planned_visits import usable
-from plumb.plan.separation import ENOUGH, Chooser
+from plumb.plan.proposal import ENOUGH, ROOM_FOR_A_SECOND, Chooser, many_marks, options
 from plumb.text.values import MM
 from plumb.words.comparison import conclusion
 from synthetic import BELIEVED, grid

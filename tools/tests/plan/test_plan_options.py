@@ -5,25 +5,32 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 from plan_cases import MACHINE, case_on, nine
-from plumb.fit.problem import Checked
+from plumb.fit.fit import Checked
 from plumb.model.plain import noun_of
-from plumb.plan.options import (
+from plumb.plan.planned_visits import nowhere
+from plumb.plan.proposal import (
+    CONFIRM,
+    EXPLORE,
     FEW,
+    FIND,
+    FRAME_CHECKS,
     HANGING,
     MARK,
     READ_AGAIN,
     READING,
+    REREAD,
     ROOM_FOR_A_SECOND,
     ROUND,
+    SETTLE,
     SHARPER,
     Option,
+    RoomThen,
     checks_for,
+    effect_checks,
     options,
     spots,
+    worth,
 )
-from plumb.plan.planned_visits import nowhere
-from plumb.plan.proposal import CONFIRM, EXPLORE, FIND, REREAD, SETTLE, RoomThen, worth
-from plumb.plan.separation import FRAME_CHECKS, effect_checks
 from plumb.settings.machine import GRAVITY
 from plumb.text.values import MM
 from plumb.words.proposals import ProposalInWords, other_ways, percent

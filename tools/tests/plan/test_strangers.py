@@ -7,9 +7,17 @@ import numpy as np
 import pytest
 from plan_cases import MACHINE, SIGMA, case_on, nine
 from plumb.diagnosis.outliers import Outlier
-from plumb.plan.options import MARK, READING, ROUND
 from plumb.plan.planned_visits import BELOW, grid, proof_places, usable
-from plumb.plan.proposal import BESIDE, READ_AGAIN, SURE, for_slips, near_the_worst
+from plumb.plan.proposal import (
+    BESIDE,
+    MARK,
+    READ_AGAIN,
+    READING,
+    ROUND,
+    SURE,
+    for_slips,
+    near_the_worst,
+)
 from synthetic import distances_between, marks_on, read_elsewhere
 from synthetic import grid as targets_of
 

@@ -30,7 +30,7 @@ GOOD = {
     "tools/plumb/__init__.py": '"""The lab."""\n',
     "tools/plumb/model/__init__.py": '"""The model."""\n',
     "tools/plumb/model/predict.py": "from plumb import _core\nimport plumb.text.errors\n",
-    "tools/plumb/fit/problem.py": "from plumb.model import predict\nimport plumb.marks.model\n",
+    "tools/plumb/fit/fit.py": "from plumb.model import predict\nimport plumb.marks.model\n",
 }
 
 
@@ -81,7 +81,7 @@ HANG = "tools/judge/reference/hang.h"
         (HANG, '#  include "strand.h"'),
         (HANG, '#include "effects/chain_sag.h"'),
         ("tools/vm/world/sled.h", "#include <Kinematics.h>"),
-        ("tools/plumb/fit/problem.py", "from plumb import _judge"),
+        ("tools/plumb/fit/fit.py", "from plumb import _judge"),
         (MODEL, "from plumb.fit.fit import fit"),
         (MODEL, "from plumb import cli"),
         (MODEL, "import plumb.marks.read"),

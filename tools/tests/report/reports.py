@@ -10,7 +10,7 @@ from pathlib import Path
 from plumb.cli.main import main
 from plumb.marks.form import marks_toml
 from plumb.marks.read import Measurements
-from plumb.settings.toml import write_machine_toml
+from plumb.settings.machine import write_machine_toml
 from synthetic import BELIEVED, TRUE, distances_between, grid, marks_on
 
 

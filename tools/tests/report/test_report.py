@@ -8,7 +8,7 @@ import pytest
 from example_machine import INI, MARKS, checked
 from plumb.cli.main import main
 from plumb.model.plain import plain_change
-from plumb.settings.toml import write_machine_toml
+from plumb.settings.machine import write_machine_toml
 from plumb.text.values import MM
 from reports import asked, board, nine, reported, spans
 from synthetic import TRUE, grid, marks_on

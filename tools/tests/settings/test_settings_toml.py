@@ -5,8 +5,12 @@ from dataclasses import replace
 
 import pytest
 from plumb.settings.files import read_settings
-from plumb.settings.machine import MachineSettings, PublishedSettings
-from plumb.settings.toml import machine_toml, write_machine_toml
+from plumb.settings.machine import (
+    MachineSettings,
+    PublishedSettings,
+    machine_toml,
+    write_machine_toml,
+)
 from plumb.text.errors import InputError
 
 KNOWN = {"chain_sag": ["weight_ratio_squared"], "chain_pitch": ["left", "right"]}

@@ -7,8 +7,13 @@ import pytest
 from example_machine import EXAMPLE
 from plumb.cli.main import main
 from plumb.firmware.client_files import client_numbers
-from plumb.settings.cut_with import digest_of
-from plumb.settings.files import SOURCES, changed_client_file, parse_webcontrol, read_settings
+from plumb.settings.files import (
+    SOURCES,
+    changed_client_file,
+    digest_of,
+    parse_webcontrol,
+    read_settings,
+)
 from plumb.text.errors import InputError
 from plumb.text.ini import read_ini
 

@@ -1,7 +1,7 @@
 """The flashed program on the simulated Mega and the firmware for the host drive the same world."""
 
 import numpy as np
-from plumb.bench.causes import Hidden
+from plumb.bench.boards import Hidden
 from plumb.vm.garage import Garage
 from usual_machine import switched_on
 

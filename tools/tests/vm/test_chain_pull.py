@@ -5,7 +5,7 @@ import re
 import numpy as np
 import pytest
 from plumb import _vm
-from plumb.bench.causes import MAKER
+from plumb.bench.boards import MAKER
 from plumb.model.predict import judged
 
 NUMBERS = {**judged(MAKER), "left.inward": 0.004, "right.inward": 0.006}

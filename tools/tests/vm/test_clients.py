@@ -12,8 +12,7 @@ from pathlib import Path
 
 import pytest
 import serial
-from plumb.vm.garage import hide, random_garage
-from plumb.vm.owner import InProcessPort, VirtualOwner, set_up
+from plumb.vm.garage import InProcessPort, VirtualOwner, hide, random_garage, set_up
 from plumb.vm.pseudo_terminal import PseudoTerminal
 
 AHEAD = 126  # characters that a client sends without an answer

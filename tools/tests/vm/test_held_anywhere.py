@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from plumb.bench.causes import MAKER
+from plumb.bench.boards import MAKER
 from scipy.spatial import cKDTree
 from usual_machine import declaration, switched_on, usual_machine
 

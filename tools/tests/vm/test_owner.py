@@ -5,8 +5,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from plumb.bench.boards import plan, size_for
-from plumb.bench.causes import MAKER, Hidden, causes_of
+from plumb.bench.boards import MAKER, Hidden, causes_of, plan, size_for
 from plumb.grid.options import Grid
 from plumb.grid.program import marks_list, program
 from plumb.line.sender import Sender
@@ -14,9 +13,16 @@ from plumb.marks.form import read_form
 from plumb.marks.read import read_marks
 from plumb.model.reach import plain_machine
 from plumb.plan.case import PlannedCheck
-from plumb.vm.garage import Garage, astray
-from plumb.vm.owner import InProcessPort, VirtualOwner, set_up, true_value
-from plumb.vm.tape import BLANK, Tape
+from plumb.vm.garage import (
+    BLANK,
+    Garage,
+    InProcessPort,
+    Tape,
+    VirtualOwner,
+    astray,
+    set_up,
+    true_value,
+)
 
 
 def hiding(effect: str, millimetres: float = 3.0) -> Hidden:

@@ -5,13 +5,12 @@ import signal
 from dataclasses import replace
 
 import pytest
-from plumb.bench.causes import MAKER, Hidden
+from plumb.bench.boards import MAKER, Hidden
 from plumb.cli.main import main
 from plumb.cli.practice import _Reader
 from plumb.marks.read import read_marks
-from plumb.vm.garage import Garage, sled_error
+from plumb.vm.garage import BLANK, Garage, sled_error
 from plumb.vm.practice import Secret, score, secret_in
-from plumb.vm.tape import BLANK
 from served_machine import INTERRUPTIBLE, PLUMB, plumb
 from systems import ON_POSIX
 

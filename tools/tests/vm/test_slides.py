@@ -4,7 +4,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 import pytest
-from plumb.bench.causes import MAKER
+from plumb.bench.boards import MAKER
 from plumb.vm.garage import VirtualMachine
 from usual_machine import declaration, switched_on, usual_machine
 

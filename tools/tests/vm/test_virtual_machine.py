@@ -3,12 +3,12 @@
 import numpy as np
 import pytest
 from plumb import _judge, _vm
-from plumb.bench.causes import MAKER
+from plumb.bench.boards import MAKER
 from plumb.line.memory import read_numbers, write_numbers
 from plumb.line.sender import Sender
 from plumb.model.predict import judged
 from plumb.vm import garage as garage_room
-from plumb.vm.owner import InProcessPort
+from plumb.vm.garage import InProcessPort
 
 NUMBERS = judged(MAKER)
 COUNT = 63.5 / 8113.73  # [mm] of chain

@@ -9,10 +9,9 @@ import numpy as np
 from fastapi import APIRouter, Depends, Query, Request
 from pydantic import BaseModel, Field, FiniteFloat
 
-from plumb.cure.add import FitStep, Quality, add, add_to
-from plumb.cure.live_board import Chosen
-from plumb.cure.machine_file import record_of, toml_of
-from plumb.fit.covariates import Covariate
+from plumb.cure.add import Chosen, FitStep, Quality, add, add_to
+from plumb.cure.decision import record_of, toml_of
+from plumb.fit.compare import Covariate
 from plumb.fit.expected import plausible_range
 from plumb.fit.fit import Fit
 from plumb.lab.background import LiveBoards, WarmBoard

@@ -9,12 +9,12 @@ from pathlib import Path
 from fastapi import APIRouter
 from pydantic import BaseModel
 
-from plumb.cure.add import Addition, Note, Parameter
-from plumb.cure.decision import Decision, decide
-from plumb.cure.live_board import BoardView, LiveBoard, refuse_other_origin
-from plumb.cure.machine_file import (
+from plumb.cure.add import Addition, BoardView, LiveBoard, Note, Parameter, refuse_other_origin
+from plumb.cure.decision import (
     Correction,
+    Decision,
     correct,
+    decide,
     has_setting,
     record_of,
     toml_of,
@@ -22,8 +22,8 @@ from plumb.cure.machine_file import (
 from plumb.diary.file import FIT, fit_entry, keep
 from plumb.firmware.client_files import CLIENT_FILES, ClientFiles, client_files
 from plumb.fit.expected import range_said
+from plumb.fit.fit import Checked
 from plumb.fit.inputs import Inputs
-from plumb.fit.problem import Checked
 from plumb.lab.background import key_of
 from plumb.lab.machine_line import TheLine, refuse_unanswered
 from plumb.lab.project import FILE, Choices, Project, choices_text

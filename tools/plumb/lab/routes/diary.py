@@ -5,8 +5,7 @@ from datetime import datetime
 from fastapi import APIRouter
 from pydantic import BaseModel
 
-from plumb.diary.file import FIT, Diary, noted, read_diary
-from plumb.diary.history import Course, DiaryFit, history_of
+from plumb.diary.file import FIT, Course, Diary, DiaryFit, history_of, noted, read_diary
 from plumb.lab.routes.project import TheProject
 from plumb.text.values import Unit
 

@@ -32,10 +32,9 @@ from plumb.line.memory import WrittenNumbers, kept_before, lines_for
 from plumb.line.sender import Sender
 from plumb.line.worker import LineState
 from plumb.settings.files import read_settings
-from plumb.settings.toml import machine_toml
+from plumb.settings.machine import machine_toml
 from plumb.text.errors import InputError, on_page
-from plumb.vm.garage import RANDOM
-from plumb.vm.owner import VirtualOwner
+from plumb.vm.garage import RANDOM, VirtualOwner
 from plumb.vm.practice import SECRET, Secret
 from plumb.words.machine import doing
 

@@ -24,8 +24,7 @@ from plumb.lab.rounds import (
 )
 from plumb.lab.routes.project import TheProject
 from plumb.marks.model import tape_sigma
-from plumb.plan.preview import Preview, as_read, preview
-from plumb.plan.sheet_reach import SheetReach, reach_of
+from plumb.plan.preview import Preview, SheetReach, as_read, preview, reach_of
 from plumb.settings.machine import MachineSettings
 from plumb.text.errors import InputError
 from plumb.words.proposals import advised, chances, could_tell

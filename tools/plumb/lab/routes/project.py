@@ -26,7 +26,7 @@ from plumb.lab.project import (
     save_choices,
 )
 from plumb.lab.rounds import changed_since_fit, form_of, opened
-from plumb.marks.plausible import from_edges
+from plumb.marks.read import from_edges
 from plumb.settings.machine import MachineSettings
 from plumb.text.answers import like
 from plumb.text.errors import InputError, on_page

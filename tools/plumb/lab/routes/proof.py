@@ -18,7 +18,7 @@ from plumb.lab.proof_marks import inputs_of_promise, proof_forms, proof_round
 from plumb.lab.rounds import command, form_of, is_proof, unit_words
 from plumb.lab.routes.project import ProjectAnswer, TheProject, show
 from plumb.lab.routes.rounds import RoundAnswer, round_answer
-from plumb.marks.plausible import from_edges
+from plumb.marks.read import from_edges
 from plumb.model.catalogue import effect_names
 from plumb.text.errors import InputError
 from plumb.words import Rows

@@ -27,8 +27,7 @@ from plumb.marks.form import (
     with_tape_sigma,
 )
 from plumb.marks.model import Measurements, tape_sigma
-from plumb.marks.plausible import from_edges, in_machine
-from plumb.marks.read import read_marks
+from plumb.marks.read import from_edges, in_machine, read_marks
 from plumb.model.predict import known_effects
 from plumb.text.answers import like
 from plumb.text.errors import InputError

@@ -9,7 +9,7 @@ from typing import Annotated, Literal
 from fastapi import APIRouter, Body
 from pydantic import BaseModel
 
-from plumb.job.time_left import timetable
+from plumb.job.dry_run import timetable
 from plumb.lab.broken_cut import HowFar, OnSheet, begin, how_far, plunges_in
 from plumb.lab.machine_line import MachineLine, TheLine, refuse_other_machine, refuse_unknown_place
 from plumb.lab.project import Choices, Project, save_choices, with_marks
@@ -17,12 +17,11 @@ from plumb.lab.proof_marks import proof_round
 from plumb.lab.rounds import Origin, Round, chosen_round, form_of, is_proof, is_read_again, opened
 from plumb.lab.routes.machine import MachineAnswer, machine
 from plumb.lab.routes.project import ProjectAnswer, TheProject, show
-from plumb.line.progress import Wait, waits_in
-from plumb.line.sender import cleaned
+from plumb.line.sender import Wait, cleaned, waits_in
 from plumb.marks.form import BLANK, Form, with_distances
 from plumb.settings.machine import MachineSettings
 from plumb.text.errors import InputError
-from plumb.vm.owner import VirtualOwner
+from plumb.vm.garage import VirtualOwner
 from plumb.words import round as words
 
 router = APIRouter(tags=["rounds"])

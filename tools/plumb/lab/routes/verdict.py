@@ -6,8 +6,8 @@ from fastapi import APIRouter, Depends
 from pydantic import BaseModel
 
 from plumb import api
+from plumb.cure.add import BoardView, Chosen, LiveBoard
 from plumb.cure.decision import Decision
-from plumb.cure.live_board import BoardView, Chosen, LiveBoard
 from plumb.diagnosis.outliers import Doubts
 from plumb.fit.compare import Comparison
 from plumb.lab.background import Background, key_of
