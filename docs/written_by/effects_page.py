@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 from plumb.bench.boards import BARE
+from plumb.cli.drawing import Panel, draw
 from plumb.fit.compare import best_pose
 from plumb.fit.observations import observe, rms, sighted
 from plumb.marks.read import Mark, Measurements
@@ -22,7 +23,6 @@ from plumb.model.catalogue import (
     parameter_words,
 )
 from plumb.model.predict import FOUND, values_of, with_parameters
-from plumb.pictures.drawing import Panel, draw
 from plumb.settings.machine import MachineSettings
 from template import filled
 

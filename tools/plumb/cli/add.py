@@ -12,11 +12,11 @@ from plumb.cli.arguments import (
     add_shared,
     add_stated,
     held_size,
-    picture_form,
     refuse_unfitted,
     stated_inputs,
 )
 from plumb.cli.compare import panel_of
+from plumb.cli.drawing import Panel, draw, picture_form
 from plumb.cli.output import STDOUT, refuse_twins, say_failure, write_outputs
 from plumb.cli.screen import (
     AUTO,
@@ -38,7 +38,6 @@ from plumb.cure.decision import decide, record_of, toml_of
 from plumb.diary.file import FIT, fit_entry, keep
 from plumb.fit.inputs import Inputs
 from plumb.model.plain import noun_of
-from plumb.pictures.drawing import Panel, draw
 from plumb.text.answers import meant
 from plumb.text.errors import InputError
 from plumb.text.values import Unit

@@ -18,7 +18,6 @@ from plumb.fit.fit import PRIORS, priors_with
 from plumb.fit.inputs import Inputs, read_inputs
 from plumb.marks.read import without_marks
 from plumb.model.catalogue import parameter_words
-from plumb.pictures.drawing import FORMATS
 from plumb.settings.machine import CONTROLLERS, MachineSettings
 from plumb.text.errors import InputError, naming
 from plumb.text.files import ReadOnce, read_bytes
@@ -293,11 +292,3 @@ def checked(text: str) -> Measured:
     if sizes[1] <= 0:
         raise argparse.ArgumentTypeError(f"'{text}': a sigma is above zero")
     return Measured(name.strip(), value.strip(), sigma.strip(), unit)
-
-
-def picture_form(path: str, *, option: str = "--picture") -> str:
-    """Return the form of a picture by its name's ending."""
-    form = Path(path).suffix.lower().lstrip(".")
-    if form not in FORMATS:
-        raise InputError(f"{option} {path}: end the name with .{', .'.join(FORMATS)}")
-    return form

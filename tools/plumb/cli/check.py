@@ -2,13 +2,10 @@
 
 import argparse
 from collections.abc import Sequence
-from dataclasses import replace
 from pathlib import Path
 
-import numpy as np
-
 from plumb.cli import screen
-from plumb.cli.arguments import PROGRAM, add_shared, file, inputs_of, length, picture_form, unit_of
+from plumb.cli.arguments import PROGRAM, add_shared, file, inputs_of, length, unit_of
 from plumb.cli.output import refuse_twins, say_failure, write_outputs
 from plumb.cli.screen import bar, free_name, in_text, next_step, print_json
 from plumb.cure.add import refuse_other_origin
@@ -18,21 +15,15 @@ from plumb.job.dry_run import comment_of, outline_of, program_in
 from plumb.job.fixes import FixedLine, fixed, has_habit
 from plumb.job.resume import JobMachine
 from plumb.job.wood import Tools
-from plumb.pictures.drawing import BAD as WRONG
-from plumb.pictures.drawing import GOOD as CUT
-from plumb.pictures.drawing import NOWHERE, QUIET, Corners, Dot, Panel, Ways, draw, shades_of
 from plumb.settings.machine import MachineSettings
 from plumb.text.values import Unit
-from plumb.words.job import JobAnswer, all_of, changes_said, colours, headline, runs_here
+from plumb.words.job import JobAnswer, all_of, changes_said, headline, runs_here
 from plumb.words.states import KINDS
-
-NAMED = 30  # parts that get their number in the picture
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Check, draw, print, and return the exit code."""
-    refuse_twins(arguments.picture, arguments.outline, arguments.fix)
-    form = picture_form(arguments.picture) if arguments.picture else ""
+    """Check, print, and return the exit code."""
+    refuse_twins(arguments.outline, arguments.fix)
     settings = settings_in(arguments.settings)
     arguments.controller = None
     lines = program_in(arguments.job, say=say_failure)
@@ -50,10 +41,8 @@ def run(arguments: argparse.Namespace) -> int:
         title = runs_here(comment_of(Path(arguments.job).name))
         files[arguments.fix] = (title + "\n".join([*mended.lines, ""])).encode()
         checked = _checked(arguments, settings, mended.lines, inputs) if changes else checked
-    if arguments.picture:
-        files[arguments.picture] = _picture(checked, settings, arguments.job, unit, form=form)
     if arguments.outline:
-        outline = outline_of(checked.over_sheet, checked.samples, name=Path(arguments.job).name)
+        outline = outline_of(checked.over_sheet, name=Path(arguments.job).name)
         files[arguments.outline] = outline.encode()
     write_outputs(files, inputs=[arguments.job, arguments.settings, *arguments.marks])
     if arguments.json:
@@ -105,78 +94,11 @@ def _checked(
     )
 
 
-def _picture(
-    checked: CheckedJob, settings: MachineSettings, name: str, unit: Unit, *, form: str
-) -> bytes:
-    """Return the whole sheet with the job on it, and below it the job from near."""
-    sheet = sheet_of(checked, settings, name)
-    near = replace(sheet, title="From near", view=near_view(checked))
-    panels = [replace(sheet, dots=()), near]
-    words = [colours(checked.piece, unit)]
-    return draw(panels, sheet=settings.sheet, words=words, columns=1, form=form)
-
-
-def sheet_of(checked: CheckedJob, settings: MachineSettings, name: str) -> Panel:
-    """Return the sheet with the job: its ways by their kind, its parts by number, its depth."""
-    over_sheet, samples, piece = checked.over_sheet, checked.samples, checked.piece
-    ways = np.split(samples.places, np.flatnonzero(np.diff(samples.move)) + 1)
-    spoiled = {line for finding in checked.findings if finding.is_wrong for line in finding.lines}
-    bad = np.isin(over_sheet["line"], list(spoiled))
-    if checked.hanging is not None:
-        # Above the sheet the sled may pass where it could not cut.
-        passing = checked.hanging.unusable
-        bad[passing] |= over_sheet.cut[passing]
-    kinds = np.where(bad, "bad", np.where(over_sheet.cut, "cut", "rapid"))
-    of = {
-        kind: [way for way, each in zip(ways, kinds, strict=True) if each == kind]
-        for kind in ("rapid", "cut", "bad")
-    }
-    labels = [
-        Dot((part.low[0] + part.high[0]) / 2, (part.low[1] + part.high[1]) / 2, f"{i}", size=0)
-        for i, part in enumerate(checked.parts[:NAMED], start=1)
-    ]
-    # Straight down is no line from above.
-    down = [way[0] for way in of["bad"] if np.ptp(way, axis=0).max() < POINT]
-    dots = [Dot(x, y, colour=WRONG) for x, y in down]
-    return Panel(
-        title=headline(checked, Path(name).name),
-        good=checked.is_good,
-        ways=[
-            Ways(of["rapid"], QUIET, 0.6, "--"),
-            Ways(of["cut"], CUT, 0.7),
-            Ways(of["bad"], WRONG, 2.4),
-        ],
-        dots=[*labels, *dots],
-        shades=shades_of(-piece.heights / (piece.deepest or 1.0)) if piece else None,
-        shaded=_corners(piece.corners) if piece else NOWHERE,
-    )
-
-
-POINT, LEAST, FREE = 0.1, 20.0, 0.08  # [mm] of a way, of wood from near; of the job's size
-
-
-def near_view(checked: CheckedJob) -> Corners:
-    """Return what of the sheet is shown from near: the job with a little around it."""
-    piece = checked.piece
-    cut = checked.samples.places[checked.over_sheet.cut[checked.samples.move]]
-    places = np.vstack([cut if len(cut) else np.zeros((1, 2)), piece.corners if piece else cut])
-    low, high = places.min(axis=0), places.max(axis=0)
-    half = np.maximum((high - low) / 2 * (1 + 2 * FREE), LEAST / 2)
-    # No flatter than a quarter, and no higher than it is wide.
-    half = np.maximum(half, [half[1], half[0] / 4])
-    return _corners(np.array([(low + high) / 2 - half, (low + high) / 2 + half]))
-
-
-def _corners(corners: np.ndarray) -> Corners:
-    (left, low), (right, high) = corners.tolist()
-    return (left, low), (right, high)
-
-
 # The arguments of `plumb check`.
 
 EXAMPLES = (
     "plumb check pocket.nc machine.toml",
-    "plumb check pocket.nc machine.toml --marks marks.toml --picture job.png",
+    "plumb check pocket.nc machine.toml --marks marks.toml --outline outline.nc",
 )
 EXIT = "Exit: 0 nothing is wrong; 1 something is; 2 an input cannot be used."
 
@@ -199,7 +121,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         ("--thickness", "how thick the sheet is", "what JOB says, else 19.05"),
     ):
         parser.add_argument(option, metavar="MM", type=length, help=f"{of} [{usual}]")
-    add_shared(parser, picture="draw the job on its sheet, shaded by depth")
     parser.add_argument(
         "--outline",
         metavar="FILE",

@@ -4,11 +4,11 @@ import argparse
 
 import numpy as np
 
-from plumb.cli.arguments import BOARD, add_shared, inputs_of, picture_form
+from plumb.cli.arguments import BOARD, add_shared, inputs_of
+from plumb.cli.drawing import Panel, draw, picture_form
 from plumb.cli.output import write_outputs
 from plumb.cli.screen import headline, in_text, next_step, print_json, same_inputs
 from plumb.fit.compare import Comparison, compare
-from plumb.pictures.drawing import Panel, draw
 from plumb.text.errors import InputError
 from plumb.words.comparison import conclusion, full, picture_title, short
 from plumb.words.states import KINDS

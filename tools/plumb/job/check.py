@@ -22,7 +22,6 @@ from plumb.job.dry_run import (
     Moves,
     Rows,
     Run,
-    Samples,
     Slower,
     Times,
     ends_too_high,
@@ -58,11 +57,6 @@ class CheckedJob:
     def over_sheet(self) -> Moves:
         """The moves of the sled, without those of a single chain."""
         return self.done.moves.only(self.done.moves.over_sheet)
-
-    @cached_property
-    def samples(self) -> Samples:
-        """Places along them: only a picture asks for all at once."""
-        return self.over_sheet.sampled(STEP)
 
     @property
     def state(self) -> Fitness:

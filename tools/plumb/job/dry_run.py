@@ -330,8 +330,9 @@ def _first(lines: Sequence[str]) -> tuple[int, str]:
 OUTLINE_FEED = 500.0  # [mm/min]
 
 
-def hull_of(moves: Moves, samples: Samples) -> Array:
+def hull_of(moves: Moves) -> Array:
     """Return the corners (k, 2) [mm] of the smallest convex shape that holds all cuts."""
+    samples = moves.sampled(STEP)
     places = samples.places[moves.cut[samples.move]]
     places = np.unique(np.round(places, 3), axis=0)
     spread = places - places.mean(axis=0) if len(places) else places
@@ -340,9 +341,9 @@ def hull_of(moves: Moves, samples: Samples) -> Array:
     return np.asarray(places[scipy.spatial.ConvexHull(places).vertices])
 
 
-def outline_of(moves: Moves, samples: Samples, *, name: str) -> str:
+def outline_of(moves: Moves, *, name: str) -> str:
     """Return a program that traces the hull, back to its first corner."""
-    corners = hull_of(moves, samples)
+    corners = hull_of(moves)
     if not len(corners):
         return f"(plumb: {comment_of(name)} cuts nothing)\n"
     safe = safe_height(moves)
@@ -586,7 +587,6 @@ class BadReach:
 class Hanging:
     """Pulls and give along the cuts of a job."""
 
-    unusable: Internal[Rows]  # moves, of those over the sheet, that pass such a place
     tension: Annotated[tuple[float, float], key("tension_n")]  # slackest and tightest chain
     give: Annotated[float, key("give_mm_per_n")]  # where the sled gives most
     give_line: int
@@ -605,13 +605,11 @@ def hanging_along(settings: MachineSettings, moves: Moves) -> Hanging | None:
     counts = np.zeros(len(cells), dtype=int)  # of the cut places in each
     lines = np.zeros(len(cells), dtype=int)  # of the first cut there
     order: list[Rows] = []  # the cells, as cuts first come there
-    unusable = []
     hit: list[list[Rows]] = [[] for _ in REACH_WORDS]  # lines that cut there
-    for first, block in moves.blocks():
+    for _, block in moves.blocks():
         samples = block.sampled(STEP)
         cell = np.searchsorted(cells, _cells(samples.places))
         verdict, cut = there.verdict[cell], block.cut[samples.move]
-        unusable.append(first + np.unique(samples.move[verdict != USABLE]))
         cell, verdict, line = cell[cut], verdict[cut], block["line"][samples.move[cut]].astype(int)
         new, at = np.unique(cell, return_index=True)
         at = np.sort(at[counts[new] == 0])
@@ -634,7 +632,7 @@ def hanging_along(settings: MachineSettings, moves: Moves) -> Hanging | None:
         softest = greatest(gives)
         give, line_of = max(float(gives[softest]), 0.0), int(lines[hangs[softest]])
         pulls = float(there.tension[hangs].min()), float(there.tension[hangs].max())
-    return Hanging(np.concatenate(unusable), pulls, give, line_of, tuple(bad), assumed)
+    return Hanging(pulls, give, line_of, tuple(bad), assumed)
 
 
 def _cells(places: Array) -> NDArray[np.complex128]:

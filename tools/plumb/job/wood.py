@@ -9,7 +9,6 @@ from dataclasses import dataclass, replace
 from typing import Annotated
 
 import numpy as np
-from numpy.typing import NDArray
 
 from plumb._dry_run import Wood
 from plumb.job.dry_run import (
@@ -25,7 +24,7 @@ from plumb.job.dry_run import (
     pieces,
 )
 from plumb.model.predict import Array
-from plumb.text.answers import Internal, key
+from plumb.text.answers import key
 
 # The bit and the sheet of a job: as the owner says, else as the program's comments, else usual.
 
@@ -183,16 +182,6 @@ class Piece:
     removed: Annotated[float, key("removed_mm3")]
     deepest: Annotated[float, key("deepest_mm")]  # below the face
     line: Annotated[int, key("deepest_line")]
-    corner: Internal[tuple[float, float]]  # [mm] lower left of the heights
-    cell: Internal[float]  # [mm]
-    heights: Internal[NDArray[np.float32]]  # (rows, columns) [mm] from below
-
-    @property
-    def corners(self) -> Array:
-        """Lower left and upper right corner [mm] of the heights, as rows."""
-        rows, columns = self.heights.shape
-        left, low = self.corner
-        return np.array([(left, low), (left + columns * self.cell, low + rows * self.cell)])
 
 
 @dataclass(frozen=True)
@@ -215,8 +204,8 @@ def take(moves: Moves, tools: Tools) -> WoodTaken:
     coarsest = float(np.sqrt(np.prod(high - low) / MOST_CELLS))
     cell = max(float(radii[which[cut]].min()) / FINE, coarsest)
     columns, rows = (int(count) for count in np.ceil((high - low) / cell))
-    corner = float(low[0]), float(low[1])
-    wide, wood = np.maximum(radii, NARROWEST * cell), Wood(*corner, columns, rows, cell)
+    wide = np.maximum(radii, NARROWEST * cell)
+    wood = Wood(float(low[0]), float(low[1]), columns, rows, cell)
     met = np.zeros(len(moves))
     for first, block in moves.blocks():
         samples = _led(block)
@@ -224,18 +213,14 @@ def take(moves: Moves, tools: Tools) -> WoodTaken:
         radius = np.where(np.diff(samples.move, prepend=-1) > 0, 0.0, wide[with_bit])
         ways = np.column_stack([samples.places, samples.z, radius, slopes[with_bit]])
         np.maximum.at(met, first + samples.move, wood.take(ways, GRAZE))
-    heights = wood.heights()
     depths = -np.minimum(moves["z_from"], moves["z_to"]) * cut
     piece = Piece(
         bits=tuple(bits[each] for each in np.unique(which[cut])),
         thickness=tools.thickness or USUAL_SHEET,
         is_said=bool(tools.bits),
-        removed=-float(heights.sum(dtype=float)) * cell**2,
+        removed=-float(wood.heights().sum(dtype=float)) * cell**2,
         deepest=float(depths.max()),
         line=int(moves["line"][np.argmax(depths > depths.max() + IN_WOOD)]),
-        corner=corner,
-        cell=cell,
-        heights=heights,
     )
     return WoodTaken(piece, met)
 

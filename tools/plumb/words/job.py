@@ -72,13 +72,6 @@ def runs_here(name: str) -> str:
     return f"(plumb: {name} as this machine runs it) "
 
 
-def colours(piece: Piece | None, unit: Unit) -> str:
-    """Return what the colours of a picture of the job mean."""
-    meaning = "Blue: the bit in the wood; grey: above the sheet; orange: wrong, or not usable"
-    depth = f"; brown: the wood, cut up to {unit.worded(piece.deepest)} deep" if piece else ""
-    return f"{meaning}{depth}."
-
-
 def all_of(checked: CheckedJob, unit: Unit) -> list[Said]:
     """Return what is wrong, the job, its parts, and what else is to be known."""
     wrong, notes = _wrong(checked), _notes(checked, unit)

@@ -1,4 +1,4 @@
-"""plumb check: what is wrong with a program, its times, its parts, their errors, its picture."""
+"""plumb check: what is wrong with a program, its times, its parts, their errors."""
 
 import re
 from dataclasses import replace
@@ -8,7 +8,6 @@ import pytest
 from example_machine import EXAMPLE
 from plumb import _judge
 from plumb.bench.boards import MAKER
-from plumb.cli.check import WRONG, _picture, near_view, sheet_of
 from plumb.fit.inputs import Inputs
 from plumb.job.check import Believed, Part, check_job, with_errors
 from plumb.job.dry_run import (
@@ -26,7 +25,6 @@ from plumb.job.dry_run import (
 from plumb.marks.read import read_marks
 from plumb.model.predict import judged, lengths
 from plumb.settings.files import read_settings
-from plumb.text.values import MM
 from workshop import NAMES, PROGRAMS, lines_of
 
 SETTINGS, POCKET, MARKS = (
@@ -184,10 +182,10 @@ def test_a_part_comes_out_as_expected(file, corner):
 
 def test_the_outline_goes_round_everything_above_the_sheet():
     checked = check_job(MAKER, ["G0 Z8", "G0 X10", *square(100, 50, 40), "G0 X0 Y0"])
-    program = outline_of(checked.done.moves, checked.samples, name="a (b).nc").splitlines()
+    program = outline_of(checked.done.moves, name="a (b).nc").splitlines()
     traced = check_job(MAKER, program)
     assert traced.is_good and not traced.parts
-    corners = hull_of(checked.done.moves, checked.samples)
+    corners = hull_of(checked.done.moves)
     assert {tuple(corner) for corner in corners} == {(100, 50), (140, 50), (140, 90), (100, 90)}
     moves = traced.done.moves
     slow = moves.only(~moves.rapid)
@@ -215,12 +213,11 @@ def test_checking_a_program_in_pieces_gives_the_same_answers(ask, monkeypatch):
 
 
 def test_the_command_prints_all_findings(ask, run, tmp_path):
-    picture, outline = tmp_path / "job.svg", tmp_path / "outline.nc"
-    drawn = ("--picture", picture, "--outline", outline)
-    code, answer = ask("check", POCKET, SETTINGS, "--marks", MARKS, *drawn)
-    assert code == 0 and answer["good"] and answer["written"] == [str(picture), str(outline)]
+    outline = tmp_path / "outline.nc"
+    traced = ("--outline", outline)
+    code, answer = ask("check", POCKET, SETTINGS, "--marks", MARKS, *traced)
+    assert code == 0 and answer["good"] and answer["written"] == [str(outline)]
     assert answer["parts"][0]["width_error"]["within"] > 0
-    assert b"Nothing is wrong with pocket.nc." in picture.read_bytes()
     assert "G0 Z5.000" in outline.read_text()
     _, capped = ask("check", POCKET, SETTINGS, "--set", "15=500")
     assert capped["asked_seconds"] == answer["asked_seconds"]
@@ -243,11 +240,9 @@ def test_the_command_prints_all_findings(ask, run, tmp_path):
 def test_the_command_ends_with_1_where_something_is_wrong(ask, run, tmp_path):
     job = tmp_path / "job.nc"
     job.write_text("G0 Z2\nG41 D1\nG1 X1500 F600\n")
-    code, answer = ask("check", job, SETTINGS, "--picture", tmp_path / "job.png")
+    code, answer = ask("check", job, SETTINGS)
     assert code == 1 and not answer["good"] and answer["hanging"] is None
     assert [each["line"] for each in answer["findings"] if each["wrong"]] == [2, 3]
-    run("check", job, SETTINGS, "--picture", tmp_path / "job.svg")
-    assert b"2 lines of job.nc are wrong." in (tmp_path / "job.svg").read_bytes()
     code, said, _ = run("check", job, SETTINGS)
     assert code == 1 and "2 lines of job.nc are wrong." in said
     assert "- line 2: the machine halts: this machine does no G41" in said
@@ -259,7 +254,6 @@ def test_the_command_ends_with_1_where_something_is_wrong(ask, run, tmp_path):
         (["--start", "5"], "is not X,Y"),
         (["--set", "15"], "is not N=VALUE"),
         (["--set", "15=-4"], "refuses '$15=-4'"),
-        (["--picture", "job.gif"], "end the name with"),
     ],
 )
 def test_bad_words_are_refused(run, words, says):
@@ -267,44 +261,10 @@ def test_bad_words_are_refused(run, words, says):
     assert code == 2 and says in complaint
 
 
-def drawn(*lines):
-    """The sheet of a program, and the program as it was checked."""
-    checked = check_job(MAKER, lines)
-    return sheet_of(checked, MAKER, "folder/job.nc"), checked
-
-
-def ends(ways):
-    """The last place of each way [mm]."""
-    return [tuple(np.round(way[-1], 3).tolist()) for way in ways.lines]
-
-
-def test_the_piece_is_shaded_by_its_depth_and_seen_whole():
-    sheet, checked = drawn(*SLOT)
-    picture = _picture(checked, MAKER, "job.nc", MM, form="svg")
-    assert picture.count(b"<image") == 2  # on the sheet, and from near
-    assert b"cut up to 1.00 mm deep" in picture
-    low, high = near_view(checked)
-    assert low[0] < 100 - 6.35 / 2 and high[0] > 140 + 6.35 / 2
-    (left, _), (right, _) = sheet.shaded
-    assert left < 100 and right > 140 and (sheet.shades[..., 3] > 0).any()
-    nothing, checked = drawn("G0 Z3", "G0 X9")
-    assert nothing.shades is None
-    assert b"<image" not in _picture(checked, MAKER, "job.nc", MM, form="svg")
-
-
 SLOT = ("G0 Z3", "G0 X100 Y50", "G1 Z-1 F60", "G1 X140 F600", "G0 Z3")
-
-
-def test_faults_are_drawn_in_their_colour():
-    sheet, _ = drawn(*SLOT, "G0 Z-1", "G0 X160", "G0 Z3")
-    assert sheet.title == "1 line of job.nc is wrong." and not sheet.good
-    assert ends(sheet.ways[-1]) == [(160.0, 50.0)] and sheet.ways[-1].colour == WRONG
 
 
 def test_a_cut_where_the_sled_hangs_badly_is_wrong_but_a_move_above_the_sheet_is_not():
     corner = ("G0 X-1215 Y-600", "G1 Z-1 F60", "G1 X-1200 F600", "G0 Z3")
-    sheet, _ = drawn(*SLOT, *corner)
-    assert not sheet.good and ends(sheet.ways[-1])[-1] == (-1200.0, -600.0)
-    assert ends(sheet.ways[1])[-1] == (140.0, 50.0)
-    above, _ = drawn(*SLOT, "G0 X-1215 Y-600", "G0 X0 Y0")
-    assert above.good and above.ways[-1].lines == []
+    assert not check_job(MAKER, [*SLOT, *corner]).is_good
+    assert check_job(MAKER, [*SLOT, "G0 X-1215 Y-600", "G0 X0 Y0"]).is_good

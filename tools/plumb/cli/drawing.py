@@ -1,14 +1,16 @@
-"""Pictures of sheets: errors as arrows, places, ways, shades. Same data give the same bytes."""
+"""Pictures of sheets with errors as arrows. Same data give the same bytes."""
 
 from __future__ import annotations
 
 import io
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from plumb.text.errors import InputError
 from plumb.text.files import picture_metadata
 
 if TYPE_CHECKING:
@@ -17,7 +19,6 @@ if TYPE_CHECKING:
 
 Array = np.ndarray
 Corners = tuple[tuple[float, float], tuple[float, float]]  # lower left and upper right [mm]
-NOWHERE: Corners = ((0.0, 0.0), (0.0, 0.0))
 FORMATS = ("png", "svg", "pdf")
 WOOD, DEEP, EDGE, INK = "#f3e7d3", "#8f6236", "#8a6d3b", "#222222"
 BAD, GOOD, QUIET = "#c64f00", "#0b62a4", "#9a9a9a"  # orange and blue: apart for every eye
@@ -34,39 +35,21 @@ STEPS = (1, 2, 3, 5)  # a factor is such a number times a power of ten
 
 
 @dataclass(frozen=True)
-class Dot:
-    """A place with its words."""
-
-    x: float  # [mm]
-    y: float
-    words: str = ""
-    colour: str = INK
-    size: float = 9.0  # [point] of its dot; 0: none
-
-
-@dataclass(frozen=True)
-class Ways:
-    """Ways of one kind, over what was drawn before."""
-
-    lines: Sequence[Array]  # (k, 2) [mm] each
-    colour: str
-    stroke: float  # [point]
-    style: str = "-"
-
-
-@dataclass(frozen=True)
 class Panel:
-    """A sheet, or a part of it, and what is drawn on it [mm]."""
+    """A sheet, and the errors that are drawn on it [mm]."""
 
     title: str
-    predicted: Array = field(default_factory=lambda: np.zeros((0, 2)))
-    errors: Array = field(default_factory=lambda: np.zeros((0, 2)))  # measured - predicted
+    predicted: Array  # (n, 2)
+    errors: Array  # (n, 2) measured - predicted
     good: bool = False  # drawn in the colour of success
-    dots: Sequence[Dot] = ()
-    ways: Sequence[Ways] = ()
-    shades: Array | None = None  # (rows, columns, 4) colours from the lower left
-    shaded: Corners = NOWHERE  # where they lie
-    view: Corners | None = None  # None: the whole sheet
+
+
+def picture_form(path: str) -> str:
+    """Return the form of a picture by its name's ending."""
+    form = Path(path).suffix.lower().lstrip(".")
+    if form not in FORMATS:
+        raise InputError(f"--picture {path}: end the name with .{', .'.join(FORMATS)}")
+    return form
 
 
 def draw(
@@ -74,31 +57,24 @@ def draw(
     *,
     sheet: tuple[float, float],
     heading: str = "",
-    words: Sequence[str] = (),
-    columns: int = 0,
     form: str = "png",
 ) -> bytes:
-    """Return the picture as a file, all arrows to a single scale; 0 columns are as many as make
-    rows of about the same length.
-    """
+    """Return the picture as a file, all arrows to a single scale."""
     # Loading matplotlib takes longer than most commands: only a drawing waits for it.
     from matplotlib.figure import Figure
 
-    columns = columns or columns_for(len(panels))
+    columns = columns_for(len(panels))
     wide = WIDTH if columns == 1 else SMALL
     factor = factor_for(panels, sheet)
-    views = [panel.view or view_of(panels, sheet, factor) for panel in panels]
-    highs = [wide * (top - low) / (right - left) for (left, low), (right, top) in views]
-    rows = [TITLE + max(highs[i : i + columns]) for i in range(0, len(panels), columns)]
-    said = [*words, *_scale_words(panels, factor)]
-    head, foot = TITLE * bool(heading), LINE * len(said) + 0.1
-    tall = head + sum(rows) + foot
+    view = view_of(panels, sheet, factor)
+    high = wide * (view[1][1] - view[0][1]) / (view[1][0] - view[0][0])
+    head, foot, row = TITLE * bool(heading), LINE + 0.1, TITLE + high
+    tall = head + row * -(-len(panels) // columns) + foot
     figure = Figure(figsize=(wide * columns, tall))
     _write(figure, heading, 0.0, tall - head / 2, wide * columns, size=17)
-    for i, (panel, view, high) in enumerate(zip(panels, views, highs, strict=True)):
-        low = tall - head - sum(rows[: i // columns]) - TITLE - high
-        left = wide * (i % columns)
-        colour = GOOD if panel.good else BAD if len(panel.errors) or panel.ways else INK
+    for i, panel in enumerate(panels):
+        low, left = tall - head - row * (i // columns + 1), wide * (i % columns)
+        colour = GOOD if panel.good else BAD
         size = 15 if wide == WIDTH else 11
         _write(figure, panel.title, left, low + high + TITLE / 2, wide, size=size, color=colour)
         share = (left / figure.get_figwidth(), low / tall, 1 / columns, high / tall)
@@ -106,19 +82,9 @@ def draw(
         axis.set(xlim=(view[0][0], view[1][0]), ylim=(view[0][1], view[1][1]))
         axis.set_axis_off()
         _draw_panel(axis, panel, sheet, factor=factor, small=wide / WIDTH)
-    # The whole legend in the type of its longest line.
-    legend = "\n".join(said)
+    legend = _scale_words(panels, factor)
     _write(figure, legend, 0.0, foot / 2, wide * columns, size=12, weight="normal")
     return saved(figure, form)
-
-
-def shades_of(shares: Array) -> Array:
-    """Return colours of wood that is cut to these shares of the deepest; none where it is whole."""
-    from matplotlib.colors import LinearSegmentedColormap
-
-    shades = LinearSegmentedColormap.from_list("depth", [WOOD, DEEP])(np.clip(shares, 0, 1))
-    shades[shares <= 0, 3] = 0.0
-    return np.asarray(shades)
 
 
 def columns_for(count: int) -> int:
@@ -153,13 +119,11 @@ def _longest(panels: Sequence[Panel]) -> float:
     return max(float(lengths.max(initial=0.0)), 1e-6)
 
 
-def _scale_words(panels: Sequence[Panel], factor: float) -> list[str]:
-    if not any(len(panel.errors) for panel in panels):
-        return []
-    return [
+def _scale_words(panels: Sequence[Panel], factor: float) -> str:
+    return (
         "Circle: where a mark should be; arrow: to where it was measured, "
         f"{factor:g} times life size. The longest is {_longest(panels):.2f} mm."
-    ]
+    )
 
 
 def _draw_panel(
@@ -170,38 +134,14 @@ def _draw_panel(
     factor: float,
     small: float,
 ) -> None:
-    from matplotlib.collections import LineCollection
     from matplotlib.patches import Rectangle
 
     axis.add_patch(
         Rectangle((-sheet[0] / 2, -sheet[1] / 2), *sheet, fc=WOOD, ec=EDGE, lw=2 * small)
     )
-    if panel.shades is not None:
-        (left, low), (right, top) = panel.shaded
-        extent = (left, right, low, top)
-        axis.imshow(panel.shades, extent=extent, origin="lower", aspect="auto", zorder=1.5)
-    for order, ways in enumerate(panel.ways, start=2):
-        how = {"colors": ways.colour, "linewidths": ways.stroke, "linestyles": ways.style}
-        axis.add_collection(LineCollection(ways.lines, zorder=order, **how))
-    if len(panel.errors):
-        _draw_arrows(axis, panel, factor=factor, small=small)
-        if small == 1.0:
-            _draw_lengths(axis, panel)
-    for dot in panel.dots:
-        axis.plot(dot.x, dot.y, "o", color=dot.colour, mec=INK, ms=small * dot.size, zorder=5)
-        # Towards the middle of the sheet, where there is room.
-        shift = (9 if dot.x < 0 else -9, -9 if dot.y > 0 else 9) if dot.size else (0, 0)
-        axis.annotate(
-            dot.words,
-            (dot.x, dot.y),
-            shift,
-            textcoords="offset points",
-            color=INK,
-            fontsize=11 * small,
-            ha="center",
-            va="center",
-            zorder=6,
-        )
+    _draw_arrows(axis, panel, factor=factor, small=small)
+    if small == 1.0:
+        _draw_lengths(axis, panel)
 
 
 def _draw_arrows(axis: Axes, panel: Panel, *, factor: float, small: float) -> None:
@@ -273,8 +213,11 @@ def _write(
 def saved(figure: Figure, form: str) -> bytes:
     """Return the figure as png, svg or pdf; the same data give the same bytes."""
     import matplotlib as mpl
+    from matplotlib.text import Text
 
-    read_as_written(figure)
+    # Let no word be a formula: a name from a file may hold a `$`.
+    for text in figure.findobj(Text):
+        text.set_parse_math(False)
     file = io.BytesIO()
     # Names inside an SVG are drawn by chance unless they get a salt.
     with mpl.rc_context({"svg.hashsalt": "plumb"}):
@@ -282,11 +225,3 @@ def saved(figure: Figure, form: str) -> bytes:
             file, format=form, dpi=130, facecolor="white", metadata=picture_metadata(form)
         )
     return file.getvalue()
-
-
-def read_as_written(figure: Figure) -> None:
-    """Let no word be a formula: a name from a file may hold a `$`."""
-    from matplotlib.text import Text
-
-    for text in figure.findobj(Text):
-        text.set_parse_math(False)
