@@ -273,8 +273,11 @@ def _write(
 def saved(figure: Figure, form: str) -> bytes:
     """Return the figure as png, svg or pdf; the same data give the same bytes."""
     import matplotlib as mpl
+    from matplotlib.text import Text
 
-    read_as_written(figure)
+    # Let no word be a formula: a name from a file may hold a `$`.
+    for text in figure.findobj(Text):
+        text.set_parse_math(False)
     file = io.BytesIO()
     # Names inside an SVG are drawn by chance unless they get a salt.
     with mpl.rc_context({"svg.hashsalt": "plumb"}):
@@ -282,11 +285,3 @@ def saved(figure: Figure, form: str) -> bytes:
             file, format=form, dpi=130, facecolor="white", metadata=picture_metadata(form)
         )
     return file.getvalue()
-
-
-def read_as_written(figure: Figure) -> None:
-    """Let no word be a formula: a name from a file may hold a `$`."""
-    from matplotlib.text import Text
-
-    for text in figure.findobj(Text):
-        text.set_parse_math(False)
