@@ -22,7 +22,6 @@ from plumb.grid import (
 )
 from plumb.grid.options import APPROACH, NUMBERS, UNITS, demand, pairs
 from plumb.model.reach import plain_machine, refuse_way, with_soft_chains
-from plumb.pictures.grid_paper import grid_paper
 from plumb.plan.preview import Preview, as_read, preview
 from plumb.settings.files import cut_with_lines, with_form
 from plumb.settings.machine import MachineSettings
@@ -64,7 +63,7 @@ class _Planned:
 
 def run(arguments: argparse.Namespace) -> int:
     """Plan the grid, write what was asked for, print, and return the exit code."""
-    refuse_twins(arguments.output, arguments.marks, arguments.paper)
+    refuse_twins(arguments.output, arguments.marks)
     planned = _planned(arguments)
     told = _could_tell(arguments, planned) if arguments.details else None
     files = _files(arguments, planned)
@@ -122,7 +121,7 @@ def grid_of(arguments: argparse.Namespace) -> Grid:
 
 
 def _files(arguments: argparse.Namespace, planned: _Planned) -> dict[str, bytes]:
-    """Return the program, its form and its paper, as far as they were asked for."""
+    """Return the program and its form, as far as they were asked for."""
     files: dict[str, bytes] = {}
     text, form = planned.program, arguments.marks
     if form:
@@ -139,16 +138,6 @@ def _files(arguments: argparse.Namespace, planned: _Planned) -> dict[str, bytes]
         ).encode("ascii")
     if arguments.output:
         files = {arguments.output: text.encode("ascii"), **files}
-    if arguments.paper:
-        if not arguments.paper.lower().endswith(".pdf"):
-            raise InputError(f"--paper {arguments.paper}: end the name with .pdf")
-        files[arguments.paper] = grid_paper(
-            planned.grid,
-            planned.machine,
-            unit_of(arguments),
-            settings=arguments.settings,
-            form=form or "marks.toml",
-        )
     return files
 
 
@@ -206,8 +195,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     another = "the form says that its marks are on another sheet than those before"
     group.add_argument("--new-sheet", action="store_true", help=another)
-    paper = "also write a sheet to print: the holes with their numbers, and boxes to fill in"
-    group.add_argument("--paper", metavar="FILE.pdf", help=paper)
     add_shared(parser, "--force")
     add_shared(parser, details="what such marks could tell; without files, that alone")
     add_shared(parser, "--json")

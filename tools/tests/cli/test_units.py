@@ -104,7 +104,7 @@ def test_a_number_that_moved_too_far_is_shown_in_the_chosen_unit(run, tmp_path):
 @pytest.mark.parametrize("preset", ["nine", "distances"])
 def test_a_form_in_inches_is_filled_in_inches_and_read(preset, run, ask, here):
     words = ("grid", "--settings", INI, "--preset", preset, *INCHES, "--output", "grid.nc")
-    assert run(*words, "--marks", "marks.toml", "--paper", "paper.pdf")[0] == 0
+    assert run(*words, "--marks", "marks.toml")[0] == 0
     text = Path("marks.toml").read_text()
     assert "inch from the sheet's top left corner" in text
     places = [json.loads(each) for each in re.findall(r"^target = (.*)", text, re.MULTILINE)]

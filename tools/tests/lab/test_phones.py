@@ -51,7 +51,7 @@ def test_a_stranger_in_the_network_gets_the_page_and_nothing_else(home):
     for headers in ({}, {"X-Plumb-Token": TOKEN}, {"Cookie": f"plumb-phone={TOKEN}"}):
         stranger = browser(FAR, **headers)
         assert stranger.get("/").status_code == 200
-        for way in ("project", "machine", "phones", "phones/me", "papers/marks.pdf"):
+        for way in ("project", "machine", "phones", "phones/me", "report.html"):
             assert stranger.get(f"/api/{way}").status_code == 401, way
         assert stranger.post("/api/machine/stop").status_code == 401
 

@@ -2,6 +2,7 @@
 
 import re
 import signal
+from pathlib import Path
 
 import pytest
 from folder import got
@@ -34,6 +35,22 @@ def test_the_question_for_the_next_measurement_outlasts_a_reload(lab, page):
     page.reload()
     page.get_by_label("The next measurement").first.wait_for()
     assert page.get_by_role("button", name="Find the best next measurement").count() == 0
+
+
+def test_the_report_is_saved_with_the_screens_sentence(lab, page):
+    measured_machine(lab.folder)
+    page.goto(f"{lab.url}#/verdict")
+    with page.expect_download() as download:
+        page.get_by_role("button", name="Save the report").click()
+    assert download.value.suggested_filename == "report.html"
+    report = Path(download.value.path()).read_text()
+    assert page.locator(".say").inner_text() in report
+    assert "plumb report groundcontrol.ini marks.toml" in report
+    # A tab in the background does not see that the file goes, and still has its button.
+    page.evaluate("Object.defineProperty(document, 'hidden', { value: true })")
+    (lab.folder / "marks.toml").unlink()
+    page.get_by_role("button", name="Save the report").click()
+    expect(page.get_by_role("alert")).to_contain_text("marks.toml")
 
 
 def test_a_screen_reader_is_told_states_and_no_places_or_counts(lab, page):

@@ -110,9 +110,9 @@ export function sendFile<Answer>(path: string, file: File): Promise<Answer> {
   return asked(path, { patienceMs: WORK_MS, method: "POST", body: form });
 }
 
-/** Downloads a file that the server makes. */
-export async function takeAlong(name: string): Promise<void> {
-  saved(await answered(`papers/${name}`, { patienceMs: WORK_MS }), name);
+/** Downloads the report. */
+export async function saveReport(): Promise<void> {
+  saved(await answered("report.html", { patienceMs: WORK_MS }), "report.html");
 }
 
 /** Downloads a file. */

@@ -1,7 +1,6 @@
 // Step 5: cut the marks: save the program, or send it; hold and stop are in the bar.
 
 import { Screen } from "../shell/Screen";
-import { TakeAlong } from "../shell/TakeAlong";
 import { CutMap } from "./cut/CutMap";
 import type { Round } from "./cut/round";
 import { useCutting, useRoundOf } from "./cut/useCutting";
@@ -26,7 +25,6 @@ function OpenCut({ round }: { round: Round }) {
       act={act}
     >
       {fields}
-      <TakeAlong name="marks.pdf">Save a sheet to print, for the readings</TakeAlong>
     </Screen>
   );
 }

@@ -2,7 +2,7 @@
 
 import { useRef, useState } from "preact/hooks";
 import { isReport } from "../api/answers";
-import type { Schemas } from "../api/client";
+import { type Schemas, saveReport } from "../api/client";
 import { Parts } from "../controls/Parts";
 import { Progress } from "../controls/Progress";
 import { Table } from "../controls/Table";
@@ -10,10 +10,10 @@ import { capital } from "../controls/words";
 import { Residuals } from "../residuals/Residuals";
 import { useDrawn } from "../residuals/useDrawn";
 import { useAnswer } from "../shell/answer";
+import { Do } from "../shell/doing";
 import { useNewest } from "../shell/newest";
 import { useProject } from "../shell/project";
 import { Screen } from "../shell/Screen";
-import { TakeAlong } from "../shell/TakeAlong";
 import { Refused } from "./correct/Refused";
 import { useWriting } from "./correct/useWriting";
 import { HalfTyped } from "./verdict/HalfTyped";
@@ -147,7 +147,13 @@ export function Verdict() {
           <Parts parts={verdict.unseen} />
         </section>
       )}
-      {!isReport && <TakeAlong name="report.html">Save the report</TakeAlong>}
+      {!isReport && (
+        <p>
+          <Do work={saveReport} meanwhile="Making report.html …">
+            Save the report
+          </Do>
+        </p>
+      )}
     </Screen>
   );
 }
