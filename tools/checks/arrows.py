@@ -31,7 +31,7 @@ FLOORS = (
     ("lab",),
     ("api", "guide"),
     ("vm", "words"),
-    ("bench", "diary", "pictures"),
+    ("bench", "diary"),
     ("cure", "job", "plan"),
     ("diagnosis",),
     ("line",),

@@ -67,7 +67,7 @@ def _row(extreme: Extreme, unit: Unit) -> list[str]:
 
 # The arguments of `plumb reach`.
 
-EXAMPLES = ("plumb reach machine.toml",)
+EXAMPLES = ("plumb reach machine.toml", "plumb reach groundcontrol.ini --units inch")
 EXIT = "Exit: 0 done; 2 an input cannot be used."
 
 

@@ -19,7 +19,6 @@ from plumb.diagnosis.evidence import (
 )
 from plumb.diagnosis.expected_error import LeftOpen, left_open
 from plumb.diagnosis.explanation import (
-    LIKELIER,
     Explanation,
     beyond,
     covariance_of,
@@ -30,6 +29,7 @@ from plumb.diagnosis.explanation import (
 )
 from plumb.diagnosis.outliers import Outlier
 from plumb.diagnosis.posterior import Account, Listed, Posterior, Spot
+from plumb.diagnosis.priors import LIKELIER
 from plumb.diagnosis.readings import CleanReadings, clean_readings, shifts
 from plumb.fit.expected import plausible_range, range_said
 from plumb.fit.fit import Checked

@@ -13,7 +13,11 @@ from plumb.diagnosis.evidence import (
     FEWER,
     Accounts,
     Clean,
+    Disturbance,
     Effects,
+    LinearBoard,
+    Metric,
+    MovedRound,
     Noise,
     Noises,
     about,
@@ -22,13 +26,17 @@ from plumb.diagnosis.evidence import (
     clean_of,
     explain_account,
     felt_effects,
+    moved_rounds,
     noise_by,
     noises_of,
     outlier_weights,
     pitches,
+    smooth_fields,
     weights_of,
 )
-from plumb.diagnosis.explanation import (
+from plumb.diagnosis.explanation import Board, Explanation, half_span, measured_columns, places_of
+from plumb.diagnosis.outliers import Reading, readings_of
+from plumb.diagnosis.priors import (
     FIELD,
     FIELD_SPREADS,
     LIKELIER,
@@ -37,20 +45,8 @@ from plumb.diagnosis.explanation import (
     SPOT_WIDTHS,
     TOGETHER,
     TURNED,
-    Board,
-    Disturbance,
-    Explanation,
-    LinearBoard,
-    Metric,
-    MovedRound,
-    half_span,
-    measured_columns,
-    moved_rounds,
     noise_prior,
-    places_of,
-    smooth_fields,
 )
-from plumb.diagnosis.outliers import Reading, readings_of
 from plumb.fit.inputs import Stated
 from plumb.model.catalogue import EVERY_MACHINE
 from plumb.model.plain import ascending, greatest, ranked

@@ -10,7 +10,8 @@ from typing import Literal
 import numpy as np
 import scipy
 
-from plumb.diagnosis.explanation import largest_met, measured_board
+from plumb.diagnosis.explanation import measured_board
+from plumb.diagnosis.priors import largest_met
 from plumb.diagnosis.readings import clean_readings
 from plumb.fit.fit import Problem
 from plumb.fit.inputs import Inputs

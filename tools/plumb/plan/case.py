@@ -13,6 +13,8 @@ from plumb.diagnosis.evidence import (
     AccountGroup,
     Accounts,
     Effects,
+    LinearBoard,
+    Metric,
     Noise,
     Noises,
     accounts_of,
@@ -21,17 +23,9 @@ from plumb.diagnosis.evidence import (
     pitches,
     variants,
 )
-from plumb.diagnosis.explanation import (
-    PITCH,
-    TOGETHER,
-    Board,
-    Explanation,
-    LinearBoard,
-    Metric,
-    SizePriors,
-    turned,
-)
+from plumb.diagnosis.explanation import Board, Explanation
 from plumb.diagnosis.posterior import Posterior, listing, together
+from plumb.diagnosis.priors import PITCH, TOGETHER, SizePriors, turned
 from plumb.fit.inputs import Inputs
 from plumb.model.catalogue import EVERY_MACHINE, effect_names
 from plumb.model.plain import ascending

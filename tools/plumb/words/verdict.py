@@ -6,7 +6,7 @@ from math import inf
 
 from plumb.diagnosis.diagnosis import UNKNOWN, Diagnosis, Together
 from plumb.diagnosis.evidence import ORIGINS
-from plumb.diagnosis.explanation import LIKELIER
+from plumb.diagnosis.priors import LIKELIER
 from plumb.model.catalogue import every_effect
 from plumb.model.plain import noun_of, plainly, ranked
 from plumb.text.answers import in_json

@@ -1,7 +1,8 @@
 """Linear boards that no machine made, small enough for the covariance of all readings."""
 
 import numpy as np
-from plumb.diagnosis.explanation import LinearBoard, SizePriors
+from plumb.diagnosis.evidence import LinearBoard
+from plumb.diagnosis.priors import SizePriors
 from scipy import stats
 
 NAMES = ("chain_stretch", "chain_plane", "sheet_skew", "frame_flex")

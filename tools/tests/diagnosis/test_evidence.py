@@ -8,6 +8,7 @@ from linear_boards import NAMES, covariance_of, in_full, log_density, made_up
 from plumb.diagnosis.evidence import (
     ONE_IN,
     Clean,
+    Metric,
     Noises,
     accounts_of,
     asked_for,
@@ -15,7 +16,7 @@ from plumb.diagnosis.evidence import (
     fitted,
     noises_of,
 )
-from plumb.diagnosis.explanation import ACTS, ALL, PITCH, PITCH_CHANCE, UNUSUAL, Metric
+from plumb.diagnosis.priors import ACTS, ALL, PITCH, PITCH_CHANCE, UNUSUAL
 from plumb.fit.inputs import Stated
 from scipy import integrate, special, stats
 

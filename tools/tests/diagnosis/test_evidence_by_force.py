@@ -10,23 +10,17 @@ from linear_boards import covariance_of
 from plumb.bench.boards import PUBLISHED, Hidden, causes_of, cut, plan
 from plumb.diagnosis.evidence import (
     UNLIKELY,
+    LinearBoard,
+    Metric,
     Noises,
     accounts_of,
     felt_effects,
     fitted,
     outlier_weights,
-)
-from plumb.diagnosis.explanation import (
-    OUTLIER_SPREADS,
-    PITCH_CORRELATION,
-    PITCH_SPREAD,
-    LinearBoard,
-    Metric,
-    explain,
-    measured_board,
-    size_priors,
     smooth_fields,
 )
+from plumb.diagnosis.explanation import explain, measured_board
+from plumb.diagnosis.priors import OUTLIER_SPREADS, PITCH_CORRELATION, PITCH_SPREAD, size_priors
 from plumb.fit.inputs import Inputs
 
 SIGMA = 0.6

@@ -15,8 +15,9 @@ from plumb.diagnosis.evidence import (
     misfit_chance,
     noise_by,
 )
-from plumb.diagnosis.explanation import STATED_SPREAD, Board, explain, measured_board
+from plumb.diagnosis.explanation import Board, explain, measured_board
 from plumb.diagnosis.posterior import LISTED, MOST_LISTED, listing, posterior_of
+from plumb.diagnosis.priors import STATED_SPREAD
 from plumb.fit.inputs import Inputs, Stated
 from plumb.fit.observations import observe
 from plumb.marks.read import Measurements

@@ -5,7 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from plumb.diagnosis import diagnose
-from plumb.diagnosis.explanation import Board, explain, moved_rounds
+from plumb.diagnosis.evidence import moved_rounds
+from plumb.diagnosis.explanation import Board, explain
 from plumb.diagnosis.outliers import MixedPair, find_mixed_up
 from plumb.fit.inputs import Inputs
 from plumb.fit.observations import model_and_observations

@@ -5,8 +5,9 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 from plumb.diagnosis.diagnosis import MISFIT, NOTHING, UNKNOWN, is_silent, judge
-from plumb.diagnosis.explanation import LIKELIER, MovedRound
+from plumb.diagnosis.evidence import MovedRound
 from plumb.diagnosis.posterior import LISTED, Account, Posterior
+from plumb.diagnosis.priors import LIKELIER
 
 TINY = 1e-12
 

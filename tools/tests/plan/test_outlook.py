@@ -6,9 +6,18 @@ import numpy as np
 import pytest
 from plan_cases import MACHINE, SIGMA, case_on, nine
 from plumb.diagnosis.diagnosis import NOTHING
-from plumb.diagnosis.evidence import Noises, accounts_of, asked_for, clean_of, fitted
-from plumb.diagnosis.explanation import Board, LinearBoard, Metric, explain, turned
+from plumb.diagnosis.evidence import (
+    LinearBoard,
+    Metric,
+    Noises,
+    accounts_of,
+    asked_for,
+    clean_of,
+    fitted,
+)
+from plumb.diagnosis.explanation import Board, explain
 from plumb.diagnosis.posterior import listing
+from plumb.diagnosis.priors import turned
 from plumb.fit.observations import model_and_observations
 from plumb.marks.read import Mark, Measurements
 from plumb.model.catalogue import EVERY_MACHINE

@@ -48,11 +48,11 @@ def test_each_room_has_its_row():
 
 NAMES = {*effect_names(), *(effect["name"] for effect in empirical_effects())}
 # Where effects are written, and stories of particular effects on particular boards.
-OF_EFFECTS = ("model/lab_effects",)
+OF_EFFECTS = ("model/catalogue",)
 STORIES = {
     # What published settings leave out, and what a usual machine has.
-    "bench/causes.py",
-    "bench/hiding.py",
+    "bench/boards.py",
+    "bench/kinds.py",
     # How much every machine has of a number, with its source.
     "diagnosis/priors.py",
     # The example of an option, whose help must not wait for the catalogue.
@@ -60,7 +60,7 @@ STORIES = {
     "cli/arguments.py",
     # A question to the owner about the links of a chain.
     "lab/known.py",
-    "cure/machine_file.py",
+    "cure/decision.py",
 }
 REMEDY = "give the effect a trait (lib/Kinematics/src/effect.h) and ask plumb.model.catalogue"
 

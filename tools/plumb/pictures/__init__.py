@@ -1,1 +1,0 @@
-"""Pictures of errors, fields, reach and plans on the sheet."""
