@@ -17,7 +17,6 @@ from plumb.grid import (
     PlainMachine,
     marks_list,
     program,
-    spans_of,
     touches_of,
 )
 from plumb.grid.options import APPROACH, NUMBERS, UNITS, demand, pairs
@@ -159,7 +158,7 @@ def _could_tell(arguments: argparse.Namespace, planned: _Planned) -> Preview:
     if not arguments.settings:
         raise InputError("--details is of a machine: give its --settings too")
     grid, machine = planned.grid, planned.machine
-    plan = as_read(touches_of(grid, machine), spans_of(grid))
+    plan = as_read(touches_of(grid, machine))
     return preview(settings_in(arguments.settings), plan, sigma=USUAL_SIGMA)
 
 

@@ -1,7 +1,7 @@
 """The G-code for calibration marks."""
 
 from plumb.grid.options import MIN_FREE_CHAIN, PRESETS, Grid, GridError, PlainMachine
-from plumb.grid.pattern import check, inwards, listed, spans_in, spans_of, tensions, touches_of
+from plumb.grid.pattern import check, inwards, listed, tensions, touches_of
 from plumb.grid.program import marks_list, program
 
 __all__ = [
@@ -15,8 +15,6 @@ __all__ = [
     "listed",
     "marks_list",
     "program",
-    "spans_in",
-    "spans_of",
     "tensions",
     "touches_of",
 ]

@@ -55,7 +55,6 @@ class Grid(NamedTuple):
     feed: float = 700.0
     # [mm] marks here and nowhere else, in this order; empty: in columns and rows.
     places: tuple[tuple[float, float], ...] = ()
-    is_taped: bool = False  # the form also waits for distances between nine marks
 
     @property
     def mode(self) -> str:
@@ -68,7 +67,6 @@ PRESETS = {
     "nine": Grid(columns=3, rows=3, repeats=False),
     "fifteen": Grid(repeats=False),
     "twenty-five": Grid(columns=5, rows=5, repeats=False),
-    "distances": Grid(columns=3, rows=3, repeats=False, is_taped=True),
 }
 
 

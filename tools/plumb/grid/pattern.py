@@ -1,4 +1,4 @@
-"""The distances that are taped between the marks of a grid."""
+"""Where the marks of a grid are, and the way of the sled to them."""
 
 import math
 from collections.abc import Callable, Sequence
@@ -16,37 +16,6 @@ from plumb.grid.options import (
     demand,
 )
 from plumb.text.errors import to_do
-
-# Of nine marks: sides and diagonals, and from the middle what halves them.
-TAPED = (
-    *(("1", "3"), ("3", "9"), ("9", "7"), ("7", "1"), ("1", "9"), ("3", "7")),
-    *(("2", "8"), ("4", "6"), ("1", "2"), ("4", "5"), ("5", "6"), ("2", "5")),
-)
-ASKED = "# Lay the tape between these marks, in this order: "
-
-
-def spans_of(grid: Grid) -> Sequence[tuple[str, str]]:
-    """Return names of the marks between which a tape is laid."""
-    return TAPED if grid.is_taped else ()
-
-
-def spans_line(spans: Sequence[tuple[str, str]]) -> str:
-    """Return the line of a form's head that says between which marks a tape is laid."""
-    return ASKED + ", ".join(f"{first} - {second}" for first, second in spans)
-
-
-def spans_in(head: Sequence[str]) -> list[tuple[str, str]]:
-    """Return the spans that the lines of a form's head ask for, in their order."""
-    pairs = [
-        pair.split(" - ")
-        for line in head
-        if line.startswith(ASKED)
-        for pair in line[len(ASKED) :].split(", ")
-    ]
-    return [(pair[0], pair[1]) for pair in pairs if len(pair) == 2]
-
-
-# The marks of a grid in the order in which they are made, and the stops on the way to them.
 
 
 class Touch(NamedTuple):

@@ -6,8 +6,6 @@ from plumb.grid.pattern import (
     lead_in,
     listed,
     rest_after,
-    spans_line,
-    spans_of,
     touches_of,
 )
 
@@ -68,12 +66,10 @@ def marks_list(
     cut_with = "\nnew_sheet = true" * new_sheet + cut_with
     if units == "inch":
         cut_with = f'\nunits = "inch"  # fractions too, like 3 7/8{cut_with}'
-    spans = spans_of(grid)
     lines = [
         f"# Calibration marks, {units} from the sheet's top left corner; x right, y down, approach "
         "too.",
         "# Fill in each measured line and take away its #; delete a [[mark]] that you cannot read.",
-        *([spans_line(spans)] if spans else []),
         f'frame = "sheet-top-left"{cut_with}',
     ]
     size, digits = UNITS[units]
@@ -85,6 +81,4 @@ def marks_list(
             f"approach = [{APPROACH[0]:.1f}, {0.0 - APPROACH[1]:.1f}]",
             "# measured = [ , ]",
         ]
-    for first, second in spans:
-        lines.append(f'\n# [[distance]]\n# between = ["{first}", "{second}"]\n# {units} =')
     return "\n".join([*lines, ""])

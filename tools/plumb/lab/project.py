@@ -14,7 +14,7 @@ from hashlib import sha256
 from pathlib import Path
 from typing import Annotated, Literal
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import BaseModel, BeforeValidator, ConfigDict, Field
 
 from plumb.text.errors import InputError
 from plumb.text.files import Unlinked, alone, numbered, opened, parsed, write_all
@@ -139,7 +139,9 @@ FILE = "lab.json"
 TRIES = 5  # to save, while somebody else saves choices
 
 Edges = Literal["top-left", "top-right", "bottom-left", "bottom-right"]
-Layout = Literal["nine", "fifteen", "twenty-five", "distances", "own"]
+Layout = Literal["nine", "fifteen", "twenty-five", "own"]
+# "distances" was a layout once; its file still opens.
+GONE = BeforeValidator(lambda said: "nine" if said == "distances" else said)
 FileName = Annotated[str, Field(pattern=f"^{NAME.pattern}$")]
 FileOrNone = Annotated[str, Field(pattern=f"^({NAME.pattern})?$")]  # empty: none
 
@@ -170,7 +172,7 @@ class Choices(BaseModel):
     units: Literal["mm", "inch"] = "mm"
     fineness: float = 0.5  # [mm] the finest division of the tape
     edges: Edges = "top-left"  # from which the marks are read
-    layout: Layout = "nine"
+    layout: Annotated[Layout, GONE] = "nine"
     new_sheet: bool = False  # the next marks are cut on another sheet than those before
     # [mm] machine frame: marks of the layout "own"
     planned: list[tuple[float, float]] = Field(default=[], max_length=400)

@@ -12,7 +12,7 @@ from typing import Literal
 from plumb import api
 from plumb.fit.fit import PRIORS, Checked
 from plumb.fit.inputs import settings_in
-from plumb.grid import PRESETS, Grid, PlainMachine, marks_list, program, spans_of, touches_of
+from plumb.grid import PRESETS, Grid, PlainMachine, marks_list, program, touches_of
 from plumb.grid.pattern import Touch
 from plumb.lab.known import refuse_absurd_known, stated
 from plumb.lab.project import FILE, Choices, Layout, Project, read_choices
@@ -21,7 +21,7 @@ from plumb.marks.read import Mark, read_marks
 from plumb.model.predict import known_effects
 from plumb.model.reach import plain_machine, refuse_way, with_soft_chains
 from plumb.plan import planned_visits
-from plumb.plan.proposal import MARK, READING, ROUND
+from plumb.plan.proposal import MARK, ROUND
 from plumb.settings.files import cut_with_lines, digest_of, with_form
 from plumb.settings.machine import MachineSettings
 from plumb.text.commands import quoted
@@ -106,7 +106,6 @@ TITLES: dict[Layout, str] = {
     "nine": "Nine marks",
     "fifteen": "Fifteen marks",
     "twenty-five": "Twenty-five marks",
-    "distances": "Distances between nine marks",
 }
 
 
@@ -120,15 +119,9 @@ class Planned:
     touches: tuple[Touch, ...]
 
     @property
-    def spans(self) -> Sequence[tuple[str, str]]:
-        """Names of marks between which a tape is laid."""
-        return spans_of(self.grid)
-
-    @property
     def minutes(self) -> float:
         """The time to cut and read them."""
-        read = READING * len(self.spans)
-        return ROUND + MARK * len(self.touches) + read
+        return ROUND + MARK * len(self.touches)
 
     def words(self) -> list[str]:
         """Return what `plumb grid` is given for these marks."""

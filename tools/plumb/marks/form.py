@@ -10,7 +10,6 @@ from typing import Any
 
 import tomlkit
 
-from plumb.grid.pattern import spans_in
 from plumb.marks.model import Mark, Measurements, Point
 from plumb.marks.read import Sheet, read_marks_toml
 from plumb.settings.machine import Known
@@ -18,6 +17,7 @@ from plumb.text.errors import Source
 from plumb.text.files import read_text
 from plumb.text.values import UNITS, with_quoted_fractions
 
+ASKED = "# Lay the tape between these marks, in this order: "  # then 1 - 3, 3 - 9 and so on
 BLANK = "# measured = [ , ]"  # what a form has where a reading is yet to come
 DIGITS = {"mm": 4, "inch": 5}  # a 1/128 inch stays what it is
 
@@ -31,8 +31,14 @@ class Form:
 
     @property
     def spans(self) -> list[tuple[str, str]]:
-        """Names of marks between which its comment asks for the distance."""
-        return spans_in(self.text.splitlines())
+        """Names of marks between which its comment asks for the distance, in its order."""
+        pairs = [
+            pair.split(" - ")
+            for line in self.text.splitlines()
+            if line.startswith(ASKED)
+            for pair in line[len(ASKED) :].split(", ")
+        ]
+        return [(pair[0], pair[1]) for pair in pairs if len(pair) == 2]
 
 
 def read_form(path: Source, *, sheet: Sheet, known: Known = None) -> Form:

@@ -2,7 +2,6 @@
 it tells apart.
 """
 
-import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Annotated
@@ -18,7 +17,7 @@ from plumb.fit.fit import PRIORS
 from plumb.fit.observations import different_numbers, model_and_observations
 from plumb.grid.options import APPROACH
 from plumb.grid.pattern import Touch
-from plumb.marks.read import Distance, Mark, Measurements
+from plumb.marks.read import Mark, Measurements
 from plumb.model.catalogue import effect_names, parameter_words
 from plumb.model.plain import noun_of, ranked
 from plumb.model.predict import REACH_WORDS
@@ -151,7 +150,6 @@ class Preview:
 
     sigma: Annotated[float, key("sigma_mm")]
     marks: int
-    distances: int
     effects: tuple[str, ...]
     # (e, e) [sigmas] of the row beyond frame and column; diagonal: beyond the frame
     matrix: Annotated[Matrix, key("snr")]
@@ -175,35 +173,23 @@ def preview(
     sigma: float,
     priors: Mapping[str, float] = PRIORS,
 ) -> Preview:
-    """Return what marks at the targets of a plan could tell; sigma [mm] of one coordinate or
-    distance.
-    """
+    """Return what marks at the targets of a plan could tell; sigma [mm] of one coordinate."""
     frame = _as_planned(settings, plan, sigma, priors)
     names, matrix = effect_names(), _matrix(frame, frame.slopes)
-    rows = frame.board.rows
     return Preview(
         sigma=sigma,
-        marks=len(rows.measured),
-        distances=len(rows.distances),
+        marks=len(frame.board.rows.measured),
         effects=names,
         matrix=matrix,
         outlines=tuple(_outline(frame, i, matrix) for i in range(len(names))),
     )
 
 
-def as_read(touches: Sequence[Touch], spans: Sequence[tuple[str, str]]) -> Measurements:
-    """Return a plan as if all were read just where it was sent; `spans`: marks between which a tape
-    is laid, and then nothing else is read.
-    """
-    sent = {touch.name: (touch.x, touch.y) for touch in touches}
+def as_read(touches: Sequence[Touch]) -> Measurements:
+    """Return a plan as if all were read just where it was sent."""
     places = ((touch.name, (touch.x, touch.y)) for touch in touches)
-    marks = tuple(
-        Mark(name, place, None if spans else place, approach=APPROACH) for name, place in places
-    )
-    distances = tuple(
-        Distance((first, second), math.dist(sent[first], sent[second])) for first, second in spans
-    )
-    return Measurements(marks, distances=distances, source="the plan")
+    marks = tuple(Mark(name, place, place, approach=APPROACH) for name, place in places)
+    return Measurements(marks, source="the plan")
 
 
 def _as_planned(
@@ -218,12 +204,7 @@ def _as_planned(
         raise InputError(f"{plan.source}: too few marks for a diagnosis; plan at least three")
     board = Board.of(model, rows, sigma=sigma, priors=priors)
     sighting, _ = board.problem.predict(np.zeros(len(board.problem.names)))
-    exact = replace(
-        rows,
-        measured=sighting.read.where[rows.mark_rows],
-        distances=sighting.taped_spans(rows.distance_rows),
-    )
-    return board.with_rows(exact).fitted
+    return board.with_rows(replace(rows, measured=sighting.read.where[rows.mark_rows])).fitted
 
 
 def _matrix(frame: Explanation, slopes: Array) -> Array:
@@ -242,9 +223,9 @@ def _outline(frame: Explanation, i: int, matrix: Array) -> Outline:
     names, words = effect_names(), parameter_words()
     name, seen = names[i], float(matrix[i, i])
     columns = frame.board.columns([name])
-    count = frame.board.rows.count
-    places = len(frame.board.rows.measured) or count
-    raw = float(np.linalg.norm(frame.slopes[:count, columns])) * frame.board.sigma / np.sqrt(places)
+    rows = frame.board.rows
+    drawn = np.linalg.norm(frame.slopes[: rows.count, columns])
+    raw = float(drawn * frame.board.sigma / np.sqrt(len(rows.measured)))
     smallest = _smallest(frame.board, name, seen)
     typical = [words[frame.board.problem.names[column]] for column in columns]
     alike = [

@@ -230,14 +230,13 @@ class Tape:
         """noise [mm] of a coordinate."""
         self.garage, self._source, self._noise = garage, source, noise
         self._read = 0  # marks on this sheet that were read already
-        self._places: dict[str, list[Array]] = {}  # on the sheet [mm], by the mark's name
         # Where marks are [mm], by target, and by form in the order in which the forms were read.
         self._rounds: list[dict[Target, Array]] = []
 
     def lay(self, garage: Garage, source: np.random.Generator) -> None:
         """Another sheet, whose readings draw their noise from another source."""
         self._source = source
-        self.garage, self._read, self._places, self._rounds = garage, 0, {}, []
+        self.garage, self._read, self._rounds = garage, 0, []
 
     def pass_over(self, machine: VirtualMachine) -> None:
         """Leave the marks that were cut so far, so that all are cut again."""
@@ -254,22 +253,10 @@ class Tape:
         read = seen + self._noise * self._source.standard_normal(seen.shape)
         order = order_of(form, read, sheet=sheet)
         first: dict[Target, Array] = {}
-        for (name, target), i in zip(_waiting(form), order, strict=True):
-            self._places.setdefault(name, []).append(seen[i])
+        for (_, target), i in zip(_waiting(form), order, strict=True):
             first.setdefault(_as_key(target), seen[i])
         self._rounds.append(first)
         return filled_form(form, read, sheet=sheet)
-
-    def lengths(self, spans: Sequence[tuple[str, str]]) -> list[float]:
-        """Return the tape's readings [mm] of distances between marks that were read on this
-        sheet.
-        """
-        noise = self._noise
-        return [
-            float(np.linalg.norm(self._places[second][-1] - self._places[first][-1]))
-            + noise * float(self._source.standard_normal())
-            for first, second in spans
-        ]
 
     def fill_again(self, form: str) -> str:
         """Return a form whose marks are on this sheet already and were read before: each is read

@@ -183,8 +183,6 @@ def could_tell(seen: Preview) -> str:
 
 def causes(seen: Preview, unit: Unit) -> list[Part]:
     """Return what marks could tell, and each cause by itself."""
-    what = f"{seen.marks} marks"
-    what += f" and {seen.distances} distances" if seen.distances else ""
     rows = [
         [
             str(place),
@@ -197,7 +195,7 @@ def causes(seen: Preview, unit: Unit) -> list[Part]:
         for place, outline in enumerate(seen.outlines, 1)
     ]
     header = [each.format(unit.name) for each in CAUSES]
-    first = f"{what} read to {unit.worded(seen.sigma)}: {could_tell(seen)}."
+    first = f"{seen.marks} marks read to {unit.worded(seen.sigma)}: {could_tell(seen)}."
     return [Sentences([first], ""), Rows(header, rows, left=2, words=[-2, -1], note=FROM)]
 
 

@@ -131,8 +131,6 @@ def test_a_grid_says_what_its_marks_could_tell_before_it_is_cut(ask, run, maker,
     assert "found from" in said and max(map(len, said.splitlines())) <= 80
     code, with_file, _ = run(*details, "--output", tmp_path / "grid.nc")
     assert code == 0 and with_file.endswith(said) and (tmp_path / "grid.nc").exists()
-    taped = ask("grid", "--settings", maker, "--preset", "distances", "--details")[1]["details"]
-    assert (taped["marks"], taped["distances"]) == (0, 12)
     assert ask("grid", "--preset", "nine")[1]["details"] is None
 
 

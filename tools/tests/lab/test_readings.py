@@ -8,6 +8,7 @@ from example_machine import EXAMPLE, ROOT
 from folder import asked, choose, example_form, got
 from plumb.lab.project import Project
 from plumb.lab.routes import readings
+from plumb.marks.form import ASKED
 from plumb.marks.read import read_marks
 from synthetic import SHEET
 
@@ -157,36 +158,30 @@ FORM = "marks.toml"
 SIDES = [["1", "3"], ["3", "9"], ["9", "7"], ["7", "1"]]
 
 
-def chosen(client, layout):
-    """The form of a layout, as the page shows it."""
-    choose(client, layout=layout)
-    got(client.post("/api/rounds/marks"))
-    return client.get("/api/readings").json()
-
-
 def put_into(client, form, path, **body):
     body = {"file": form["file"], "digest": form["digest"], **body}
     return got(client.put(f"/api/{path}", json=body))
 
 
-def test_a_form_of_distances_asks_for_each_in_order_and_keeps_asking(client):
-    form = chosen(client, "distances")
-    assert form["spans"][:4] == SIDES and len(form["spans"]) == 12
-    (layout,) = (each for each in client.get("/api/layouts").json() if each["id"] == "distances")
-    assert [[f"{a + 1}", f"{b + 1}"] for a, b in layout["spans"]] == form["spans"]
-    assert (form["files"][0]["read"], form["files"][0]["asked"]) == (0, 12)
+def test_a_form_that_asks_for_distances_asks_for_each_in_order_and_keeps_asking(client, tmp_path):
+    got(client.post("/api/rounds/marks"))
+    asked = ", ".join(map(" - ".join, SIDES))
+    (tmp_path / FORM).write_text(f"{ASKED}{asked}\n{(tmp_path / FORM).read_text()}")
+    form = shown(client)
+    assert form["spans"] == SIDES
+    assert (form["files"][0]["read"], form["files"][0]["asked"]) == (0, 4)
     lengths = [{"between": SIDES[0][::-1], "length": 2238.0}, {"between": ["2", "9"], "length": 99}]
     typed = put_into(client, form, "distances", distances=lengths)
     assert typed["spans"] == form["spans"], "a save keeps what is asked"
-    assert (typed["files"][0]["read"], typed["files"][0]["asked"]) == (2, 13)
+    assert (typed["files"][0]["read"], typed["files"][0]["asked"]) == (2, 5)
     finer = put_into(client, typed, "fineness", finest=1.0)
     assert finer["spans"] == form["spans"] and finer["distances"] == typed["distances"]
     whole = [{"between": span, "length": 900.0} for span in form["spans"]]
     done = put_into(client, finer, "distances", distances=whole)
-    assert (done["files"][0]["read"], done["files"][0]["asked"]) == (12, 12)
+    assert (done["files"][0]["read"], done["files"][0]["asked"]) == (4, 4)
     place = [{"index": 0, "read": [100, 100]}]
     placed = put_into(client, done, "readings", edges="top-left", readings=place)
-    assert (placed["files"][0]["read"], placed["files"][0]["asked"]) == (13, 21)
+    assert (placed["files"][0]["read"], placed["files"][0]["asked"]) == (5, 13)
 
 
 @pytest.fixture

@@ -12,8 +12,7 @@ from folder import example_form
 from lab_machine import start_virtual
 from playwright.sync_api import expect
 from plumb.cli.main import main
-from plumb.grid.pattern import spans_line
-from plumb.marks.form import read_form
+from plumb.marks.form import ASKED, read_form
 from screens import at_rest, await_question, fitted_machine
 from synthetic import SHEET
 
@@ -121,7 +120,7 @@ def disagreeing(page):
 
 def test_each_distance_that_is_asked_has_its_field(lab, page):
     spans = [("2", "4"), ("4", "12"), ("8", "12")]
-    with_form(lab, f"{spans_line(spans)}\n{example_form()}")
+    with_form(lab, f"{ASKED}2 - 4, 4 - 12, 8 - 12\n{example_form()}")
     page.goto(f"{lab.url}#/readings")
     fields = page.get_by_role("list", name="Distances to measure").get_by_role("textbox")
     expect(fields).to_have_count(len(spans))
@@ -291,7 +290,7 @@ def test_a_file_that_went_back_before_the_page_looked_is_loaded_again(lab, readi
 @pytest.fixture
 def form(lab, page):
     """The form of the example with a few readings, on the page."""
-    with_form(lab, f"{spans_line([('2', '4')])}\n{example_form(read=5)}", "marks.toml")
+    with_form(lab, f"{ASKED}2 - 4\n{example_form(read=5)}", "marks.toml")
     page.goto(f"{lab.url}#/readings")
     page.get_by_label("Distance 2 to 4, mm").wait_for()
     return page

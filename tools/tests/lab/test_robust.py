@@ -173,6 +173,11 @@ def test_a_damaged_file_of_choices_is_named(tmp_path):
     assert "lab.json, units" in got(asked(tmp_path).get("/api/project"), 422)["error"]
 
 
+def test_a_file_of_choices_with_a_layout_that_went_still_opens(tmp_path):
+    (tmp_path / "lab.json").write_text('{"layout": "distances"}')
+    assert choices(asked(tmp_path))["layout"] == "nine"
+
+
 INI = (EXAMPLE / "groundcontrol.ini").read_bytes()
 OTHER = INI.replace(b"2978.4", b"2990.0")
 

@@ -37,17 +37,7 @@ export function Measure() {
       say="More marks tell more causes apart, and take longer. Nothing is cut yet."
       why={<Why />}
       command={plan?.command ?? `plumb grid --settings ${project.choices.settings} --details`}
-      stage={
-        <>
-          <MarksMap places={places} spans={id === "own" ? [] : (chosen?.spans ?? [])} keep={keep} />
-          {id !== "own" && chosen && chosen.spans.length > 0 && (
-            <p class="to-tape">
-              <strong>Measure these distances, in this order:</strong>{" "}
-              {chosen.spans.map(([from, to]) => `${from + 1} to ${to + 1}`).join(", ")}.
-            </p>
-          )}
-        </>
-      }
+      stage={<MarksMap places={places} keep={keep} />}
       act={
         better && (
           <>

@@ -40,10 +40,8 @@ class LayoutAnswer(BaseModel):
     id: Layout
     title: str
     marks: int
-    distances: int
     minutes: float
     places: list[tuple[float, float]]  # [mm] machine frame
-    spans: list[tuple[int, int]]  # distances between marks, by their place in the list
 
 
 class AdviceAnswer(BaseModel):
@@ -94,15 +92,12 @@ def layouts(project: TheProject) -> list[LayoutAnswer]:
 
 def _layout(settings: MachineSettings, layout: Layout) -> LayoutAnswer:
     plan = planned(settings, layout, ())
-    order = [touch.name for touch in plan.touches]
     return LayoutAnswer(
         id=layout,
         title=TITLES[layout],
         marks=len(plan.touches),
-        distances=len(plan.spans),
         minutes=plan.minutes,
         places=[(touch.x, touch.y) for touch in plan.touches],
-        spans=[(order.index(first), order.index(second)) for first, second in plan.spans],
     )
 
 
@@ -146,7 +141,7 @@ class Desk:
         said = repr((settings, request, sigma, sorted(priors.items())))
         if said not in self._seen:
             plan = planned(settings, request.layout, request.places)
-            marks = as_read(plan.touches, plan.spans)
+            marks = as_read(plan.touches)
             latest = [*self._seen.items()][1 - MOST_SEEN :]
             looked = preview(settings, marks, sigma=sigma, priors=priors)
             self._seen = {**dict(latest), said: looked}

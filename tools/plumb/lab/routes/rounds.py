@@ -14,11 +14,11 @@ from plumb.lab.broken_cut import HowFar, OnSheet, begin, how_far, plunges_in
 from plumb.lab.machine_line import MachineLine, TheLine, refuse_other_machine, refuse_unknown_place
 from plumb.lab.project import Choices, Project, save_choices, with_marks
 from plumb.lab.proof_marks import proof_round
-from plumb.lab.rounds import Origin, Round, chosen_round, form_of, is_proof, is_read_again, opened
+from plumb.lab.rounds import Origin, Round, chosen_round, is_proof, is_read_again, opened
 from plumb.lab.routes.machine import MachineAnswer, machine
 from plumb.lab.routes.project import ProjectAnswer, TheProject, show
 from plumb.line.sender import Wait, cleaned, waits_in
-from plumb.marks.form import BLANK, Form, with_distances
+from plumb.marks.form import BLANK
 from plumb.settings.machine import MachineSettings
 from plumb.text.errors import InputError
 from plumb.vm.garage import VirtualOwner
@@ -216,20 +216,12 @@ def read_with_tape(
         filled = line.do(lambda sender: owner.tape.fill_when_cut(blank.decode(), owner.machine))
     if filled is None:
         raise InputError("the marks are not all cut yet: cut them first")
-    files = {form: _as_asked(filled, form_of(project, project.choices, form), owner)}
+    files = {form: filled.encode()}
     if is_proof(form):
         project.save(files, read=known)
     else:
         save_choices(project, lambda now: with_marks(now, form), files=files, read=known)
     return show(project)
-
-
-def _as_asked(filled: str, blank: Form, owner: VirtualOwner) -> bytes:
-    """Return what the tape filled in; where distances are asked, these instead of places."""
-    if not blank.spans:
-        return filled.encode()
-    lengths = [round(length, 1) for length in owner.tape.lengths(blank.spans)]
-    return with_distances(blank, list(zip(blank.spans, lengths, strict=True))).encode()
 
 
 def _lay(owner: VirtualOwner, raised: float, *, new_sheet: bool) -> None:

@@ -1,7 +1,7 @@
 // The planned marks on the sheet: add marks by their place, or remove the chosen one.
 import { useState } from "preact/hooks";
 import { typedLength, useUnits } from "../../controls/lengths";
-import { Sheet, Taped } from "../../sheet/Sheet";
+import { Sheet } from "../../sheet/Sheet";
 
 export type Place = [number, number]; // [mm] machine frame
 
@@ -9,12 +9,10 @@ const AXES = ["x", "y"];
 
 interface MapParts {
   places: Place[];
-  /** Distances that are taped, by the place of their marks. */
-  spans: [number, number][];
   keep: (places: Place[]) => void;
 }
 
-export function MarksMap({ places, spans, keep }: MapParts) {
+export function MarksMap({ places, keep }: MapParts) {
   const units = useUnits();
   const [selected, select] = useState<number>();
   const [typed, setTyped] = useState(["", ""]);
@@ -34,9 +32,7 @@ export function MarksMap({ places, spans, keep }: MapParts) {
         marks={places.map((target, i) => ({ name: String(i + 1), target, look: "done" }))}
         selected={selected}
         select={select}
-      >
-        <Taped lines={spans.map((ends) => ends.map((place) => places[place]))} />
-      </Sheet>
+      />
       <details>
         <summary>Other marks: by their place, or without one</summary>
         <form class="row" onSubmit={add}>
