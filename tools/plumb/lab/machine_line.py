@@ -147,11 +147,6 @@ class MachineLine:
             self.name, self.virtual, self._port = "virtual machine", owner, port
             self._worker = LineWorker(opened, working=lambda works: setattr(port, "works", works))
 
-    def set_speed(self, speed: float) -> None:
-        """Set how many times as fast as real time the virtual machine works."""
-        if self._port:
-            self._port.speed = speed
-
     def disconnect(self) -> None:
         """Let go of the line; a machine that moves is stopped."""
         with self._lock:

@@ -28,6 +28,7 @@ SMALL_TEXT = """(smallest) => {
   return [...new Set(small)];
 }"""
 
+FIRST_MARK = 7  # lines of its program, of 41
 MOST_WORDS = 40  # that a screen says before its picture
 
 # Buttons that all want to be pressed next: a screen has a single such button.
@@ -88,15 +89,16 @@ def with_proof_marks(lab):
         assert "read mark 2 again" in got(client.get("/api/proof"))["checked"]["sentence"]
 
 
-def with_virtual_machine(lab, far=lambda program: program["done"] > program["total"] / 2):
-    """A virtual machine that cut the marks so far, and goes on slowly."""
+def with_virtual_machine(lab, far=lambda program: program["done"] > FIRST_MARK, *, speed=10):
+    """A virtual machine that cut the marks so far, and goes on, so many times as fast as a real
+    machine.
+    """
     with lab.client() as client:
-        got(client.post("/api/machine/virtual", json={"seed": 9, "speed": 1000}))
+        got(client.post("/api/machine/virtual", json={"seed": 9, "speed": speed}))
         until(client, lambda machine: machine["phase"] == "ready")
         got(client.post("/api/machine/settings"))
         got(client.post("/api/rounds/marks/cut"))
         until(client, lambda machine: far(machine["program"]))
-        got(client.post("/api/machine/speed", json={"speed": 1}))
 
 
 def places(page) -> list[str]:

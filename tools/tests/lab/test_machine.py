@@ -111,7 +111,8 @@ def test_the_live_line_says_that_the_sled_moves_holds_and_stops(lab, ask):
         assert next_state(lambda state: True)["kind"] == "none"
         ask("POST", "machine/virtual", speed=10)
         next_state(lambda state: state["phase"] == "ready")
-        ask("POST", "machine/program", title="job.nc", text="G21\nG1 X800 F700\nG1 X0\n")
+        ask("POST", "machine/settings")
+        ask("POST", "rounds/marks/cut")
         next_state(lambda state: state["moves"])
         ask("POST", "machine/hold")
         held = next_state(lambda state: state["holds"] and not state["moves"])
@@ -122,7 +123,7 @@ def test_the_live_line_says_that_the_sled_moves_holds_and_stops(lab, ask):
         ask("POST", "machine/stop")
         stopped = next_state(lambda state: state["phase"] == "ready")
         assert stopped["program"]["outcome"] == "stopped"
-        assert 5 < stopped["place"][0] < 790 and stopped["knows_place"]
+        assert stopped["place"][:2] != [0, 0] and stopped["knows_place"]
 
 
 @pytest.mark.parametrize("port", ["/dev/ttyACM0", "/dev/ttyACM1"])

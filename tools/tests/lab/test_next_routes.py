@@ -240,7 +240,6 @@ def test_a_broken_off_proposal_goes_on_with_its_extra_weight(client, folder, mon
         on_sheet = shown["broke_off"] + shown["perhaps"]
         assert shown["goes_on"] and 1 <= on_sheet < 4
         borne.clear()
-        got(client.post("/api/machine/speed", json={"speed": 1000}))
         got(client.post("/api/rounds/marks/go-on", json={"cut": on_sheet}))
         for asks, more in (("let 5.0 kg more hang", 5 * 9.81), ("take off", 0.0)):
             until(client, lambda state, asks=asks: state["waits_for"].startswith(asks))

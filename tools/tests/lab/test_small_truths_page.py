@@ -70,7 +70,7 @@ def test_a_screen_reader_is_told_states_and_no_places_or_counts(lab, page):
 
 
 def test_the_drawing_of_the_machine_has_the_sled_where_the_bar_says(lab, page):
-    with_virtual_machine(lab, lambda program: program["outcome"] == "done")
+    with_virtual_machine(lab, lambda program: program["outcome"] == "done", speed=1000)
     for screen in ("known", "open"):
         page.goto(f"{lab.url}#/{screen}")
         at_rest(page)

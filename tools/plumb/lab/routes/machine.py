@@ -21,7 +21,6 @@ from plumb.firmware.settings import (
     number_said,
     setting_said,
 )
-from plumb.job.dry_run import refuse_what_is_no_program
 from plumb.lab.broken_cut import end_virtual
 from plumb.lab.guard import PROTOCOL
 from plumb.lab.machine_line import MachineLine, Port, TheLine, line_of, ports, refuse_foreign_fit
@@ -41,7 +40,6 @@ from plumb.words.machine import doing
 router = APIRouter(tags=["machine"])
 MACHINE = "machine.toml"
 SILENT = 2.0  # [s] a machine reports five times a second
-Speed = Annotated[float, Field(ge=1, le=1000)]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -64,14 +62,7 @@ class VirtualRequest(BaseModel):
     hides: Literal["random", "nothing"] = "random"
     noise: float = Field(default=0.4, ge=0, le=10)  # [mm] of the tape
     seed: int = Field(default=0, ge=0, le=2**31)
-    speed: Speed = 100.0
-
-
-class ProgramRequest(BaseModel):
-    """G-code to send."""
-
-    title: str = Field(max_length=80)
-    text: str
+    speed: float = Field(default=100.0, ge=1, le=1000)
 
 
 class NumbersRequest(BaseModel):
@@ -163,25 +154,10 @@ def connect_virtual(request: VirtualRequest, project: TheProject, line: TheLine)
     return machine(line)
 
 
-@router.post("/machine/speed")
-def set_speed(speed: Annotated[Speed, Body(embed=True)], line: TheLine) -> MachineAnswer:
-    """Let the virtual machine hurry."""
-    line.set_speed(speed)
-    return machine(line)
-
-
 @router.post("/machine/disconnect")
 def disconnect(line: TheLine) -> MachineAnswer:
     """Let go of the line."""
     line.disconnect()
-    return machine(line)
-
-
-@router.post("/machine/program")
-def send_program(request: ProgramRequest, line: TheLine) -> MachineAnswer:
-    """Begin to send G-code. The machine moves."""
-    refuse_what_is_no_program(request.title, request.text)
-    line.worker.send(request.title, request.text.splitlines())
     return machine(line)
 
 
