@@ -1,27 +1,35 @@
-"""groundcontrol.ini: read, and settings written back into it."""
+"""groundcontrol.ini and webcontrol.json: read, and settings written back into them."""
 
+import json
+import re
 from dataclasses import replace
 from itertools import product
-from pathlib import Path
 
-import plumb
 import pytest
+from example_machine import EXAMPLE
+from plumb.cli.main import main
+from plumb.firmware.client_files import client_numbers
+from plumb.settings.cut_with import digest_of
 from plumb.settings.files import (
+    SOURCES,
+    changed_client_file,
     changed_ini,
     groundcontrol_changes,
     number_for_firmware,
+    parse_webcontrol,
     read_settings,
 )
 from plumb.settings.machine import PublishedSettings
 from plumb.text.errors import InputError
+from plumb.text.ini import read_ini
+from published_marks import SETTINGS
 
 SAG = {"chain_sag": {"weight_ratio_squared": 8.2e-12}}
-EXAMPLE = Path(plumb.__file__).parent / "examples" / "mibproj" / "groundcontrol.ini"
 
 
 def test_unchanged_settings_change_no_byte(tmp_path):
     original = tmp_path / "groundcontrol.ini"
-    text = EXAMPLE.read_text()
+    text = SETTINGS.read_text()
     text = text.replace("leftchaintolerance = 0\n", "leftchaintolerance = 0.347900203615\n")
     text = text.replace("chainsagcorrection = 0", "chainsagcorrection = 27.394023")
     original.write_bytes(text.replace("\n", "\r\n").encode())
@@ -32,18 +40,18 @@ def test_unchanged_settings_change_no_byte(tmp_path):
 
 def test_only_the_changed_values_change():
     settings = replace(
-        read_settings(EXAMPLE),
+        read_settings(SETTINGS),
         motor_gap=2981.123456,
         motor_height=609.6 + 465.5,
         controller="plumb",
         effects={**SAG, "chain_pitch": {"left": 0.001, "right": -0.0005}},
     )
-    new = changed_ini(EXAMPLE, groundcontrol_changes(settings).values).decode()
+    new = changed_ini(SETTINGS, groundcontrol_changes(settings).values).decode()
     # The radius is divided in the published formula: 139.1 * (1/1.001 + 1/0.9995) / 2.
     radius = 139.1 * (1 / 1.001 + 1 / 0.9995) / 2
     differing = [
         (old, now)
-        for old, now in zip(EXAMPLE.read_text().splitlines(), new.splitlines(), strict=True)
+        for old, now in zip(SETTINGS.read_text().splitlines(), new.splitlines(), strict=True)
         if old != now
     ]
     assert differing == [
@@ -58,12 +66,12 @@ def test_only_the_changed_values_change():
 
 def test_a_written_file_reads_back_as_the_same_machine(tmp_path):
     settings = replace(
-        read_settings(EXAMPLE),
+        read_settings(SETTINGS),
         controller="plumb",
         effects={**SAG, "chain_pitch": {"left": 0.001, "right": 0.002}},
     )
     path = tmp_path / "new.ini"
-    path.write_bytes(changed_ini(EXAMPLE, groundcontrol_changes(settings).values))
+    path.write_bytes(changed_ini(SETTINGS, groundcontrol_changes(settings).values))
     back = read_settings(path).as_plumb_model()
     assert back.frame == pytest.approx(settings.frame, abs=1e-5)
     assert back.effects["chain_sag"] == pytest.approx(settings.effects["chain_sag"])
@@ -72,7 +80,7 @@ def test_a_written_file_reads_back_as_the_same_machine(tmp_path):
 
 def test_numbers_that_the_file_cannot_hold_are_listed():
     settings = replace(
-        read_settings(EXAMPLE),
+        read_settings(SETTINGS),
         motor_center_x=2.0,
         controller="plumb",
         effects={
@@ -88,7 +96,7 @@ def test_numbers_that_the_file_cannot_hold_are_listed():
 @pytest.mark.parametrize("value", [float("nan"), float("inf"), "3000\nbedwidth = 1"])
 def test_unusable_values_are_refused(value):
     with pytest.raises(InputError, match="motorSpacingX"):
-        changed_ini(EXAMPLE, {("Maslow Settings", "motorSpacingX"): value})
+        changed_ini(SETTINGS, {("Maslow Settings", "motorSpacingX"): value})
 
 
 @pytest.mark.parametrize(
@@ -115,7 +123,7 @@ def test_a_number_too_long_for_the_firmware_is_refused():
 
 
 def spoilt(tmp_path, old, new):
-    text = EXAMPLE.read_text()
+    text = SETTINGS.read_text()
     assert old in text
     path = tmp_path / "groundcontrol.ini"
     path.write_text(text.replace(old, new, 1))
@@ -123,7 +131,7 @@ def spoilt(tmp_path, old, new):
 
 
 def test_the_example():
-    settings = read_settings(EXAMPLE)
+    settings = read_settings(SETTINGS)
     assert (settings.motor_gap, settings.motor_height) == (2978.4, 609.6 + 463)
     assert (settings.sheet_width, settings.sheet_height) == (2438.4, 1219.2)
     assert (settings.rotation_radius, settings.motor_center_x) == (139.1, 0.0)
@@ -135,7 +143,7 @@ def test_the_example():
 
 
 def test_corrections_and_the_keys_of_webcontrol(tmp_path):
-    text = EXAMPLE.read_text()
+    text = SETTINGS.read_text()
     for old, new in (
         ("leftchaintolerance = 0", "leftChainTolerance = 0.3479"),
         ("rightchaintolerance = 0", "RIGHTCHAINTOLERANCE : -0.08\ntopBeamTilt = 0.07"),
@@ -215,3 +223,128 @@ def test_other_files_are_refused(tmp_path, name, text, hint):
     path.write_text(text)
     with pytest.raises(InputError, match=hint):
         read_settings(path)
+
+
+INI = EXAMPLE / "groundcontrol.ini"
+# WebControl spells the keys with capitals; the published ini has them small.
+CAPITALS = {key.lower(): key for _, key in SOURCES.values()}
+# What WebControl computes, and what is no setting of the machine.
+OTHERS = {
+    "Computed Settings": [
+        {"firmwareKey": 38, "key": "chainOverSprocketComputed", "type": "string", "value": 1},
+        {"default": "INCHES", "key": "units", "type": "string", "value": "INCHES"},
+    ],
+    "Camera Settings": [{"key": "videoSize", "type": "options", "value": "640x480"}],
+}
+
+
+@pytest.fixture
+def webcontrol(tmp_path):
+    """The machine of the example as WebControl keeps it."""
+    document = dict(OTHERS)
+    for entry in read_ini(INI).entries:
+        option = {
+            "default": 0,
+            "desc": "Größe",
+            "key": CAPITALS.get(entry.key, entry.key),
+            "section": entry.section,
+            "type": "string",
+            "value": entry.value,
+        }
+        document.setdefault(entry.section, []).append(option)
+    path = tmp_path / "webcontrol.json"
+    text = json.dumps(document, sort_keys=True, indent=4, ensure_ascii=False)
+    path.write_text(text, encoding="utf-8")
+    return path
+
+
+def test_it_is_the_same_machine_as_the_ini(webcontrol):
+    ours, theirs = read_settings(webcontrol), read_settings(INI)
+    assert ours.frame == theirs.frame and ours.effects == theirs.effects
+    assert ours.published == theirs.published and ours.controller == "stock"
+    assert client_numbers(
+        parse_webcontrol(webcontrol.read_text(), source="webcontrol.json")
+    ) == client_numbers(read_ini(INI))
+
+
+def test_the_same_machine_has_the_same_digest(webcontrol):
+    before = digest_of(webcontrol)
+    assert before == digest_of(INI)
+    text = webcontrol.read_text(encoding="utf-8")
+    webcontrol.write_text(text.replace('"640x480"', '"320x240"'), encoding="utf-8")
+    assert digest_of(webcontrol) == before
+    webcontrol.write_text(text.replace('"2978.4"', '"2979"'), encoding="utf-8")
+    assert digest_of(webcontrol) != before
+
+
+def test_a_change_touches_nothing_else(webcontrol):
+    key = ("Maslow Settings", "motorspacingx")
+    before = webcontrol.read_text(encoding="utf-8")
+    same = changed_client_file(str(webcontrol), {key: 2978.4})
+    assert same.decode() == before
+    changed = changed_client_file(str(webcontrol), {key: 2980.25}).decode()
+    pairs = zip(before.splitlines(), changed.splitlines(), strict=True)
+    assert [(old.strip(), new.strip()) for old, new in pairs if old != new] == [
+        ('"value": "2978.4"', '"value": "2980.25"')
+    ]
+
+
+def test_a_number_stays_a_number_and_a_missing_key_is_added(webcontrol):
+    document = json.loads(webcontrol.read_text(encoding="utf-8"))
+    for option in document["Maslow Settings"]:
+        if option["key"] == "bedWidth":
+            option["value"] = 2438.4
+    webcontrol.write_text(json.dumps(document))
+    keys = {("Maslow Settings", "bedwidth"): 2400.0, ("Advanced Settings", "new"): 1.5}
+    changed = json.loads(changed_client_file(str(webcontrol), keys))
+    values = {each["key"]: each["value"] for each in changed["Maslow Settings"]}
+    assert values["bedWidth"] == 2400.0
+    assert changed["Advanced Settings"][-1] == {"key": "new", "type": "string", "value": "1.5"}
+
+
+@pytest.mark.parametrize(
+    ("text", "hint"),
+    [
+        ("{", "is not valid JSON"),
+        ('{"a": 1}', "is a JSON file, but not one of WebControl"),
+        ("[1]", "is a JSON file, but not one of WebControl"),
+        ('{"Maslow Settings": []}', "kinematicsType is missing in [Advanced Settings]"),
+    ],
+)
+def test_another_file_is_refused(text, hint, tmp_path):
+    path = tmp_path / "webcontrol.json"
+    path.write_text(text)
+    with pytest.raises(InputError, match=re.escape(hint)) as refused:
+        read_settings(path) if text != "[1]" else parse_webcontrol(text, source="webcontrol.json")
+    assert "\n" not in str(refused.value)
+
+
+def test_a_wrong_value_is_named_with_its_line(webcontrol):
+    text = webcontrol.read_text(encoding="utf-8").replace('"139.1"', '"wide"')
+    webcontrol.write_text(text, encoding="utf-8")
+    with pytest.raises(InputError) as refused:
+        read_settings(webcontrol)
+    entry = next(e for e in parse_webcontrol(text, source="").entries if e.value == "wide")
+    assert f"line {entry.line}, [Advanced Settings]" in str(refused.value)
+    assert '"key"' in text.splitlines()[entry.line - 1]
+
+
+def test_a_calibration_with_webcontrol_needs_nothing_else(webcontrol, here, capsys):
+    marks = str(EXAMPLE / "marks.toml")
+    known = (
+        "tape_scale.strain=0+-0.0001",
+        "chain_pitch.left=0.0019+-0.0003",
+        "chain_pitch.right=0.0019+-0.0003",
+        "chain_stretch.compliance=4.8e-6+-7e-7",
+    )
+    checked = [word for each in known for word in ("--checked", each)]
+    assert main(["calibrate", "webcontrol.json", marks, *checked]) == 0
+    said = capsys.readouterr().out
+    assert "put machine-webcontrol.json in place of its webcontrol.json" in " ".join(said.split())
+    # The next round finds the client's file next to machine.toml.
+    assert said.endswith("plumb calibrate machine.toml marks.toml\n")
+    kept = read_settings("machine-webcontrol.json")
+    assert kept.published.chain_sag_correction == 0 == kept.published.left_tolerance
+    assert kept.motor_gap == pytest.approx(read_settings("machine.toml").motor_gap, abs=1e-4)
+    # A second run may replace what the first wrote.
+    assert main(["calibrate", "webcontrol.json", marks, *checked, "-o", "machine.toml"]) == 0
