@@ -1,4 +1,5 @@
-// An encoder whose signal is lost or reversed: how far its motor runs before the watch says so.
+// A motor that is blocked or reversed, or whose encoder is: how far it runs before the watch says
+// so.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -144,13 +145,25 @@ TEST_P(LostEncoder, DoesNotLetAMotorAtRestRunAway) {
             4);
 }
 
-TEST_P(LostEncoder, InReverseIsNoticedWithinThreeMillimetres) {
-  world::Wires reversed;
-  reversed.encoder_reversed = true;
+TEST_P(LostEncoder, InReverseIsNoticedWithinThreeMillimetresAndSoIsAMotorInReverse) {
+  world::Wires encoder, motor;
+  encoder.encoder_reversed = motor.motor_reversed = true;
   int unseen;
   for (const double feed : {20.0, 60.0, 200.0, 800.0}) {
-    const Case lost = {GetParam(), feed, Lost::kBeforeTheFirstMove, reversed};
+    const Case lost = {GetParam(), feed, Lost::kBeforeTheFirstMove, encoder};
     EXPECT_LT(ranOf(lost, Fault::kTurnsBack, unseen).back(), 2.5);
     EXPECT_EQ(0, unseen);
   }
+  EXPECT_LT(
+      ranOf({GetParam(), 800, Lost::kBeforeTheFirstMove, motor}, Fault::kTurnsBack, unseen).back(),
+      6);
+  EXPECT_EQ(0, unseen);
+}
+
+TEST_P(LostEncoder, OfABlockedMotorIsToldToStand) {
+  world::Wires blocked;
+  blocked.blocked = true;
+  int unseen;
+  EXPECT_LT(ranOf({GetParam(), 800, Lost::kOnTheWay, blocked}, Fault::kStands, unseen).back(), 4);
+  EXPECT_EQ(0, unseen);
 }

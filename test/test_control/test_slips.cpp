@@ -1,14 +1,94 @@
-// How the control tick reacts to a chain that lets go of its motor for a moment, on motors with
-// their loops.
+// The control tick with its ring of set-points, its loops and its watch, on motors that are weak
+// for a while or whose chain lets go for a moment.
 #include <gtest/gtest.h>
 
 #include <vector>
 
+#include "../test_machine/board_at_rest.h"
 #include "machine/axes.h"
+#include "machine/planner.h"
 #include "settings_flash.h"
 #include "world/motor.h"
 
 using namespace machine;
+
+namespace {
+
+/// A board with a motor for each axis.
+struct MotorBoard : BoardAtRest {
+  uint16_t count(Axis axis) override { return uint16_t(motors[axis].counts()); }
+  void pass(double seconds) {
+    // A positive drive winds in.
+    for (unsigned i = 0; i < kAxisCount; ++i) motors[i].run(-duty[i], seconds);
+  }
+
+  std::vector<world::Motor> motors;
+};
+
+/// The left axis in motion, with the machine's settings.
+class Bench {
+ public:
+  Bench(unsigned seed, float ticks) : values_(table_, room_), axes(board, board) {
+    for (unsigned i = 0; i < kAxisCount; ++i)
+      board.motors.emplace_back(world::anyMotor(seed + i), i);
+    axes.setTicksPerSecond(ticks);
+    axes.prepare(values_);
+    planner_.prepare(values_, axes.secondsPerTick());
+    planner_.standAt(axes.setPoint());
+    axes.follow();
+  }
+
+  void travel(float length, float feed) { planner_.addAxis(kLeftAxis, length, feed / 60); }
+
+  void tick() {
+    ASSERT_TRUE(planner_.fill(axes, geometry_));
+    axes.tick();
+    board.pass(double(axes.secondsPerTick()));
+  }
+
+  bool isMoving() const { return !planner_.isIdle() || !axes.isEmpty(); }
+  double chain() const { return board.motors[kLeftAxis].turns() * 63.5; }
+
+  MotorBoard board;
+
+ private:
+  FlashTable table_;
+  float room_[kSettingCount];
+  settings::Values values_;
+  Planner planner_;
+  Geometry geometry_;
+
+ public:
+  Axes axes;
+};
+
+}  // namespace
+
+TEST(Axes, YieldToAWeakSupplyAndRecover) {
+  for (const float ticks : {100.0f, 200.0f}) {
+    for (unsigned seed = 0; seed < 20; ++seed) {
+      Bench bench(seed, ticks);
+      bench.travel(300, 900);
+      double worst = 0, weak = 0, strong = 0;
+      for (int tick = 0; bench.isMoving() && tick < int(60 * ticks); ++tick) {
+        const double seconds = tick / double(ticks), before = bench.chain();
+        bench.board.motors[kLeftAxis].weaker = seconds > 3 && seconds < 12 ? 5.5 : 0;
+        bench.tick();
+        worst = std::max(worst, std::fabs(double(bench.axes.error(kLeftAxis))));
+        const double speed = (bench.chain() - before) * double(ticks);
+        if (seconds > 8 && seconds < 12) weak = std::max(weak, speed);
+        if (seconds > 16 && seconds < 18) strong = std::max(strong, speed);
+      }
+      EXPECT_EQ(motion::Fault::kNone, bench.axes.fault().fault) << "motor " << seed;
+      EXPECT_LT(worst, 1.95) << "motor " << seed;
+      EXPECT_LT(weak, 13) << "motor " << seed;
+      EXPECT_GT(strong, 14.5) << "motor " << seed;
+      EXPECT_TRUE(bench.axes.hasYielded());
+      for (int rest = 0; rest < int(ticks); ++rest) bench.tick();
+      EXPECT_NEAR(300, bench.chain(), 0.05) << "motor " << seed;
+    }
+  }
+}
 
 namespace {
 
@@ -17,43 +97,17 @@ const int kSettles = 200;  // [ticks] until the watch looks: two means and a cal
 
 const double kLoad = 0.96;  // [Nm] 95 N of chain at an arm of 10.1 mm
 
-/// Motors that hold a sled in the middle of the sheet.
-struct LoadedMotors : Drives {
-  LoadedMotors() {
+/// Axes that go evenly, each at its speed. Their motors hold a sled in the middle of the sheet.
+struct Slips : testing::Test, MotorBoard {
+  Slips() : values_(table_, room_), axes(*this, *this) {
     world::MotorConstants constants;
     constants.load = kLoad;
     constants.count_noise = 0;  // so that each tug of the duty has a cause
     for (unsigned i = 0; i < kAxisCount; ++i) motors.emplace_back(constants, i + 1);
-  }
-  void drive(Axis axis, int16_t duty) override { duty_[axis] = duty; }
-  void release(Axis axis) override { duty_[axis] = 0; }
-  void brake(Axis axis) override { duty_[axis] = 0; }
-  uint16_t count(Axis axis) override { return uint16_t(motors[axis].counts()); }
-  uint16_t illegalSteps(Axis) override { return 0; }
-  void arrange(bool, uint8_t) override {}
-
-  void pass() {
-    // A positive drive winds in.
-    for (unsigned i = 0; i < kAxisCount; ++i) motors[i].run(-duty_[i], kSlipTick);
-  }
-
-  std::vector<world::Motor> motors;
-
- private:
-  int duty_[kAxisCount] = {0, 0, 0};
-};
-
-/// Axes that go evenly, each at its speed.
-struct Slips : testing::Test, Clock {
-  Slips() : values_(table_, room_), axes(motors, *this) {
     values_.setRow(kZPositionP, 1300);
     axes.prepare(values_);
     axes.follow();
   }
-  uint32_t milliseconds() override { return 0; }
-  void idle() override {}
-  void holdTicks() override {}
-  void releaseTicks() override {}
 
   /// Goes on for some ticks, each axis by its way [mm/s].
   void go(int ticks) {
@@ -65,15 +119,15 @@ struct Slips : testing::Test, Clock {
         axes.setPoints().push();
       }
       axes.tick();
-      motors.pass();
+      pass(kSlipTick);
     }
   }
 
   /// The chains let go of their motors for 30 ms, and what follows of it is over.
   void letGo(std::initializer_list<Axis> chains) {
-    for (const Axis chain : chains) motors.motors[chain].pull = -kLoad;
+    for (const Axis chain : chains) motors[chain].pull = -kLoad;
     go(3);
-    for (const Axis chain : chains) motors.motors[chain].pull = 0;
+    for (const Axis chain : chains) motors[chain].pull = 0;
     go(20);
   }
 
@@ -83,7 +137,6 @@ struct Slips : testing::Test, Clock {
   }
 
   double mm_per_second[kAxisCount] = {6, -4, 0};
-  LoadedMotors motors;
 
  private:
   const FlashTable table_;

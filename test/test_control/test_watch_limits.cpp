@@ -72,6 +72,7 @@ TEST(WatchLimits, DistanceIsWatchedBothWaysAndALimitOf100MmTurnsItOff) {
     EXPECT_EQ(Fault::kNone, watch.look(0, 0, 0.99f * error)) << error;
     EXPECT_EQ(Fault::kLeftBehind, watch.look(0, 0, error)) << error;
   }
+  EXPECT_EQ(Fault::kLeftBehind, watchOf(2).look(0, 0, NAN));
   Watch off = watchOf(100);
   EXPECT_EQ(Fault::kNone, off.look(0, 0, 150)) << "a limit of 100 mm is none";
   Watch on = watchOf(99);

@@ -9,11 +9,11 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <initializer_list>
 #include <map>
 #include <string>
 #include <vector>
 
-#include "params.h"
 #include "reference/numbers.h"
 #include "reference/reference.h"
 
@@ -21,6 +21,19 @@ const double kChainWeight = 0.00137293;  // [N/mm]
 const double kSledWeight = 97.9;         // [N]
 const double kCompliance = 5.17e-6;      // [1/N]
 const double kRadius = 63.5 / 6.283185307179586;
+
+struct Sized {
+  int setting;
+  double size;
+};
+
+/// Only the named effects, all others absent; throws for a number that no effect has.
+inline kinematics::EffectParams<double> withEffects(std::initializer_list<Sized> named) {
+  kinematics::EffectParams<double> effects = {};
+  for (const Sized& sized : named)
+    if (!effects.set(sized.setting, sized.size)) throw sized.setting;
+  return effects;
+}
 
 /// Where the motors are [mm].
 struct Motors {

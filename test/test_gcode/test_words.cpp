@@ -1,5 +1,5 @@
-// Words and numbers: clients' lines are read as intended, and text that is not a number is never
-// read as a number.
+// Words, numbers and modes: clients' lines are read as intended, and text that is not a number is
+// never read as a number.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -164,4 +164,185 @@ TEST(Clean, RemovesACorrectChecksum) {
 TEST(Clean, NeverJoinsTwoNumbers) {
   EXPECT_EQ("X1 2", cleaned("X1 (c) 2"));
   EXPECT_EQ("X10 E5", cleaned("X10 E5"));
+}
+
+TEST(Pieces, KeepWordsBeforeTheFirstCode) {
+  EXPECT_EQ("- M3", codesOf("S12000 M3"));
+  EXPECT_EQ(12000, piecesOf("S12000 M3").at(0).words.value('S'));
+  EXPECT_EQ("-", codesOf("F500"));
+  EXPECT_EQ("-", codesOf("X5 Y6"));
+}
+
+TEST(Pieces, OfAnEmptyLineThereAreNone) {
+  for (const char* line : {"", "  ", "%", "(c)", "; c", "N5"}) EXPECT_EQ("", codesOf(line)) << line;
+}
+
+TEST(Code, ThatIsUnknownIsAccepted) {
+  for (const char* line : {"G54", "G92", "G28", "G64", "G80", "G94", "G17", "M7", "M8", "M999"})
+    EXPECT_EQ(Fault::kNone, faultOf(line)) << line;
+}
+
+TEST(Code, ThatIsImpossibleIsAMistake) {
+  for (const char* line : {"G-1", "G0.05 X5", "G1.04 X5", "M1000", "G1e9"})
+    EXPECT_EQ(Fault::kNoCode, faultOf(line)) << line;
+}
+
+TEST(Mistake, IsFoundBeforeAnythingRuns) {
+  EXPECT_EQ(Fault::kNoNumber, faultOf("G0 X5 G1 Y6 M"));
+  EXPECT_EQ('M', findMistake("G0X5G1Y6M").letter);
+}
+
+TEST(Pieces, TakeCoordinatesFromAnywhereInTheLine) {
+  EXPECT_EQ("G91 G28", codesOf("G28 G91 Z0"));
+  const std::vector<Piece> home = piecesOf("G28 G91 Z0 G90");
+  ASSERT_EQ(3u, home.size());
+  EXPECT_EQ("G91 G28 G90", codesOf("G28 G91 Z0 G90"));
+  EXPECT_FALSE(home.at(0).words.hasPlace());
+  EXPECT_TRUE(home.at(1).words.has('Z'));
+  EXPECT_EQ("G90 G10", codesOf("G10 G90 L2 P3 X7"));
+  EXPECT_EQ(3, piecesOf("G10 G90 L2 P3 X7").at(1).words.value('P'));
+  EXPECT_EQ("G91 G38.2", codesOf("G38.2 G91 Z-5 F1"));
+  EXPECT_EQ("G20 G92", codesOf("G92 G20 X0"));
+  EXPECT_EQ("M5 G30", codesOf("G30 M5 X0"));
+  EXPECT_EQ("G21 G43.1", codesOf("G43.1 G21 Z2"));
+}
+
+TEST(Pieces, StayInOrderWhenACodeHasItsCoordinates) {
+  EXPECT_EQ("G28 G0", codesOf("G28 Z0 G0 X5"));
+  EXPECT_EQ("G91 G28 G90", codesOf("G91 G28 Z0 G90"));
+  EXPECT_EQ("G10 G0", codesOf("G10 Z0 G0 Z5"));
+}
+
+TEST(Pieces, PutACodeWithoutCoordinatesLast) {
+  EXPECT_EQ("G28", codesOf("G28"));
+  EXPECT_EQ("G90 G28", codesOf("G28 G90"));
+  EXPECT_FALSE(piecesOf("G28 G90").at(1).words.hasPlace());
+}
+
+TEST(Mistakes, IncludeSubroutineCalls) {
+  EXPECT_EQ(Fault::kNone, faultOf("O1000 (part)"));
+  EXPECT_EQ(Fault::kNoCode, faultOf("O100 CALL"));
+  EXPECT_EQ(Fault::kNoCode, faultOf("O100 REPEAT 5"));
+  EXPECT_NE(Fault::kNone, faultOf("O<hole> CALL"));
+}
+
+TEST(Mistakes, IncludeCycleLettersWithoutANumber) {
+  for (const char* line : {"G83 Q", "G81 L", "G81 K", "G43 H"})
+    EXPECT_EQ(Fault::kNoNumber, faultOf(line)) << line;
+}
+
+TEST(Modal, AcceptsTheModesThatClientsSend) {
+  Modal modal;
+  for (int tenths : {170, 200, 210, 400, 540, 610, 640, 800, 900, 910, 911, 940, 970, 980, 990})
+    EXPECT_TRUE(modal.take(uint16_t(tenths))) << tenths;
+}
+
+TEST(Modal, LeavesMotionAndUnknownCodesAlone) {
+  Modal modal;
+  // Motion, what needs words, compensation, scaling, rotation, other systems, feed a turn.
+  for (int tenths : {0,   10,  20,  30,  40,  100, 280, 300, 382, 410, 420, 430, 431, 490,
+                     510, 520, 541, 591, 680, 730, 810, 840, 890, 920, 921, 950, 960, 1230})
+    EXPECT_FALSE(modal.take(uint16_t(tenths))) << tenths;
+  EXPECT_EQ(0, modal.motion);
+}
+
+TEST(Modal, EndOfProgramResetsPlaneAndOffsetsButKeepsUnits) {
+  Modal modal;
+  for (int tenths : {180, 200, 550, 910, 930}) modal.take(uint16_t(tenths));
+  modal.motion = kPeck;
+  modal.endProgram();
+  EXPECT_EQ(17, modal.plane);
+  EXPECT_EQ(0, modal.system);
+  EXPECT_FALSE(modal.inverse_time);
+  EXPECT_EQ(0, modal.motion);
+  // Clients rely on units and G91 to stay.
+  EXPECT_TRUE(modal.inches);
+  EXPECT_TRUE(modal.relative);
+  modal.motion = kNoMotion;
+  modal.endProgram();
+  EXPECT_EQ(0, modal.motion);
+  modal.motion = 2;
+  modal.endProgram();
+  EXPECT_EQ(2, modal.motion);
+}
+
+TEST(WorkOffsets, FollowG10L20) {
+  float stored[18] = {};
+  WorkOffsets offsets(stored);
+  offsets.setToolLength(-2);
+  offsets.shiftTo(0, 2, 40, 0);
+  EXPECT_FLOAT_EQ(40, offsets.at(0, 2));
+  for (uint8_t axis = 0; axis < 3; ++axis) {
+    stored[15 + axis] = offsets.storedFor(axis, 70, 12);
+    EXPECT_FLOAT_EQ(70, offsets.at(5, axis) + 12) << int(axis);
+  }
+}
+
+TEST(WorkOffsets, SetANewShiftAfterASuspendedOne) {
+  const float stored[18] = {};
+  WorkOffsets offsets(stored);
+  offsets.shiftTo(0, 0, 10, 0);
+  offsets.suspendShift();
+  offsets.shiftTo(0, 1, 7, 0);
+  EXPECT_FLOAT_EQ(7, offsets.at(0, 1));
+}
+
+namespace {
+
+/// Angle [rad] that an arc turns about its centre, positive.
+double sweep(double dx, double dy, ArcCentre centre, bool clockwise) {
+  const double start = std::atan2(-double(centre.y), -double(centre.x));
+  const double end = std::atan2(dy - double(centre.y), dx - double(centre.x));
+  const double turned = clockwise ? start - end : end - start;
+  return turned <= 0 ? turned + 2 * M_PI : turned;
+}
+
+}  // namespace
+
+TEST(ArcCentre, IsEquidistantAndGivesTheShortArcUnlessRIsNegative) {
+  std::mt19937 random(4);
+  std::uniform_real_distribution<float> place(-900, 900), factor(0.501f, 20);
+  for (int i = 0; i < 100000; ++i) {
+    const float dx = place(random), dy = place(random);
+    const float wide = factor(random) * std::hypot(dx, dy);
+    const bool clockwise = i & 1, is_long = i & 2;
+    const ArcCentre centre = centreByRadius(dx, dy, is_long ? -wide : wide, clockwise);
+    ASSERT_TRUE(centre.found);
+    const float from = std::hypot(centre.x, centre.y);
+    const float to = std::hypot(centre.x - dx, centre.y - dy);
+    ASSERT_NEAR(wide, from, 1e-5 * double(wide) + 1e-3);
+    ASSERT_NEAR(from, to, 2e-6 * double(wide) + 1e-3);
+    ASSERT_EQ(is_long, sweep(dx, dy, centre, clockwise) > M_PI);
+  }
+}
+
+TEST(ArcCentre, OfAHalfCircleWithRoundedRadiusIsTheMidpoint) {
+  const ArcCentre centre = centreByRadius(100, 0, 49.97f, true);
+  ASSERT_TRUE(centre.found);
+  EXPECT_NEAR(50, centre.x, 1e-4);
+  EXPECT_TRUE(centreByRadius(2000, 0, 999.2f, true).found);
+}
+
+TEST(ArcCentre, OfAHalfCircleWithRadiusRoundedUpIsTheMidpoint) {
+  EXPECT_NEAR(0, centreByRadius(100, 0, 50.001f, true).y, 1e-4);
+  EXPECT_NEAR(std::sqrt(50.0015 * 50.0015 - 2500),
+              -double(centreByRadius(100, 0, 50.0015f, true).y), 0.01);
+  EXPECT_NEAR(0, centreByRadius(100, 0, 50.003f, true, kInchSpare).y, 1e-4);
+  EXPECT_GT(-centreByRadius(100, 0, 50.0033f, true, kInchSpare).y, 0.5f);
+}
+
+TEST(ArcCentre, IsNotFoundIfTheRadiusIsTooShort) {
+  EXPECT_TRUE(centreByRadius(100, 0, 49.93f, true).found);
+  EXPECT_FALSE(centreByRadius(100, 0, 49.92f, true).found);
+  EXPECT_FALSE(centreByRadius(100, 0, -30, false).found);
+  EXPECT_FALSE(centreByRadius(100, 0, 0, false).found);
+}
+
+TEST(ArcCentre, IsNotFoundIfTheArcEndsWhereItBegins) {
+  EXPECT_FALSE(centreByRadius(0, 0, 50, true).found);
+}
+
+TEST(ArcCentre, IsNotFoundForNaN) {
+  EXPECT_FALSE(centreByRadius(NAN, 0, 50, true).found);
+  EXPECT_FALSE(centreByRadius(1, 0, NAN, true).found);
 }

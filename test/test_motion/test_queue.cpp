@@ -186,20 +186,6 @@ TEST(Queue, SlowsRapidsWithoutSlowingFeeds) {
   EXPECT_NEAR(double(queued.queue.first().top), 16, 1e-5);
 }
 
-TEST(Queue, LastsAsLongAsItsTrapezoids) {
-  // From rest 10 mm at 4 mm/s and 100 mm/s^2: 2.5 s and 0.04 s to gain and lose speed.
-  Queued queued;
-  queued.lineBy(10, 0, 0, 4);
-  EXPECT_TRUE(queued.queue.lastsLonger(2, {0, 0}));
-  EXPECT_FALSE(queued.queue.lastsLonger(4, {0, 0}));
-  queued.lineBy(40, 0, 0, 4);
-  EXPECT_TRUE(queued.queue.lastsLonger(12, {0, 0}));
-  EXPECT_FALSE(queued.queue.lastsLonger(14, {0, 0}));
-  // With 8 of the first 10 mm behind it 42 mm are left: 10.5 s.
-  EXPECT_TRUE(queued.queue.lastsLonger(10, {8, 4}));
-  EXPECT_FALSE(queued.queue.lastsLonger(11, {8, 4}));
-}
-
 TEST(Queue, IsFullAfterSixteenMovesAndWrapsAround) {
   Queued queued;
   for (int round = 1; round < 60; ++round) {

@@ -1,9 +1,10 @@
-// From lengths back to the place, and what happens where no sled can hang.
+// From lengths back to the place, and what happens where no sled can hang or no root is.
 #include <gtest/gtest.h>
 
 #include <limits>
 
 #include "machines.h"
+#include "reference/newton.h"
 
 using Eigen::Vector2d;
 using reference::Machine;
@@ -62,6 +63,27 @@ TEST(Hang, RefusesAWeightlessSled) {
   Machine machine = defaultMachine();
   machine.sled_weight = 0;
   EXPECT_FALSE(reference::hangAt(machine, {0, 0}).solved);
+}
+
+using Vector = Eigen::Vector2d;
+
+TEST(Newton, HalvesAStepThatOvershoots) {
+  // From 3, whole steps on an arc tangent grow without end.
+  const auto defect = [](const Vector& at) -> Vector { return {std::atan(at[0]), at[1] - at[0]}; };
+  const reference::Root<2> root = reference::findRoot<2>(defect, Vector(3, 1));
+  ASSERT_TRUE(root.found);
+  EXPECT_NEAR(0, root.at[0], 1e-12);
+  EXPECT_NEAR(0, root.at[1], 1e-12);
+}
+
+TEST(Newton, ReportsAMissingRoot) {
+  const auto defect = [](const Vector& at) -> Vector { return {at[0] * at[0] + 1, at[1]}; };
+  EXPECT_FALSE(reference::findRoot<2>(defect, Vector(3, 1)).found);
+}
+
+TEST(Newton, DoesNotTakeNaNForARoot) {
+  const auto defect = [](const Vector& at) -> Vector { return {std::sqrt(at[0]), at[1]}; };
+  EXPECT_FALSE(reference::findRoot<2>(defect, Vector(-1, 0)).found);
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
-// Power may fail in any byte: afterwards either all settings are old or all are new.
+// Power may fail in any byte, and no reset or event loses more than it should: all settings are old
+// or all are new.
 #include <algorithm>
 
 #include "boards.h"
@@ -267,4 +268,265 @@ TEST(Places, AreSetOnlyByGCode) {
     EXPECT_EQ(Access::kHidden, table.at(i).access);
     EXPECT_EQ(table.at(i).number >= 248 ? kNoPlace : 0, table.at(i).usual);
   }
+}
+
+namespace {
+
+Eeprom used() {
+  Eeprom eeprom;
+  Board board(eeprom);
+  board.memory.set(2, 3602.6f);
+  board.memory.set(180, 0.001f);
+  board.memory.set(65, 150);
+  board.memory.setRow(kSimulatedMotors, 1);
+  board.memory.keepPosition(positionOf(1));
+  settle(board.memory);
+  return eeprom;
+}
+
+}  // namespace
+
+TEST(Memory, WritesOneByteAStepWithoutWaiting) {
+  Eeprom eeprom;
+  eeprom.busy_calls = 40;
+  Board board(eeprom);
+  board.memory.set(2, 3000);
+  board.memory.keepPosition(positionOf(1));
+  uint32_t before = 0;
+  while (!board.memory.isIdle()) {
+    board.memory.step();
+    // The simulated EEPROM throws if it is read or written while a write goes on.
+    ASSERT_LE(eeprom.writes - before, 1u);
+    before = eeprom.writes;
+  }
+  EXPECT_GT(eeprom.writes, 400u);
+}
+
+TEST(Memory, MotionWaitsOnlyForItsMark) {
+  Eeprom eeprom = used();
+  Board board(eeprom);
+  settle(board.memory);
+  board.memory.reset(Reset::kSettings);
+  for (int i = 0; i < 20; ++i) board.memory.step();
+  board.memory.beginMoving();
+  const uint32_t before = eeprom.writes;
+  while (!board.memory.mayMove()) board.memory.step();
+  EXPECT_LE(eeprom.writes - before, 2u);
+  EXPECT_FALSE(board.memory.settingsStored());
+  settle(board.memory);
+  EXPECT_TRUE(board.memory.settingsStored());
+  EXPECT_TRUE(board.memory.mayMove());
+}
+
+TEST(Memory, StoresEverythingOnceTheFirstSettingIsSentToANewBoard) {
+  Eeprom eeprom;
+  {
+    Board board(eeprom);
+    ASSERT_EQ(Source::kDefaults, board.started.source);
+    board.memory.set(2, 2978.4f);
+    settle(board.memory);
+  }
+  EXPECT_EQ(Source::kStored, Board(eeprom).started.source);
+}
+
+TEST(Memory, RefusesWithoutWriting) {
+  Eeprom eeprom = used();
+  Board board(eeprom);
+  const uint32_t before = eeprom.writes;
+  EXPECT_EQ(Refusal::kOutOfRange, board.memory.set(2, 0));
+  EXPECT_EQ(Refusal::kHidden, board.memory.set(43, 0));
+  EXPECT_EQ(Refusal::kUnknown, board.memory.set(14, 0));
+  EXPECT_TRUE(board.memory.isIdle());
+  EXPECT_EQ(before, eeprom.writes);
+  Eeprom fresh;
+  Board new_board(fresh);
+  EXPECT_EQ(Refusal::kOutOfRange, new_board.memory.set(2, 0));
+  EXPECT_TRUE(new_board.memory.isIdle());
+}
+
+TEST(Reset, OfSettingsKeepsThePosition) {
+  Eeprom eeprom = used();
+  {
+    Board board(eeprom);
+    board.memory.reset(Reset::kSettings);
+    EXPECT_EQ(2978.4f, board.values.at(kMotorGap));
+    EXPECT_EQ(0, board.values.at(indexOf(board.table, 180)));
+    EXPECT_EQ(100, board.values.at(kAccelerationXy));
+    EXPECT_EQ(1, board.values.at(kSimulatedMotors));
+    settle(board.memory);
+  }
+  Board after(eeprom);
+  EXPECT_EQ(2978.4f, after.values.at(kMotorGap));
+  EXPECT_EQ(Known::kAtRest, after.started.known);
+  EXPECT_TRUE(same(positionOf(1), after.started.position));
+}
+
+TEST(Reset, OfEverythingLeavesDefaults) {
+  Eeprom eeprom = used();
+  {
+    Board board(eeprom);
+    board.memory.reset(Reset::kEverything);
+    settle(board.memory);
+  }
+  Board after(eeprom);
+  EXPECT_EQ(Known::kNothing, after.started.known);
+  for (uint8_t i = 0; i < kSettingCount; ++i)
+    EXPECT_EQ(after.table.at(i).usual, after.values.at(i));
+}
+
+TEST(Reset, CutAnywhereNeverRevivesAForgottenPosition) {
+  const int cuts = cutEverywhere(
+      used(), [](Board& board) { board.memory.reset(Reset::kEverything); },
+      [](Board& board, int) {
+        const bool old_settings = board.values.at(kMotorGap) == 3602.6f;
+        ASSERT_TRUE(old_settings || board.values.at(kMotorGap) == 2978.4f);
+        ASSERT_TRUE(old_settings || board.started.known == Known::kNothing);
+      },
+      1);
+  EXPECT_GT(cuts, 200);
+}
+
+TEST(Scale, ChangesAreNoticed) {
+  for (int number : {12, 13, 19, 20}) {
+    Eeprom eeprom = used();
+    {
+      Board board(eeprom);
+      ASSERT_EQ(board.memory.scale(), board.started.position.scale);
+      board.memory.set(2, 3000);
+      settle(board.memory);
+    }
+    {
+      Board board(eeprom);
+      EXPECT_EQ(board.memory.scale(), board.started.position.scale)
+          << "the gap does not scale counts";
+      const float was = board.values.at(indexOf(board.table, uint8_t(number)));
+      board.memory.set(uint8_t(number), was * 1.001f);
+      settle(board.memory);
+    }
+    Board after(eeprom);
+    EXPECT_NE(after.memory.scale(), after.started.position.scale) << number;
+  }
+}
+
+TEST(Memory, FitsBesideThePublishedMap) {
+  EXPECT_LE(Memory::kFirstCopy + Memory::kApart, Memory::kFirstSlot - Memory::kApart);
+  EXPECT_LE(Memory::kFirstSlot + Memory::kSlots * PositionSlots::kBytesPerSlot, 4095);
+  EXPECT_LE(Copies::bytesFor(kSettingCount), Memory::kCopyRoom);
+  EXPECT_LE(Memory::kFirstLog + EventLog::kBytes, Memory::kFirstCopy + Memory::kApart);
+}
+
+namespace {
+
+const Event kEvents[] = {Event::kBrownOut, Event::kWatchdog, Event::kSupplyLow,
+                         Event::kDriverFails};
+
+int sumOfCounts(const EventLog& log) {
+  int sum = 0;
+  for (const Event event : kEvents) sum += log.count(event);
+  return sum;
+}
+
+/// A used EEPROM in which each kind has happened as often as its number, the supply's last.
+Eeprom logged() {
+  Eeprom eeprom = usedEeprom();
+  Board board(eeprom);
+  for (const Event event : {Event::kWatchdog, Event::kDriverFails, Event::kDriverFails,
+                            Event::kDriverFails, Event::kSupplyLow, Event::kSupplyLow}) {
+    board.memory.note(event);
+    settle(board.memory);
+  }
+  return eeprom;
+}
+
+}  // namespace
+
+TEST(EventLog, BeginsEmptyAndCountsEachKind) {
+  Eeprom fresh;
+  EXPECT_EQ(0, Board(fresh).memory.log().total());
+  Eeprom eeprom = logged();
+  const Board board(eeprom);
+  const EventLog& log = board.memory.log();
+  EXPECT_EQ(0, log.count(Event::kBrownOut));
+  EXPECT_EQ(1, log.count(Event::kWatchdog));
+  EXPECT_EQ(2, log.count(Event::kSupplyLow));
+  EXPECT_EQ(3, log.count(Event::kDriverFails));
+  EXPECT_EQ(6, log.total());
+  EXPECT_EQ(Event::kSupplyLow, log.last());
+}
+
+TEST(EventLog, HasTheOldOrTheNewCountsWhereverPowerFails) {
+  Eeprom before = logged();
+  const auto values = valuesOf(Board(before));
+  bool seen_old = false, seen_new = false;
+  const int cuts = cutEverywhere(
+      before, [](Board& board) { board.memory.note(Event::kBrownOut); },
+      [&](Board& board, int writes) {
+        const EventLog& log = board.memory.log();
+        const bool is_new = log.total() == 7;
+        (is_new ? seen_new : seen_old) = true;
+        ASSERT_TRUE(is_new || log.total() == 6) << writes;
+        ASSERT_EQ(log.total(), sumOfCounts(log)) << writes;
+        ASSERT_EQ(is_new ? 1 : 0, log.count(Event::kBrownOut)) << writes;
+        ASSERT_EQ(is_new ? Event::kBrownOut : Event::kSupplyLow, log.last()) << writes;
+        ASSERT_EQ(values, valuesOf(board));
+        ASSERT_EQ(Known::kAtRest, board.started.known);
+      },
+      40);
+  EXPECT_TRUE(seen_old && seen_new);
+  std::printf("%d power cuts in the log\n", cuts);
+}
+
+TEST(EventLog, AcceptsAnEventWhileAnotherIsWritten) {
+  for (int steps = 0; steps < 40; ++steps) {
+    Eeprom eeprom = logged();
+    {
+      Board board(eeprom);
+      board.memory.note(Event::kBrownOut);
+      for (int i = 0; i < steps; ++i) board.memory.step();
+      board.memory.note(Event::kDriverFails);
+      settle(board.memory);
+    }
+    const Board after(eeprom);
+    ASSERT_EQ(8, after.memory.log().total()) << steps;
+    ASSERT_EQ(8, sumOfCounts(after.memory.log())) << steps;
+    ASSERT_EQ(Event::kDriverFails, after.memory.log().last());
+  }
+}
+
+TEST(EventLog, StopsBeforeItWearsOutACell) {
+  Eeprom eeprom = usedEeprom();
+  Board board(eeprom);
+  eeprom.worn = {};
+  for (int i = 0; i < EventLog::kMost + 50; ++i)
+    for (const Event event : kEvents) {
+      board.memory.note(event);
+      settle(board.memory);
+    }
+  for (const Event event : kEvents) EXPECT_EQ(9999, board.memory.log().count(event));
+  EXPECT_EQ(4 * 9999, board.memory.log().total());
+  EXPECT_LE(*std::max_element(eeprom.worn.begin(), eeprom.worn.end()), 20000u);
+  EXPECT_EQ(4 * 9999, Board(eeprom).memory.log().total());
+}
+
+TEST(EventLog, GivesUpAtAWornCellAndKeepsTheOtherRecord) {
+  for (int cell = 0; cell < EventLog::kBytes; ++cell) {
+    Eeprom eeprom = logged();
+    for (const uint16_t at : {uint16_t(Memory::kFirstLog), uint16_t(Memory::kFirstLog + 800)}) {
+      Eeprom copy = eeprom;
+      copy.dead[uint16_t(at + cell)] = true;
+      Board board(copy);
+      board.memory.note(Event::kWatchdog);
+      settle(board.memory);
+      const int total = Board(copy).memory.log().total();
+      EXPECT_TRUE(total == 6 || total == 7) << cell;
+    }
+  }
+}
+
+TEST(EventLog, OutlivesEveryReset) {
+  Eeprom eeprom = logged();
+  Board board(eeprom);
+  board.memory.reset(Reset::kEverything);
+  settle(board.memory);
+  EXPECT_EQ(6, Board(eeprom).memory.log().total());
 }

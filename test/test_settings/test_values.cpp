@@ -1,8 +1,12 @@
-// Every setting has a default within its limits, and only values that make sense are taken.
+// Every setting has a default within its limits, only values that make sense are taken, and their
+// text reads back.
+#include <Settings.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <set>
+#include <cstdlib>
+#include <cstring>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -38,30 +42,6 @@ float valueOf(const Held& held, uint8_t number) {
 
 }  // namespace
 
-TEST(Table, NumbersRiseAndAvoidReservedOnes) {
-  FlashTable table;
-  int before = -1;
-  for (uint8_t i = 0; i < table.count(); ++i) {
-    const int number = table.at(i).number;
-    EXPECT_GT(number, before);
-    EXPECT_TRUE(number <= 44 || (number >= 60 && number <= 84) || number == 99 || number >= 100);
-    EXPECT_NE(144, number);
-    EXPECT_NE(14, number);
-    before = number;
-  }
-}
-
-TEST(Table, ListsEveryPublishedNumberAndNoneThatWebControlWouldAnswer) {
-  FlashTable table;
-  std::set<int> listed;
-  for (uint8_t i = 0; i < table.count(); ++i)
-    if (table.at(i).access == Access::kListed) listed.insert(table.at(i).number);
-  for (int number = 0; number <= 42; ++number) EXPECT_EQ(number != 14, listed.count(number) == 1);
-  // 60 and 61 have the same meaning in the published beta.
-  for (int number = 43; number <= 59; ++number) EXPECT_FALSE(listed.count(number)) << number;
-  for (int number = 85; number <= 99; ++number) EXPECT_FALSE(listed.count(number)) << number;
-}
-
 TEST(Table, EveryDefaultMayBeSet) {
   FlashTable table;
   for (uint8_t i = 0; i < table.count(); ++i) {
@@ -72,36 +52,6 @@ TEST(Table, EveryDefaultMayBeSet) {
     EXPECT_EQ(Refusal::kOutOfRange, judge(entry, entry.high * 1.001f + 0.001f));
     EXPECT_EQ(Refusal::kNoNumber, judge(entry, NAN));
     EXPECT_EQ(Refusal::kNoNumber, judge(entry, INFINITY));
-  }
-}
-
-TEST(Table, HoldsEveryEffectParameterWithDefaultAbsent) {
-  FlashTable table;
-  int found = 0;
-  for (int number = 100; number < kFirstPlaceNumber; ++number) {
-    const int place = kinematics::Effects::For<float>::indexOf(number);
-    const uint8_t index = indexOf(table, uint8_t(number));
-    ASSERT_EQ(place >= 0, index != kNoIndex) << number;
-    if (place < 0) continue;
-    ++found;
-    EXPECT_EQ(kFirstEffectSetting + place, index);
-    EXPECT_EQ(0, table.at(index).usual);
-    EXPECT_LT(table.at(index).low, 0);
-    EXPECT_GT(table.at(index).high, 0);
-  }
-  EXPECT_EQ(int(kinematics::kEffectParamCount), found);
-}
-
-TEST(Table, EffectLimitsAreTheirPlausibleRangeWidened) {
-  FlashTable table;
-  const Entry pitch = table.at(indexOf(table, 180));
-  EXPECT_FLOAT_EQ(-0.008f, pitch.low);
-  EXPECT_FLOAT_EQ(0.013f, pitch.high);
-  // For both signs: 30 mm each way, widened by the width of the range.
-  for (const uint8_t number : {200, 201}) {
-    const Entry zero = table.at(indexOf(table, number));
-    EXPECT_FLOAT_EQ(-90, zero.low) << int(number);
-    EXPECT_FLOAT_EQ(90, zero.high) << int(number);
   }
 }
 
@@ -152,4 +102,81 @@ TEST(Dump, CommentsHoldNothingThatAClientTakesForALine) {
     EXPECT_LE(text.size(), 60u) << text;
     for (char c : text) EXPECT_TRUE(c >= ' ' && c <= '~') << text;
   }
+}
+
+namespace {
+
+std::string textOf(float value) { return formatValue(value).text; }
+
+float fromBits(uint32_t bits) {
+  float value;
+  std::memcpy(&value, &bits, sizeof value);
+  return value;
+}
+
+/// Digits from the first that is not zero to the exponent.
+int significantDigits(const std::string& text) {
+  int digits = 0;
+  for (char c : text.substr(0, text.find('e')))
+    if (c >= '0' && c <= '9' && (digits > 0 || c != '0')) ++digits;
+  return digits;
+}
+
+}  // namespace
+
+TEST(Format, WritesNumbersAsAPersonWould) {
+  EXPECT_EQ("2438.4", textOf(2438.4f));
+  EXPECT_EQ("2978.4", textOf(2978.4f));
+  EXPECT_EQ("8113.73", textOf(8113.73f));
+  EXPECT_EQ("139.1", textOf(139.1f));
+  EXPECT_EQ("0.28", textOf(0.28f));
+  EXPECT_EQ("463", textOf(463));
+  EXPECT_EQ("65535", textOf(65535));
+  EXPECT_EQ("-3.17", textOf(-3.17f));
+  EXPECT_EQ("0.00137293", textOf(0.00137293f));
+  EXPECT_EQ("0.0001", textOf(0.0001f));
+  EXPECT_EQ("5.2e-6", textOf(5.2e-6f));
+  EXPECT_EQ("8.2e-12", textOf(8.2e-12f));
+  EXPECT_EQ("100000000", textOf(1e8f));
+  EXPECT_EQ("1e9", textOf(1e9f));
+  EXPECT_EQ("-1.5e20", textOf(-1.5e20f));
+}
+
+TEST(Format, ZeroIsExactlyZero) {
+  EXPECT_EQ("0", textOf(0.0f));
+  EXPECT_EQ("0", textOf(-0.0f));
+}
+
+TEST(Format, EveryFloatReadsBackAsItself) {
+  std::mt19937 random(11);
+  for (int i = 0; i < 2000000; ++i) {
+    const float value = fromBits(uint32_t(random()));
+    if (!std::isfinite(value)) continue;
+    const std::string text = textOf(value);
+    ASSERT_LT(text.size(), sizeof(ValueText)) << text;
+    ASSERT_EQ(value, std::strtof(text.c_str(), nullptr)) << text;
+    // Numbers below 1.2e-38 have fewer binary digits to begin with.
+    const double ratio = std::strtod(text.c_str(), nullptr) / double(value);
+    ASSERT_NEAR(1, ratio, std::fabs(value) >= 1.2e-38f ? 1e-7 : 1) << text;
+    ASSERT_LE(significantDigits(text), 9) << text;
+  }
+}
+
+TEST(Format, WritesNoMoreDigitsThanNeeded) {
+  // Against the printf of the host: never more digits than the shortest of 7 to 9 that reads back.
+  std::mt19937 random(12);
+  std::uniform_real_distribution<double> exponent(-14, 6);
+  int longer = 0;
+  for (int i = 0; i < 100000; ++i) {
+    const float value = float(std::pow(10.0, exponent(random)));
+    int needed = 7;
+    char text[40];
+    for (; needed < 9; ++needed) {
+      std::snprintf(text, sizeof text, "%.*g", needed, double(value));
+      if (std::strtof(text, nullptr) == value) break;
+    }
+    if (significantDigits(textOf(value)) > needed) ++longer;
+  }
+  // If rounding decides, an additional digit is written.
+  EXPECT_LT(longer, 3000);
 }

@@ -1,12 +1,35 @@
-"""The dry run against the virtual machine, and its arcs that turn z against a judge."""
+"""The dry run, and programs made from it: resumed, fixed, and how long they last."""
+
+import re
 
 import numpy as np
 import pytest
+from example_machine import INI
 from plumb.bench.boards import MAKER
+from plumb.cli.main import main
+from plumb.firmware.settings import values_of
 from plumb.firmware.telemetry import telemetry_in
-from plumb.job.dry_run import Run, pieces
+from plumb.job.check import check_job
+from plumb.job.dry_run import (
+    GOUGES,
+    HALTS,
+    IN_WOOD,
+    SINKS,
+    Run,
+    TimeLeft,
+    Timetable,
+    pieces,
+    timetable,
+)
+from plumb.job.fixes import fixed
+from plumb.job.resume import JobMachine, cycles_after, resume_at_line, resume_at_place, tools_after
+from plumb.job.wood import Tools
+from plumb.settings.machine import machine_toml, write_machine_toml
+from plumb.text.errors import InputError
+from plumb.vm.garage import hide, random_garage
 from scipy.spatial import cKDTree
 from scipy.spatial.transform import Rotation
+from usual_machine import switched_on
 from workshop import NAMES, PROGRAMS, Workshop, lines_of, run_dry
 
 APART = 0.35  # [mm] between the cut and the way of the dry run; steps of 0.1 mm and following error
@@ -153,3 +176,508 @@ def test_a_full_circle_returns_and_a_limit_of_z_cuts_it_flat():
     corners = polyline(done.moves.only(done.moves["line"] == 3))
     assert corners[:, 2].max() == pytest.approx(10, abs=1e-3)
     assert corners[:, 2].min() == pytest.approx(5, abs=0.01)
+
+
+MACHINE = JobMachine(MAKER, (0.0, 0.0, 0.0), {})
+TRIED = 8  # of each program that are tried
+AFTER_HALT = 0.5  # [mm] at most between the cut after a halt and the cut without
+NUMBERS = ("from_x", "from_y", "to_x", "to_y", "z_from", "z_to", "length", "sweep")
+
+
+def same_moves(after, moves):
+    """Whether the last moves of a resumed program are these, at the same feeds."""
+    assert len(after) >= len(moves)
+    tail = after.only(np.arange(len(after) - len(moves), len(after)))
+    for name in NUMBERS:
+        assert tail[name] == pytest.approx(moves[name], abs=0.02), name
+    assert tail["asked"] == pytest.approx(moves["asked"], rel=1e-4)
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_from_any_line_on_the_same_moves_follow(name):
+    lines = lines_of(name)
+    moves = run_dry(lines).moves
+    drawn = np.random.default_rng(len(lines)).permutation(len(lines))[:TRIED]
+    for line in (1 + drawn).tolist():
+        resumed = resume_at_line(MACHINE, lines, line)
+        assert resumed.first <= line
+        assert resumed.begins[2] >= IN_WOOD
+        checked = check_job(MAKER, resumed.lines)
+        same_moves(checked.done.moves, moves.only(moves["line"] >= resumed.first))
+        assert not {each.kind for each in checked.findings} & {GOUGES, HALTS}
+        assert resumed.lines[1].split()[-1].startswith("Z") and "G0 Z" in resumed.lines[1]
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_from_any_place_of_a_cut_on_the_same_moves_follow(name):
+    lines = lines_of(name)
+    moves = run_dry(lines).moves
+    source = np.random.default_rng(len(lines))
+    cut = np.flatnonzero(moves.cut & ~moves.rapid & (moves["length"] > 1))
+    for row in source.choice(cut, min(len(cut), 4), replace=False):
+        place = moves.places_at(np.array([row]), np.array([source.uniform(0.1, 0.9)]))[0]
+        resumed = resume_at_place(MACHINE, lines, tuple(place), int(moves["line"][row]))
+        entry = resumed.entry
+        assert entry is not None
+        assert np.hypot(*np.subtract(entry.place, place)) < 0.06
+        checked = check_job(MAKER, resumed.lines)
+        after = checked.done.moves
+        # The rest of the move that is cut in two ends where the move ended.
+        later = moves.only(moves["line"] > entry.line)
+        same_moves(after, later)
+        rest = after.only(np.arange(len(after) - len(later) - len(entry.rows), len(after)))
+        whole = entry.rows
+        assert rest["to_x"][0] == pytest.approx(whole["to_x"][0], abs=0.01)
+        assert rest["to_y"][0] == pytest.approx(whole["to_y"][0], abs=0.01)
+        assert rest["length"][0] == pytest.approx((1 - entry.share) * whole["length"][0], abs=0.05)
+        assert (rest["sweep"][0] > 0) == (whole["sweep"][0] > 0)
+        assert not {each.kind for each in checked.findings} & {GOUGES, HALTS}
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_the_cut_after_a_halt_is_the_cut_without(name):
+    """The virtual machine is stopped in the middle of a line drawn by chance, then goes on."""
+    lines = lines_of(name)
+    way = run_dry(lines).moves
+    source = np.random.default_rng(NAMES.index(name) + 7)
+    line = int(source.choice(np.unique(way["line"][way.cut])))
+    workshop = Workshop()
+    workshop.cut(lines[: line - 1])
+    workshop.machine.send(lines[line - 1].encode() + b"\n")
+    workshop.machine.advance(int(source.integers(100, 900)))
+    workshop.stop()
+    workshop.cut(list(resume_at_line(MACHINE, lines, line).lines))
+    cut = np.array(workshop.machine.cuts())[:, 2:] * (1, 1, -1)
+    samples = way.sampled(0.1)
+    places = np.column_stack([samples.places, samples.z])
+    off, _ = cKDTree(places).query(cut)
+    assert off.max() < AFTER_HALT
+    rises = way["z_to"] > way["z_from"]
+    deep = (samples.z < -0.1) & ~rises[samples.move]
+    off, _ = cKDTree(cut).query(places[deep])
+    assert off.max() < AFTER_HALT
+
+
+def test_a_cycle_is_drilled_from_its_beginning():
+    lines = ["G0 Z4", "G81 X9 Z-3 R1 F60", "X20", "(c)", "X30", "G80", "G0 X0"]
+    begins = [resume_at_line(MACHINE, lines, line).first for line in range(1, 8)]
+    assert begins == [1, 2, 2, 2, 2, 2, 7]
+    in_force = cycles_after(["G82 Z-1", "G4 P1", "G1 X4", "G83 X5", "M2"])
+    assert in_force == [True, True, False, True, False]
+    resumed = resume_at_place(MACHINE, lines, (20, 0))
+    assert resumed.first == 2 and resumed.entry is None
+    # Later holes go up to where these did.
+    for code in ("G98", "G99"):
+        later = resume_at_line(MACHINE, [lines[0], f"{code} {lines[1]}", *lines[2:]], 7)
+        assert any(f" {code} " in line for line in later.lines)
+
+
+def test_spindle_laser_tool_and_units_are_as_they_were():
+    lines = ["G20", "T4 M6", "M3 S9000", "G0 Z0.2", "G1 Z-0.1 F5", "G91 X1 F20", "M5", "G90 G0 Z1"]
+    resumed = resume_at_line(MACHINE, lines, 6)
+    assert "T4 M6" in resumed.lines and "M3 S9000" in resumed.lines
+    assert resumed.lines.index("T4 M6") < resumed.lines.index("M3 S9000")
+    assert "G20 G17 G98 G91.1 F17.717 G0" in resumed.lines
+    late = resume_at_line(MACHINE, [*lines, "G1 X0"], 9)
+    assert late.first == 9 and "M3 S9000" not in late.lines and "T4 M6" in late.lines
+    assert late.lines[-2:] == ("G90 G94", "G1 X0")
+    tools = tools_after(["M106 S80", "G4 S3", "M4 S100"])
+    assert tools.spindle_lines == ["M4 S100"] and tools.laser_lines == ["M106 S100"]
+    assert tools_after(["M106", "G1 X1"]).laser_lines == ["M106 S255"]
+    assert tools_after(["M3 S5", "M106", "M30"]).spindle_lines == []
+    assert tools_after(["M3"]).spindle_lines == ["M3"]
+    assert tools_after(["M3 S5", "M2"]).spindle_lines == []
+    assert tools_after(["M106 S80", "M107", "M3"]).spindle_lines == ["M3 S80"]
+
+
+@pytest.mark.parametrize("code", ["G92 X10 Y20", "G43.1 Z7", "G10 L2 P1 X30 Y-5", "G55"])
+def test_coordinates_that_the_program_sets_are_set_again(code):
+    lines = ["G0 X40 Y10", code, "G0 Z12", "G0 X5", "G1 Z-1 F60", "G1 X25 Y8 F500", "G0 Z12"]
+    lines += ["X9", "G1 Z-2", "G2 X19 I5 J0", "G0 Z12"]
+    moves = run_dry(lines).moves
+    for line in (6, 8, 10):
+        resumed = resume_at_line(MACHINE, lines, line)
+        wanted = moves.only(moves["line"] >= resumed.first)
+        same_moves(run_dry(resumed.lines).moves, wanted)
+        # A machine that kept its power still has them.
+        halted = MACHINE.after(lines[: line - 1])
+        halted.send(resumed.lines)
+        same_moves(halted.finish().moves, wanted)
+
+
+LATER = {
+    "another system": ("G10 L2 P2 X50 Y40 Z1\nG55", "G54"),
+    "two of them": ("G10 L2 P3 X50\nG10 L20 P2 X3 Y4\nG56", "G55"),
+    "a longer bit": ("G43.1 Z7", "G43.1 Z9"),
+    "no tool's length": ("G43.1 Z7", "G49"),
+    "no shift": ("G92 X10 Y20 Z5", "G92.1"),
+    "a shift put aside": ("G92 X10 Y20 Z5", "G92.2"),
+    "a shift taken back": ("G92 X10 Y20 Z5\nG92.2", "G92.3"),
+    "both": ("G10 L2 P2 X50\nG55\nG43.1 Z7\nG92 Y9", "G92.1\nG54\nG49"),
+}
+
+
+@pytest.mark.parametrize("name", LATER)
+def test_coordinates_that_the_program_changes_later_begin_as_before(name):
+    first, later = (each.split("\n") for each in LATER[name])
+    up = "G53 G0 Z12"
+    lines = ["G0 X40 Y10", *first, up, "G0 X5", "G53 G1 Z-1 F60", "X25 Y8 F500", up]
+    lines += [*later, up, "G0 X9 Y3", "G0 Z8", "G1 Z6", "X19", up]
+    cut = lines.index("X25 Y8 F500") + 1
+    moves = run_dry(lines).moves
+    resumed = resume_at_line(MACHINE, lines, cut)
+    wanted = moves.only(moves["line"] >= resumed.first)
+    same_moves(run_dry(resumed.lines).moves, wanted)
+    halted = MACHINE.after(lines[: cut - 1])
+    halted.send(resumed.lines)
+    same_moves(halted.finish().moves, wanted)
+
+
+@pytest.mark.parametrize(
+    ("code", "z"),
+    [("G92 X10 Y20", -1), ("G43.1 Z7", -8), ("G92 Z15", 8), ("G10 L2 P1 X30 Y-5", -1)],
+)
+def test_so_are_coordinates_in_the_middle_of_a_cut(code, z):
+    up = f"G0 Z{z + 12}"
+    lines = ["G0 Z5", code, up, "G0 X5", f"G1 Z{z} F60", "G1 X25 Y8 F500", "G3 X65 I20", up, "X9"]
+    moves = run_dry(lines).moves
+    cut = moves.only(moves["line"] == 6)
+    place = ((cut["from_x"][0] + cut["to_x"][0]) / 2, (cut["from_y"][0] + cut["to_y"][0]) / 2)
+    resumed = resume_at_place(MACHINE, lines, place, 6)
+    assert resumed.entry.share == pytest.approx(0.5, abs=0.01)
+    after = check_job(MAKER, resumed.lines).done.moves
+    same_moves(after, moves.only(moves["line"] > 6))
+    rest = after.only(np.flatnonzero(after["asked"] == 500)[:1])
+    for name in ("to_x", "to_y", "z_from", "z_to"):
+        assert rest[name] == pytest.approx(cut[name], abs=0.02), name
+    assert rest["length"] == pytest.approx(cut["length"] / 2, abs=0.1)
+
+
+def test_the_first_pass_is_taken_unless_a_line_is_named():
+    lines = ["G0 Z4", "G1 Z-1 F60", "G1 X50 F500", "Y20", "Y0", "X0", "G1 Z-2 F70", "X50", "G0 Z4"]
+    resumed = resume_at_place(MACHINE, lines, (25, 1))
+    assert resumed.first == 3 and resumed.entry.passes == (3, 6, 8)
+    assert resumed.entry.z == pytest.approx(-1, abs=0.01) and resumed.entry.plunge == 60
+    lines[6:6] = ["G0 Z3", "G0 X0"]
+    third = resume_at_place(MACHINE, lines, (25, 1), line=9)
+    assert third.first == 10 and third.entry.z == pytest.approx(-2, abs=0.01)
+    assert "G1 Z-2.0000 F70" in third.lines
+
+
+def test_impossible_values_are_refused():
+    with pytest.raises(InputError, match="the program has 2 lines"):
+        resume_at_line(MACHINE, ["G0 X1", "G0 X2"], 3)
+    with pytest.raises(InputError, match=r"no cut passes within 5 mm of X9 Y50; .* X9\.0 Y0\.0"):
+        resume_at_place(MACHINE, ["G1 Z-1 F60", "G1 X20 F500"], (9, 50))
+    with pytest.raises(InputError, match="cuts nothing"):
+        resume_at_place(MACHINE, ["G0 X20"], (9, 50))
+
+
+def test_the_command_writes_the_program(run, ask, tmp_path):
+    output = tmp_path / "rest.nc"
+    job = PROGRAMS / "kirimoto_outline.nc"
+    code, said, _ = run("resume", job, INI, "--line", "18", "-o", output)
+    assert code == 0 and "goes on with line 11" in said
+    assert output.read_text().startswith("(plumb: kirimoto_outline.nc from line 11 on)\nG21")
+    assert "Look at it before you send it:" in said and f"{output}" in said
+    code, answer = ask("resume", job, INI, "--line", "18", "-o", output)
+    assert code == 0 and answer["written"] == [str(output)] and answer["passes"] == []
+    assert (answer["line"], len(answer["begins_mm"])) == (11, 3)
+    code, answer = ask("resume", job, INI, "--at=-60,65", "-o", output)
+    assert (answer["line"], answer["passes"]) == (13, [13, 20]) and answer["begins_mm"][2] < 0
+    code, said, report = run("resume", job, INI, "--at=-60,65")
+    assert "Look at it" not in said + report
+    assert code == 0 and "G1 Z-1.0000 F150\n" in said
+    assert re.search(r"line 13, at X-60.\d\d Y65.\d\d, 1.00 mm deep", report.replace("\n", " "))
+    assert "It cuts there again at line 20" in report
+    code, _, complaint = run("resume", job, INI)
+    assert code == 2 and "--line N, --at X,Y" in complaint
+
+
+FUSION = """G90 G94
+G17
+G21
+G28 G91 Z0.
+G90
+S12000 M3
+G54
+G0 X-50 Y10
+Z15.
+Z5.
+G98 G81 X-50 Y10 Z-4. R2. F300
+X-40
+G80
+Z15.
+X0 Y0
+Z5
+G1 Z0 F300
+G18 G2 X1 Z-1 I1 K0 F1000
+G17
+G1 X20
+N5 G28 G91 Z0.
+G90
+G28 G91 X0. Y0.
+G90
+M5
+M30""".splitlines()
+# What it says to a machine that has a home and reads G80 as Fusion does, written by hand.
+MEANT = [*FUSION]
+MEANT[3], MEANT[20], MEANT[22] = "G91 G53 G0 Z15", "G91 G53 G0 Z15", "G91"
+MEANT[14] = "G0 X0 Y0"
+
+
+def fix(lines):
+    findings = check_job(MAKER, lines, tools=Tools.of(lines)).findings
+    return fixed(MACHINE, lines, findings, source="job.nc")
+
+
+def cut(lines):
+    """The finished piece, and the places of each cut."""
+    checked = check_job(MAKER, lines, tools=Tools.of(lines))
+    moves = checked.done.moves
+    return checked, moves.only(moves.cut).sampled(0.5)
+
+
+def assert_cuts_the_same(lines, others):
+    (these, places), (those, other_places) = cut(lines), cut(others)
+    assert these.done.halted_at is None and these.is_good, these.findings
+    assert these.piece.removed == pytest.approx(those.piece.removed, rel=1e-9)
+    np.testing.assert_allclose(places.places, other_places.places, atol=1e-3)
+    np.testing.assert_allclose(np.minimum(places.z, 0), np.minimum(other_places.z, 0), atol=1e-3)
+    assert these.piece.removed > 100
+
+
+def test_a_fusion_program_runs_and_cuts_as_intended():
+    mended = fix(FUSION)
+    assert [each.line for each in mended.changes] == [4, 15, 21, 23]
+    assert len(mended.lines) == len(FUSION)
+    assert mended.lines[3] == "G91 G53 G0 Z15.000" and mended.lines[20] == "G91 G53 G0 Z15.000 G1"
+    assert mended.lines[14] == "G0 X0 Y0"
+    assert mended.lines[22] == "G91"
+    assert_cuts_the_same(mended.lines, MEANT)
+    assert fix(mended.lines) == type(mended)(mended.lines, ())
+
+
+def test_a_retract_after_holes_cancels_the_motion_and_keeps_the_rest_of_its_line():
+    lines = ["G0 Z3", "G81 X9 Z-4 R2 F200", "G80", "G28 G91 Z0 S9000 T2", "G90", "X20", "G0 X0"]
+    mended = fix(lines)
+    # A program that stays low gets the height that the check takes for clear.
+    assert mended.lines[3] == "G91 S9000 T2 G53 G0 Z5.000 G80"
+    assert mended.lines[5] == "G0 X20"
+    assert_cuts_the_same(mended.lines, [*lines[:3], "G0 Z5", "G90", "G0 X20", "X0"])
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_a_program_that_runs_is_not_changed(name):
+    assert fix(lines_of(name)).changes == ()
+
+
+@pytest.mark.parametrize(
+    ("says", "lines"),
+    [
+        # What is no habit that is known.
+        ("line 2: cannot be fixed: G41 D1", ["G0 Z5", "G41 D1", "G1 Z-1 F200", "X5", "G0 Z5"]),
+        # The program counts on from an unknown home.
+        ("line 4", ["G0 Z5", "G28 X0 Y0", "G91", "G1 X5 Y5 Z-7 F300", "G90 G0 Z5"]),
+        ("line 3", ["G0 Z5", "G91 G28 Z0", "G1 Z-12 F300", "X9", "G90 G0 Z5"]),
+        ("line 4", ["G0 Z5", "G28 G91 X0 Y0", "G90 X5", "G1 Z-2 F300", "X9", "G0 Z5"]),
+        # The way home would lead through the wood.
+        ("line 3", ["G0 X9", "G1 Z-3 F300", "G28 X0 Y0", "G0 Z5"]),
+        # In the middle of a cycle, which the way home may end or not.
+        ("line 3", ["G0 Z5", "G81 X9 Z-3 R2 F200", "G28 G91 Z0", "G90 G80", "G0 Z5"]),
+        # After G80 a place in the wood, and one without a motion in force.
+        ("line 3", ["G81 X9 Z-3 R2 F200", "G80", "Z-4", "G0 Z5"]),
+        ("line 4", ["G1 Z3 F300", "G81 X9 Z-3 R2 F200", "G80", "X20", "G0 Z5"]),
+    ],
+)
+def test_a_line_without_an_equivalent_is_refused(says, lines):
+    with pytest.raises(InputError) as refused:
+        fix(lines)
+    assert says in str(refused.value) and "\n" not in str(refused.value)
+    assert str(refused.value).startswith("job.nc, line")
+
+
+def test_the_command_writes_lists_or_refuses_the_changes(here, capsys):
+    write_machine_toml("machine.toml", MAKER)
+    (here / "job.nc").write_text("\n".join(FUSION))
+    assert main(["check", "job.nc", "machine.toml"]) == 1
+    assert "plumb check job.nc machine.toml --fix mended.nc" in capsys.readouterr().out
+    for _ in range(2):  # the second time it replaces what it wrote
+        assert main(["check", "job.nc", "machine.toml", "--fix", "out.nc"]) == 0
+        said = capsys.readouterr().out
+        assert said.startswith("out.nc cuts the same, with 4 lines changed:\n- line 4:")
+        assert "Nothing is wrong with out.nc." in said
+    assert len((here / "out.nc").read_text().splitlines()) == len(FUSION)
+    (here / "job.nc").write_text("G0 Z5\nG41 D1\nG1 Z-1 F200\n")
+    assert main(["check", "job.nc", "machine.toml", "--fix", "other.nc"]) == 2
+    assert not (here / "other.nc").exists()
+    assert capsys.readouterr().err.count("\n") == 1
+
+
+@pytest.mark.parametrize(
+    ("line", "meant"),
+    [
+        ("G73 X10 Y10 Z-3 R1 Q1.5 F100", "G83 X10 Y10 Z-3 R1 Q1.5 F100"),
+        ("G98 G73 X10 Y10 Z-3 R1 Q0 F100", "G98 G81 X10 Y10 Z-3 R1 F100"),
+        ("G83 X10 Y10 Z-3 R1 Q0. F100", "G81 X10 Y10 Z-3 R1 F100"),
+    ],
+)
+def test_chip_breaking_cycles_become_cycles_of_this_machine(line, meant):
+    program = ["G0 Z5", line, "X30", "G80", "G0 Z5"]
+    mended = fix(program)
+    assert list(mended.lines) == ["G0 Z5", meant, *program[2:]]
+    assert [change.line for change in mended.changes] == [2]
+
+
+FREE = "G0 Z{up}"
+HOLE = "G17 G98 G81 X{x:.4f} Y{y:.4f} Z-{deep} R{up} F{feed}"
+# Foreign lines, and what each says to this machine. All end with the bit free, in G0.
+HABITS = {
+    "G53": ([FREE, "G53 G0 Z-{up}"], [FREE, FREE]),
+    "G28": ([FREE, "G28 G91 Z0", "G90"], [FREE, FREE, "G90"]),
+    "G80": (
+        [FREE, HOLE, "G80", "X{beside:.4f}", "X{x:.4f}"],
+        [FREE, HOLE, "G80", "G0 X{beside:.4f}", "X{x:.4f}"],
+    ),
+}
+MILLIMETRES = {"up": 9, "deep": 2, "feed": 200}
+INCHES = {"up": 0.36, "deep": 0.08, "feed": 8}
+CODED = re.compile(r"(?:N\d+ *)?G0?[01](?!\d)", re.IGNORECASE)
+
+
+def with_lines_put_in(lines, put_in):
+    """The program with some lines put in wherever the bit is free and the next line, with a code of
+    its own, moves freely or straight down; and at how many places.
+    """
+    moves = run_dry(lines).moves
+    in_inches = any("G20" in line for line in lines)
+    numbers, unit = (INCHES, 25.4) if in_inches else (MILLIMETRES, 1.0)
+    result, count = [], 0
+    for number, line in enumerate(lines, start=1):
+        before, here = moves.only(moves["line"] < number), moves.only(moves["line"] == number)
+        slanting = here.cut & (here["length"] > 0)
+        if len(before) and before["z_to"][-1] > 0 and CODED.match(line) and not slanting.any():
+            place = {axis: before[f"to_{axis}"][-1] / unit for axis in "xy"}
+            x_beside = place["x"] + 1
+            result += [each.format(**numbers, **place, beside=x_beside) for each in put_in]
+            count += 1
+        result.append(line)
+    return result, count
+
+
+def piece_of(lines):
+    """The wood that the dry run cuts, and the deepest cut [mm]."""
+    checked = check_job(MAKER, lines, tools=Tools.of(lines))
+    assert checked.done.halted_at is None
+    return checked.piece
+
+
+@pytest.mark.parametrize("habit", HABITS)
+@pytest.mark.parametrize("name", NAMES)
+def test_a_fixed_program_cuts_the_same_wood(name, habit):
+    foreign, plain = HABITS[habit]
+    lines = lines_of(name)
+    spoilt, count = with_lines_put_in(lines, foreign)
+    meant, _ = with_lines_put_in(lines, plain)
+    findings = check_job(MAKER, spoilt, tools=Tools.of(spoilt)).findings
+    mended = fixed(JobMachine(MAKER, (0.0, 0.0, 0.0), {}), spoilt, findings, source=name)
+    assert count and len(mended.changes) == count
+    after, wanted = piece_of(mended.lines), piece_of(meant)
+    assert after.removed == pytest.approx(wanted.removed, rel=1e-9) and after.removed > 0
+    assert after.deepest == pytest.approx(wanted.deepest, abs=1e-6)
+    if habit != "G80":
+        assert after.removed == pytest.approx(piece_of(lines).removed)
+
+
+WEAK = 2  # the seed of a machine whose gears hold little
+LOW, HIGH = 200, 500  # [mm] y of rests that hold, and that may not
+
+
+def rests(lines, settings=MAKER):
+    """Lines at which the sled may sink."""
+    checked = check_job(settings, lines)
+    assert checked.is_good
+    return [each.line for each in checked.findings if each.kind == SINKS]
+
+
+@pytest.mark.parametrize(("y", "lines"), [(LOW, []), (HIGH, [3])])
+def test_the_end_of_a_program_is_checked(y, lines):
+    assert rests(["G21", "G0 Z5", f"G0 X0 Y{y}"]) == lines
+    assert rests(["G0 Z5", f"G0 X0 Y{y}", "G0 Y0"]) == []
+
+
+def test_a_caution_is_not_an_error(tmp_path, capsys):
+    (tmp_path / "machine.toml").write_text(machine_toml(MAKER))
+    job = ["M0", f"G0 X9 Y{HIGH}", "G0 X5"]
+    (tmp_path / "job.nc").write_text("\n".join(["G0 Z5", *job, ""]))
+    assert main(["check", str(tmp_path / "job.nc"), str(tmp_path / "machine.toml")]) == 0
+    said = " ".join(capsys.readouterr().out.split())
+    assert "Nothing is wrong with job.nc, but look at line 4." in said
+    assert "line 4: the program ends at X5.00 Y500.00, where the sled may sink" in said
+    assert "a chain pulls with 137 N, and some gears hold no more than 104 N" in said
+
+
+def test_a_machine_with_weak_gears_slides_only_where_the_check_says_so():
+    garage = random_garage(hide([], millimetres=3, seed=WEAK), WEAK, feed="top")
+    machine = garage.machine(elf=None)
+    said: list[str] = []
+    sender = switched_on(machine, garage.settings, said=said.append)
+    slid = {}
+    for y in (LOW, 300):
+        sender.stream([f"G0 X0 Y{y}", "G4 P0"])
+        machine.advance(500)
+        sender.listen()
+        machine.advance(6000)
+        sender.listen()
+        # The machine watches motors that it let go, and holds the sled again.
+        slid[y] = any(line.startswith("The sled slid with its motors off") for line in said)
+        assert sender.status.place[1] == pytest.approx(y, abs=1.5)
+        assert slid[y] == bool(rests(["G0 Z5", f"G0 X0 Y{y}"], garage.settings))
+    # In a pause the motors keep their power.
+    machine.send(b"G0 X0 Y300\nM0\n")
+    machine.advance(5000)
+    sender.listen()
+    before = sender.status.place[1]
+    machine.advance(20_000)
+    sender.listen()
+    assert sender.status.state == "Pause" and before == pytest.approx(300, abs=0.1)
+    assert sender.status.place[1] == pytest.approx(before, abs=0.1)
+    machine.stop()
+    assert slid == {LOW: False, 300: True}
+
+
+POCKET_LINES = lines_of("fusion_pocket.nc")
+
+
+def test_the_timetable_is_that_of_the_check():
+    table = timetable(values_of(MAKER), POCKET_LINES, (0.0, 0.0, 0.0))
+    done = run_dry(POCKET_LINES)
+    assert table.whole == pytest.approx(done.seconds, abs=0.1)
+    assert len(table.done_at) == len(POCKET_LINES) + 1 and table.done_at[0] == 0
+    assert (np.diff(table.done_at) >= 0).all()
+    last = int(done.moves["line"][20])
+    ends = done.moves["ends"][done.moves["line"] == last].max()
+    assert table.done_at[last] == pytest.approx(ends, abs=0.1)
+
+
+@pytest.mark.parametrize("slower", [0.5, 1.0, 1.6])
+def test_time_left_follows_how_the_machine_runs(slower):
+    """Each line takes 2 s by the timetable; the machine takes `slower` times as long."""
+    left = TimeLeft(Timetable(np.arange(0.0, 2001.0, 2.0)), ahead=1.0)
+    assert left.seconds == pytest.approx(2000)
+    for line in range(501):
+        left.note(100 + 2 * slower * line, line, pauses=False)
+    assert left.share == pytest.approx(0.5, abs=0.01)
+    assert left.seconds == pytest.approx(1000 * slower, rel=0.03)
+
+
+def test_pauses_do_not_count_and_the_end_is_the_end():
+    left = TimeLeft(Timetable(np.arange(0.0, 201.0, 2.0)), ahead=1.0)
+    for line in range(51):
+        left.note(2.0 * line, line, pauses=False)
+    before = left.seconds
+    left.note(5000.0, 50, pauses=True)
+    left.note(5000.5, 50, pauses=False)
+    assert left.seconds == pytest.approx(before, abs=1.0)
+    left.note(5100.0, 100, pauses=False)
+    assert left.seconds < 2 and left.share > 0.99

@@ -1,15 +1,17 @@
-"""The sender: ahead of the answers, never beyond the machine's buffer, and stopped by a refusal."""
+"""The sender and the numbers over the line: stopped by a refusal, waiting for the rest."""
 
 from types import SimpleNamespace
 
 import pytest
 from line_board import REPORT, Board
-from plumb.line.memory import refuse_while_moving
+from numbers_machine import NumbersMachine
+from plumb.line.memory import kept_before, read_numbers, refuse_while_moving, write_numbers
 from plumb.line.port import LostError
 from plumb.line.sender import (
     AHEAD,
     RefusedError,
     Sender,
+    StoppedError,
     Watch,
     cleaned,
 )
@@ -251,3 +253,142 @@ def test_a_watch_goes_by_the_machines_time_and_by_its_reports(monkeypatch):
     assert not Watch(sender).has_lasted(4) and not watch.has_lasted(4)
     sender.reports = 119
     assert watch.has_lasted(4)
+
+
+def standing(board, state="Idle"):
+    """A machine that stands at 0, whatever is sent."""
+    report = f"<{state},MPos:0.00,0.00,0.00,WPos:0,0,0>\r\n".encode()
+
+    def read():
+        board.time += 0.2
+        said = board.answers(board.waiting.pop(0)).encode() + b"\r\n" if board.waiting else b""
+        return said + report
+
+    board.read = read
+    return Sender(board)
+
+
+def rested(sender, board):
+    """How long the machine is waited for [s]."""
+    begin = board.time
+    sender.await_rest()
+    return board.time - begin
+
+
+def test_a_machine_is_waited_for_after_any_line_though_it_stands():
+    board = Board()
+    sender = standing(board)
+    sender.await_start()
+    sender.stream(["G21", "G4 P500", "M2"])
+    assert rested(sender, board) == pytest.approx(4.0, abs=0.41)
+    # From then on its place is kept.
+    assert rested(sender, board) == pytest.approx(0.6, abs=0.21)
+    for _ in range(40):
+        sender.listen()
+    sender.ask("$$")
+    assert rested(sender, board) == pytest.approx(0.6, abs=0.21)
+
+
+def test_time_in_which_the_machine_stood_counts():
+    board = Board()
+    sender = standing(board)
+    sender.stream(["G21"])
+    for _ in range(15):
+        sender.listen()
+    assert rested(sender, board) == pytest.approx(1.0, abs=0.41)
+
+
+@pytest.mark.parametrize("how", ["listed", "sent"])
+def test_a_machine_whose_motors_hold_longer_is_waited_for_longer(how):
+    board = Board(lambda line: "$8=139.1\r\n$9=7000\r\n$71=300\r\nok" if line == "$$" else "ok")
+    sender = standing(board)
+    if how == "listed":
+        sender.ask("$$")
+        assert sender.ahead == 0.3
+    sender.stream(["$9=7000" if how == "sent" else "G21"])
+    assert rested(sender, board) == pytest.approx(9.0, abs=0.41)
+
+
+@pytest.mark.parametrize("press", [Sender.go_on, Sender.hold])
+def test_a_hold_and_going_on_power_the_motors(press):
+    board = Board()
+    sender = standing(board, "Pause" if press is Sender.hold else "Idle")
+    sender.await_start()
+    press(sender)
+    sender.listen()
+    board.read = standing(board).port.read
+    assert rested(sender, board) == pytest.approx(4.0, abs=0.41)
+
+
+def test_a_machine_is_waited_for_after_a_refused_line_too():
+    board = Board(lambda line: "error: no")
+    sender = standing(board)
+    with pytest.raises(RefusedError):
+        sender.stream(["G1 X5"])
+    assert rested(sender, board) == pytest.approx(4.0, abs=0.41)
+
+
+def test_a_stop_waits_until_the_place_is_kept():
+    board = Board()
+    sender = standing(board)
+    begin = board.time
+    sender.attend = lambda sender: board.time > 1 and sender.stop()
+    board.answers = lambda line: "" if line == "G4 P99999" else "ok"
+    with pytest.raises(StoppedError):
+        sender.stream(["G4 P99999"])
+    assert board.time - begin > 4.5
+
+
+def test_all_numbers_are_read():
+    assert read_numbers(Sender(NumbersMachine())) == {12: 2978.4, 15: 8113.73, 38: 0.0}
+
+
+def test_a_board_without_numbers_is_refused():
+    machine = NumbersMachine()
+    machine.numbers = {}
+    with pytest.raises(InputError, match="is it a Maslow's firmware"):
+        read_numbers(Sender(machine))
+
+
+def test_a_changed_number_is_reported_with_its_old_value():
+    machine = NumbersMachine()
+    written = write_numbers(Sender(machine), ["$12=2978.41", "$15 = 8113.73", "$38=15.5"])
+    assert written.before == {12: 2978.4, 15: 8113.73, 38: 0.0}
+    assert written.changed == {38: (0.0, 15.5)}  # $12: the machine prints seven digits
+    assert machine.numbers[12] == 2978.41
+
+
+@pytest.mark.parametrize("line", ["B05", "$12", "G1 X5", "$12=5 $13=6"])
+def test_a_line_that_sets_no_number_is_refused_before_any_is_sent(line):
+    machine = NumbersMachine()
+    with pytest.raises(InputError, match=r"is not a number for the machine: \$N=VALUE"):
+        write_numbers(Sender(machine), ["$38=15.5", line])
+    assert machine.written == []
+
+
+@pytest.mark.parametrize(
+    ("line", "held"), [("$38=15.5", "38=0.0"), ("$15=8114.73", "15=8113.73"), ("$99=1", "99=None")]
+)
+def test_a_number_that_the_machine_does_not_hold_is_named(line, held):
+    machine = NumbersMachine(forgets=(15, 38, 99))
+    with pytest.raises(InputError, match=rf"holds \${held} though .* was sent"):
+        write_numbers(Sender(machine), [line])
+
+
+def test_a_machine_that_moves_gets_no_numbers():
+    machine = NumbersMachine(speed=0.1)
+    with pytest.raises(InputError, match="the machine moves"):
+        write_numbers(Sender(machine), ["$38=15.5"])
+    assert machine.written == []
+
+
+def test_the_newest_numbers_come_back(tmp_path):
+    for day, gap in (("2026-01-02", 2), ("2026-01-10", 3), ("2025-12-31", 1)):
+        (tmp_path / f"machine-before-{day}.nc").write_text(f"$2={gap}\n$3=5\n")
+    (tmp_path / "other-before-2027-01-01.nc").write_text("$2=4\n")
+    assert kept_before(tmp_path / "machine.toml") == ["$2=3", "$3=5"]
+
+
+def test_without_kept_numbers_there_is_a_remedy(tmp_path):
+    with pytest.raises(InputError, match="nothing was kept when it was sent; send it first"):
+        kept_before(tmp_path / "machine.toml")

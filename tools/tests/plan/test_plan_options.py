@@ -1,14 +1,31 @@
-"""Each kind of option: its marks, weights, sides and minutes; and what proposals say of them."""
+"""Options and proposals: their marks, weights, sides and minutes, form and way, their words."""
 
+import dataclasses
+from dataclasses import replace
+from math import sqrt
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from plan_cases import MACHINE, case_on, nine
+from plan_cases import MACHINE, SIGMA, case_on, nine
+from plumb.diagnosis.outliers import Outlier
 from plumb.fit.fit import Checked
+from plumb.marks.form import read_form
+from plumb.marks.model import Mark
 from plumb.model.plain import noun_of
-from plumb.plan.planned_visits import nowhere
+from plumb.plan.planned_visits import (
+    BELOW,
+    joined,
+    marks_file,
+    nowhere,
+    proof_places,
+    refuse_way,
+    sent,
+    usable,
+)
+from plumb.plan.planned_visits import grid as places_over
 from plumb.plan.proposal import (
+    BESIDE,
     CONFIRM,
     EXPLORE,
     FEW,
@@ -23,18 +40,23 @@ from plumb.plan.proposal import (
     ROUND,
     SETTLE,
     SHARPER,
+    SURE,
     Option,
     RoomThen,
     checks_for,
     effect_checks,
+    for_slips,
+    near_the_worst,
     options,
     spots,
     worth,
 )
+from plumb.plan.proposal import READ_AGAIN as AGAIN
 from plumb.settings.machine import GRAVITY
+from plumb.text.errors import InputError
 from plumb.text.values import MM
 from plumb.words.proposals import ProposalInWords, other_ways, percent
-from synthetic import grid
+from synthetic import BELIEVED, distances_between, grid, marks_on, read_elsewhere
 
 USUAL = MACHINE.sled_weight
 
@@ -197,3 +219,131 @@ def test_a_step_names_each_cause_that_it_tries_once_in_one_sentence():
     assert proposal(parts=pairs[2:3]).steps[1:] == [f"It shows whether {lean} acts."]
     assert proposal(parts=pairs[3:]).steps[1:] == [f"It shows whether {sag} acts."]
     assert proposal(parts=(("chain_sag", "chain_sag"),)).steps[1:] == []
+
+
+def slip(name, *offset):
+    return Outlier(name, offset, (SIGMA,) * len(offset), (0.0,) * len(offset), offset, "")
+
+
+def test_a_second_reading_shows_a_slip_as_often_as_noise_allows():
+    case = case_on(nine(), "chain_pitch")
+    even = SURE * sqrt(2) * SIGMA  # as often as not
+    far = -even - 2 * sqrt(2) * SIGMA
+    several = [slip("3", even, 0.0), slip("3", 0.0, far), slip("3", 0.0, 0.0)]
+    chances = [chance for _, chance in for_slips(several, case.board.rows, case.noise)]
+    assert chances == pytest.approx([0.5, 0.9772, 0.00135], abs=1e-3)
+
+
+def test_marks_around_the_worst_place_lie_inwards_of_it():
+    case = case_on(read_elsewhere(nine(), 8, (6.0, 0.0)), "chain_pitch")
+    again, near = near_the_worst(case)
+    worst, second = list(dict.fromkeys(again.visits.names))
+    assert worst == "8" and len(again.visits) == 2 * AGAIN
+    assert again.minutes == ROUND + READING * 2 * AGAIN
+    assert near.minutes == ROUND + MARK * len(near.visits)
+    assert f"around {worst}, {second}" in near.do[0]
+    places = {tuple(place) for place in near.visits.targets.tolist()}
+    assert {(1100.0 - BESIDE, -500.0), (1100.0, -500.0 + BESIDE)} <= places
+    half = np.array(MACHINE.sheet) / 2
+    assert (np.abs(near.visits.targets) <= half - 50).all()
+    assert (near.visits.targets % 10 == 0).all()
+
+
+def test_the_worst_distances_are_measured_again():
+    board = distances_between(marks_on(MACHINE, MACHINE, grid(3, 3), noise=0.2))
+    spans = list(board.distances)
+    spans[5] = replace(spans[5], length=spans[5].length + 9.0)
+    case = replace(
+        case_on(replace(board, distances=tuple(spans)), "chain_pitch"),
+        spans=tuple(" - ".join(each.between) for each in spans),
+    )
+    (again,) = near_the_worst(case)
+    said = again.do[0].removeprefix("Measure these distances 3 more times: ")
+    assert said.startswith(f"{case.spans[5]}, ")
+    assert again.do[0].count(" - ") == 4 and "3 more times" in again.do[0]
+    assert again.minutes == ROUND + READING * 3 * 4 and len(again.visits) == 0
+
+
+def test_proof_marks_lie_far_from_what_was_fitted_and_from_each_other():
+    known = grid(3, 3)
+    first, second = proof_places(MACHINE, known)
+    places = places_over(MACHINE.sheet, 15, 9)
+    places = places[usable(MACHINE, places, MACHINE.sled_weight)]
+    places = places[usable(MACHINE, places - [0.0, BELOW], MACHINE.sled_weight)]
+
+    def gap(place, marks):
+        return np.linalg.norm(marks - place, axis=1).min()
+
+    assert gap(first, known) == max(gap(place, known) for place in places)
+    both = np.vstack([known, first])
+    assert gap(second, both) == max(gap(place, both) for place in places)
+    assert len(proof_places(MACHINE, np.zeros((0, 2)))) == 2
+
+
+def test_a_form_keeps_place_side_and_weight(file):
+    targets = np.array([(-1000.0, 480.0), (20.0, -300.0)])
+    sides = np.array([(0.0, 1.0), (0.6, -0.8)])
+    visits = sent(BELIEVED, targets, controller="plumb", sled_weight=147.0, approaches=sides)
+    text = marks_file(
+        visits, sheet=BELIEVED.sheet, controller="plumb", said=("Four marks.",), unit=MM
+    )
+    read = read_form(file("form.toml", text), sheet=BELIEVED.sheet).measurements
+    assert read.controller == "plumb" and len(read.marks) == 2
+    for mark, target, side in zip(read.marks, targets, sides, strict=True):
+        assert mark.target == pytest.approx(tuple(target), abs=0.001)
+        assert mark.approach == pytest.approx(tuple(side), abs=0.001)
+        assert mark.sled_weight == 147.0
+
+
+def test_joined_visits_keep_everything():
+    sides = np.array([(1.0, 0.0), (0.0, 0.0), (0.0, -1.0)])
+    targets = [(-300.0, 100.0), (0.0, 100.0), (300.0, 100.0)]
+    how = {"controller": "plumb", "sled_weight": 120.0, "approaches": sides}
+    visits = sent(BELIEVED, targets, **how)
+    back = joined(visits.taken([2]), nowhere(), visits.taken([0, 1]))
+    assert back.names == ("300/100", "-300/100", "0/100") and len(back) == 3
+    assert back.targets.tolist() == [list(targets[i]) for i in (2, 0, 1)]
+    assert back.chains[1:] == pytest.approx(visits.chains[:2])
+    read = back.marks(np.add(back.targets, (1.0, 2.0)))
+    assert [mark.approach for mark in read] == [(0.0, -1.0), (1.0, 0.0), None]
+    assert read[0].measured == (301.0, 102.0) and read[0].target == (300.0, 100.0)
+    assert {mark.sled_weight for mark in read} == {120.0}
+    rows = back.rows()
+    assert rows.count == 6 and rows.mark_rows.tolist() == [0, 1, 2] and not rows.measured.any()
+
+
+UP, LEFT = (0.0, 1.0), (-1.0, 0.0)
+
+
+@pytest.mark.parametrize("side", [None, UP, LEFT])
+def test_marks_on_the_sheet_are_reached(side):
+    refuse_way(BELIEVED, [Mark("1", (-1000, 500), approach=side), Mark("2", (0, -500))])
+
+
+@pytest.mark.parametrize(
+    ("place", "side", "why"),
+    [
+        ((0.0, -600.0), None, "leaves the sheet"),  # 40 mm below it there is no sheet
+        ((1190.0, 0.0), LEFT, "leaves the sheet"),
+        ((0.0, 620.0), None, "leaves the sheet"),
+    ],
+)
+def test_a_path_off_the_sheet_is_refused(place, side, why):
+    with pytest.raises(InputError, match=f"mark far {why}"):
+        refuse_way(BELIEVED, [Mark("near", (0.0, 0.0)), Mark("far", place, approach=side)])
+
+
+def test_the_weight_on_the_sled_counts():
+    mark = Mark("1", (0.0, 560.0))
+    refuse_way(BELIEVED, [mark])
+    with pytest.raises(InputError, match="where the sled cannot hang well"):
+        refuse_way(BELIEVED, [dataclasses.replace(mark, sled_weight=400.0)])
+
+
+def test_the_way_between_two_marks_counts():
+    low = dataclasses.replace(BELIEVED, motor_height=700.0)
+    corners = [Mark("left", (-1000.0, 400.0)), Mark("right", (1000.0, 400.0))]
+    for corner in corners:
+        refuse_way(low, [corner])
+    with pytest.raises(InputError, match="mark right passes where the sled cannot hang well"):
+        refuse_way(low, corners)

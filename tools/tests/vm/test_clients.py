@@ -3,7 +3,7 @@ how it streams a job, stops, pauses, and measures chains.
 
 The clock is the machine's: its time passes while a client listens or waits. What clients do was
 watched on their code at this port; none of that code is here. How they use DTR and parity is in
-test_port_library.py.
+test_serial_port.py.
 """
 
 import re

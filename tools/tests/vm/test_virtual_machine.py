@@ -1,14 +1,19 @@
-"""The virtual machine: motors, chains and sled under the firmware built for the host."""
+"""The virtual machine: motors, chains and sled under the firmware, on the host and on a Mega."""
+
+import re
+from dataclasses import dataclass, replace
 
 import numpy as np
 import pytest
 from plumb import _judge, _vm
-from plumb.bench.boards import MAKER
+from plumb.bench.boards import MAKER, Hidden
 from plumb.line.memory import read_numbers, write_numbers
 from plumb.line.sender import Sender
 from plumb.model.predict import judged
 from plumb.vm import garage as garage_room
-from plumb.vm.garage import InProcessPort
+from plumb.vm.garage import Garage, InProcessPort, VirtualMachine
+from scipy.spatial import cKDTree
+from usual_machine import declaration, switched_on, usual_machine
 
 NUMBERS = judged(MAKER)
 COUNT = 63.5 / 8113.73  # [mm] of chain
@@ -140,3 +145,399 @@ def test_what_the_simulated_mega_cannot_run_is_refused(run, monkeypatch):
 
 def without_simavr(*_, **__):
     raise RuntimeError("the lab was built without the simulated Mega")
+
+
+MOVES = ("G0 X20 Y10", "G1 X16 Y6 Z1 F600")
+# [counts] Between two rests. The loop lets a chain rest within 1.5 counts of its set-point, and
+# the host's program itself differs by as much if a line comes to it a millisecond later.
+WITHIN = 2
+
+
+def rests(elf: str | None) -> list[list[int]]:
+    """The counts of all axes after each move."""
+    garage = Garage(Hidden(), friction=0.0)
+    machine = garage.machine(elf=elf)
+    sender = switched_on(machine, garage.settings)
+    counts = []
+    for move in MOVES:
+        sender.stream([move, "G4 P1"])
+        sender.await_rest()
+        counts.append([machine.count(axis) for axis in ("left", "right", "z")])
+    return counts
+
+
+def test_both_rest_at_the_same_counts(elf):
+    flashed, host = rests(elf), rests(None)
+    for move, mega, computer in zip(MOVES, flashed, host, strict=True):
+        apart = [abs(a - b) for a, b in zip(mega, computer, strict=True)]
+        assert max(apart) <= WITHIN, f"{move}: {mega} and {computer}"
+    assert max(map(abs, host[0])) > 1000
+
+
+# [steps of 255] Most by which a motor's drive changes from tick to tick at an even speed. An edge
+# that comes early or late moves it by 15.
+EVEN = 21
+
+
+def test_no_tick_of_the_simulated_mega_loses_time(elf):
+    garage = Garage(Hidden(), friction=0.0)
+    machine = garage.machine(elf=elf)
+    switched_on(machine, garage.settings).stream(["G0 X-300 Y0", "G4 P1"])
+    machine.send(b"G1 X300 Y0 F800\n")
+    machine.advance(5000)
+    drives = []
+    for _ in range(3500):
+        machine.advance(10)
+        drives.append([machine.duty("left"), machine.duty("right")])
+    changes = abs(np.diff(drives, axis=0))
+    assert changes.max() <= EVEN
+    assert min(np.ptp(drives, axis=0)) > 10  # it went all the time
+
+
+HOLD, GO_ON = b"\x84", b"~"
+FEEDS = [bytes([each]) for each in range(0x90, 0x95)]
+STEP = 20  # [ms] between two looks
+APART = 0.6  # [mm] between two looks the sled goes 0.33 mm
+LONGEST = 600_000  # [ms]
+AHEAD = 126  # characters that clients send ahead
+PROGRAM = """
+G21 G90
+G0 X20 Y10
+G1 Z-2 F300
+G91 G1 X5 Y6 F900
+X4
+G90
+G2 X49 Y16 R10
+G20
+G1 X2.2 Y0.2 F30
+G93 G1 X2 Y0.6 F40
+G94 F33
+G21 G3 X50.8 Y15.24 I-8 J0 Z-3 F700
+G92 X0 Y0
+G1 X4 Y-6
+Y-8
+G0 Z3
+G92.1
+G99 G83 X60 Y5 Z-4 R1 Q2 F200
+X66
+G80
+G0 Z4
+G4 P300
+G0 X70
+"""
+
+
+def machine_at_rest(elf=None):
+    """A machine without errors at the middle of its sheet."""
+    machine = usual_machine(elf=elf)
+    sender = switched_on(machine, MAKER)
+    sender.stream([declaration(machine)])
+    machine.take_said()
+    return machine
+
+
+class Client:
+    """Sends a program as clients do, and counts the answers."""
+
+    def __init__(self, machine):
+        self.machine = machine
+        self.lines = [line.encode() + b"\n" for line in [*PROGRAM.split("\n")[1:-1], "G4 P0"]]
+        self.sent = self.answered = 0
+        self.is_held, self.holds = False, 0
+
+    def press(self, source):
+        """A hold or its end, or another feed, at a moment that is drawn."""
+        draw = source.random()
+        if draw < (0.03 if self.is_held else 0.015):
+            self.machine.send(GO_ON if self.is_held else HOLD)
+            self.holds += not self.is_held
+            self.is_held = not self.is_held
+        elif draw > 0.995:
+            self.machine.send(source.choice(FEEDS))
+
+    def pass_time(self):
+        while self.sent < len(self.lines) and self.is_room():
+            self.machine.send(self.lines[self.sent])
+            self.sent += 1
+        self.machine.advance(STEP)
+        said = [line.strip() for line in self.machine.take_said().split(b"\n")]
+        assert not [line for line in said if line.startswith((b"error", b"ALARM"))], said
+        # A `~` that ends a hold has none.
+        self.answered += said.count(b"ok")
+
+    def is_room(self):
+        waiting = self.lines[self.answered : self.sent + 1]
+        return sum(map(len, waiting)) <= AHEAD
+
+    def run(self, source):
+        """Where the bit was, at every look [mm]."""
+        places = []
+        while len(places) * STEP < LONGEST:
+            if source is not None and self.answered < len(self.lines):
+                self.press(source)
+            elif self.is_held:
+                self.machine.send(GO_ON)
+                self.is_held = False
+            self.pass_time()
+            places.append((*self.machine.sled, self.machine.height))
+            if self.answered >= len(self.lines):
+                return np.array(places)
+        raise AssertionError(f"{self.answered} of {len(self.lines)} lines were answered")
+
+
+MEGA = pytest.param(1, "mega", marks=pytest.mark.slow)
+
+
+@pytest.mark.parametrize(("seed", "brain"), [(0, "host"), (1, "host"), MEGA])
+def test_holds_at_any_moment_leave_the_path_unchanged(seed, brain, elf):
+    usual = Client(machine_at_rest()).run(None)
+    client = Client(machine_at_rest(elf if brain == "mega" else None))
+    held = client.run(np.random.default_rng(seed))
+    assert client.holds > 20 and len(held) > 1.3 * len(usual)
+    assert cKDTree(usual).query(held)[0].max() < APART
+    assert cKDTree(held).query(usual)[0].max() < APART
+    assert held[-1] == pytest.approx(usual[-1], abs=0.1)
+
+
+STAYS = "The motors stay on: so high on the sheet the sled would slide ($77). Park it lower."
+SLIDES = "The sled slid with its motors off: they hold it until after its next move."
+MOST = 1.5  # [mm] the chain gives 0.4 mm, and some more until its motor holds
+CREEP = 0.5  # [mm] at most, of what was let go
+HELD = 0.05  # [mm] at most, of what has power
+USUAL = "$77=1.4"  # [N m]
+TRUSTED = "$77=10"  # [N m] the machine believes that its gears hold any sled
+
+
+@pytest.mark.parametrize(
+    ("brain", "height", "setting", "warned", "most"),
+    [
+        ("host", 605.0, USUAL, STAYS, HELD),
+        ("host", 450.0, USUAL, "", CREEP),
+        ("host", 605.0, TRUSTED, SLIDES, MOST),
+        pytest.param("mega", 605.0, TRUSTED, SLIDES, MOST, marks=pytest.mark.slow),
+    ],
+)
+def test_a_sled_stays_where_it_was(brain, height, setting, warned, most, elf):
+    machine = usual_machine(elf=elf if brain == "mega" else None)
+    said: list[str] = []
+    sender = switched_on(machine, MAKER, said=said.append)
+    sender.stream([setting, declaration(machine), f"G0 X0 Y{height}", "G4 P0"])
+    lowest = farthest_in(30, machine)
+    sender.stream(["G1 X200 F600", "G4 P0"])
+    x, y = machine.sled
+    assert lowest < most
+    assert (x, y) == pytest.approx((200, height), abs=CREEP)
+    farthest_in(10, machine)
+    sender.stream(["G1 X150", "G4 P0"])
+    heard = [line for line in said if line in (STAYS, SLIDES)]
+    # That they stay on is said once; each time that it slides is news.
+    assert heard == ([STAYS] if warned == STAYS else [SLIDES] * len(heard))
+    assert bool(heard) == bool(warned)
+    assert (lowest > CREEP) == (warned == SLIDES)
+
+
+def farthest_in(seconds: int, machine: VirtualMachine) -> float:
+    """How far the sled goes [mm] from where it stands."""
+    stood, farthest = machine.sled, 0.0
+    for _ in range(10 * seconds):
+        machine.advance(100)
+        farthest = max(farthest, float(np.hypot(*np.subtract(machine.sled, stood))))
+    return farthest
+
+
+MOST_BEYOND = 3.0  # [mm] of a chain, beyond what a power cut lets it run
+ALARM = b"ALARM: The sled is not keeping up"
+
+
+@dataclass(frozen=True)
+class Loss:
+    """A machine whose left encoder is lost, at this feed [mm/min] or at rest."""
+
+    feed: int
+    seed: int = 0  # of its motors
+    way: int = 1  # +1: its left chain pays out, -1: it winds in
+    elf: str | None = None
+    shield: int = 2
+
+    def run(self, *, is_cut: bool) -> float:
+        """How far the chain runs [mm] until it stands; `is_cut`: after a power cut instead."""
+        machine = self.machine()
+        begin = farthest = machine.chains[0]
+        if is_cut:
+            machine.cut_power()
+        else:
+            machine.set_wire("left", "encoder_unplugged", True)
+            self.move_from_rest(machine)
+        said = b""
+        for _ in range(400):
+            machine.advance(20)
+            said += machine.take_said()
+            farthest = max(farthest, machine.chains[0], key=lambda length: abs(length - begin))
+        assert (ALARM in said) != is_cut
+        machine.advance(500)
+        assert machine.chains[0] == pytest.approx(farthest, abs=0.01), "it has to stand"
+        return abs(farthest - begin)
+
+    def machine(self) -> VirtualMachine:
+        """The machine at the moment of the loss."""
+        machine = usual_machine(elf=self.elf, seed=self.seed, shield=self.shield)
+        sender = switched_on(machine, MAKER)
+        # To and fro: the machine learns which duty the motors need either way.
+        ways = [f"G1 X{self.way * x} F800" for x in (-140, -60, -100)]
+        sender.stream([declaration(machine), *ways, "G4 P0"])
+        if self.feed:
+            machine.send(b"G1 X%d F%d\n" % (200 * self.way, self.feed))
+        machine.advance(2000 if self.feed else 1500)
+        return machine
+
+    def move_from_rest(self, machine: VirtualMachine) -> None:
+        """A rest with power, and then a slow move, which shows that an encoder is lost."""
+        if self.feed == 0:
+            machine.send(b"G4 S5\nG1 X%d F60\n" % (200 * self.way))
+            machine.advance(5000)
+
+
+@pytest.mark.parametrize(
+    ("feed", "seed", "way"), [(0, 0, 1), (60, 1, -1), (200, 3, 1), (1000, 4, 1), (1000, 1, -1)]
+)
+def test_a_chain_without_encoder_is_braked(feed, seed, way):
+    loss = Loss(feed, seed, way)
+    assert loss.run(is_cut=False) < loss.run(is_cut=True) + MOST_BEYOND
+
+
+@pytest.mark.parametrize("shield", [2, 3])
+def test_the_flashed_program_brakes_it_on_either_driver(elf, shield):
+    loss = Loss(200, seed=3, elf=elf, shield=shield)
+    ran = loss.run(is_cut=False)
+    assert 0.3 < ran < replace(loss, elf=None).run(is_cut=True) + MOST_BEYOND
+
+
+LOOSE = {**judged(MAKER), "left.inward": 0.004, "right.inward": 0.006}
+GAP, BEYOND = LOOSE["motor_gap"], 12.7  # [mm]
+SAID = re.compile(r"Motor gap ([\d.]+) mm .* spread ([\d.]+) mm, (\d) pulls? with about (\d+) N\.")
+DEAD = "The left motor hardly turns: check its supply, its cables and its encoder."
+SLACK = "The chain is not tight yet: hook it on the other sprocket, send B11 again."
+
+
+class Pulled:
+    """A machine, its left chain hooked across, after a B11: what was said and what truly pulled."""
+
+    def __init__(self, line: str, *, slack: float = 5.0, volts: float = 12.0, **options) -> None:
+        self.machine = _vm.VirtualMachine(options.pop("numbers", LOOSE), **options)
+        self.machine.hook_across("left", slack, BEYOND)
+        self.machine.set_motor_supply(volts)
+        self.machine.start()
+        self.machine.advance(3000)
+        left, right = self.machine.chains
+        self.machine.send(f"B06 L{left:.3f} R{right:.3f}\n".encode())
+        self.machine.advance(1000)
+        self.machine.take_said()
+        self.machine.send(line.encode() + b"\n")
+        self.lines: list[str] = []
+        self.most_pull = self.seconds = 0.0
+
+    def go_on(self, seconds: float) -> None:
+        """Until the line is answered, or so long."""
+        for _ in range(int(seconds * 100)):
+            self.machine.advance(10)
+            self.seconds += 0.01
+            self.most_pull = max(self.most_pull, self.machine.across)
+            heard = self.machine.take_said().decode().splitlines()
+            self.lines += [each for each in heard if not each.startswith(("<", "[PE"))]
+            if "ok" in self.lines:
+                return
+
+    def answered(self) -> list[str]:
+        self.go_on(30)
+        return self.lines[1:]
+
+
+def numbers_of(lines: list[str]) -> tuple[float, float, int, int]:
+    """Gap, spread, pulls and force of the line of B11."""
+    match = SAID.match(lines[0])
+    assert match and lines[1:] == ["ok"], lines
+    gap, spread, pulls, force = match.groups()
+    return float(gap), float(spread), int(pulls), int(force)
+
+
+@pytest.mark.parametrize("volts", [13.0, 9.0])
+def test_three_pulls_with_the_stated_force_whatever_the_supply(volts):
+    pulled = Pulled("B11 S255 T15 L", volts=volts)
+    gap, spread, pulls, force = numbers_of(pulled.answered())
+    assert pulls == 3
+    assert spread < 0.15
+    assert force == pytest.approx(80, abs=3)
+    assert pulled.machine.across == pytest.approx(force, rel=0.1)
+    assert pulled.most_pull < 100
+    assert gap == pytest.approx(pulled.machine.chains[0] - BEYOND, abs=spread + 0.02)
+
+
+@pytest.mark.parametrize("seed", range(1, 5))
+def test_motors_that_are_off_by_30_percent_pull_as_hard_as_stated(seed):
+    pulled = Pulled("B11 S255 T15 L", seed=seed)
+    _, spread, pulls, _ = numbers_of(pulled.answered())
+    assert (pulls, spread < 0.5) == (3, True)
+    assert 60 <= pulled.most_pull <= 106
+
+
+def test_the_machine_stays_below_the_pull_of_a_sled_when_the_chain_is_tight_before():
+    pulled = Pulled("B11 S255 T3 L", slack=-1.0)
+    _, _, pulls, _ = numbers_of(pulled.answered())
+    assert pulls >= 1
+    assert pulled.most_pull < 145
+
+
+@pytest.mark.parametrize("slack", [9.0, 40.0])
+def test_it_never_takes_longer_than_the_seconds_of_its_line(slack):
+    pulled = Pulled("B11 S255 T3 L", slack=slack)
+    lines = pulled.answered()
+    assert pulled.seconds < 3.3  # the line itself takes its time to come and to go
+    assert (lines == [SLACK, "ok"]) == (slack > 20)
+
+
+@pytest.mark.parametrize(
+    ("wire", "at"), [("encoder_unplugged", 1.5), ("motor_unplugged", 3.0), ("channel_lost", 4.5)]
+)
+def test_a_lost_wire_stops_it(wire, at):
+    pulled = Pulled("B11 S255 T15 L")
+    pulled.go_on(at)
+    pulled.machine.set_wire("left", wire, True)
+    assert pulled.answered()[-2:] == [DEAD, "ok"]
+    assert pulled.machine.duty("left") == 0
+    assert pulled.most_pull < 110
+
+
+@pytest.mark.parametrize("at", [2.5, 4.4])
+def test_a_chain_that_comes_off_in_a_pull_is_wound_in_until_the_time_is_over(at):
+    pulled = Pulled("B11 S255 T6 L")
+    pulled.go_on(at)
+    pulled.machine.hook_across("left", 200.0, BEYOND)
+    lines = pulled.answered()
+    assert lines[-1] == "ok" and 5 < pulled.seconds < 6.3
+    assert pulled.machine.duty("left") == 0
+
+
+@pytest.mark.parametrize(("volts", "at"), [(11.0, 1.2), (9.0, 4.0)])
+def test_a_supply_that_sags_in_the_middle_stops_it(volts, at):
+    pulled = Pulled("B11 S255 T15 L")
+    pulled.go_on(at)
+    pulled.machine.set_motor_supply(volts)
+    assert pulled.answered() == [DEAD, "ok"]
+
+
+def test_pulls_that_differ_are_reported():
+    pulled = Pulled("B11 S255 T15 L")
+    while pulled.machine.across < 75:
+        pulled.go_on(0.02)
+    pulled.machine.set("left.inward", 0.03)  # the bracket comes loose
+    lines = pulled.answered()
+    assert lines[1] == "The pulls differ: look after chain, hook and supply, send B11 again."
+    assert numbers_of([lines[0], "ok"])[1] > 0.5
+
+
+def test_the_flashed_program_pulls_as_the_host_does(elf):
+    host, mega = (Pulled("B11 S255 T6 L", elf=each) for each in (None, elf))
+    ours, theirs = (numbers_of(each.answered()) for each in (host, mega))
+    np.testing.assert_allclose(theirs[0], ours[0], atol=0.15)
+    assert theirs[2] == ours[2]
+    assert mega.most_pull == pytest.approx(host.most_pull, rel=0.1)

@@ -31,7 +31,7 @@ NOT_UNDER_WINE = (
     # They open pseudo terminals.
     "lab/test_broken_cut.py",
     *("line/test_line_lock.py", "vm/test_clients.py", "vm/test_flash.py", "vm/test_links.py"),
-    *(f"vm/test_{name}.py" for name in ("port_library", "serial_port")),
+    "vm/test_serial_port.py",
 )
 START = 120  # [s] in which a program under Wine must have begun
 
