@@ -13,8 +13,7 @@ from plumb.cure.add import add as add_effects
 from plumb.cure.decision import decide as decided
 from plumb.diagnosis import Checked
 from plumb.diagnosis import diagnose as diagnosed
-from plumb.fit.compare import Comparison, compare
-from plumb.fit.expected import refuse_absurd
+from plumb.fit.compare import Comparison, compare, refuse_absurd
 from plumb.fit.fit import priors_with
 from plumb.fit.inputs import Inputs, read_inputs
 from plumb.plan import propose

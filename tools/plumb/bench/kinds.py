@@ -20,7 +20,7 @@ from plumb.bench.boards import (
     plan,
     size_for,
 )
-from plumb.fit.expected import plausible_range
+from plumb.fit.compare import plausible_range
 from plumb.model.catalogue import EVERY_MACHINE
 from plumb.settings.machine import MachineSettings
 

@@ -24,7 +24,7 @@ from plumb.vm.practice import Score
 from plumb.words.job import JobAnswer
 from plumb.words.proposals import ProposalsAnswer
 from plumb.words.recheck import RecheckAnswer
-from plumb.words.recover import HomeAnswer, SlipAnswer
+from plumb.words.recover import HomeAnswer
 
 
 @dataclass(frozen=True)
@@ -51,7 +51,7 @@ ANSWERS: dict[str, Any] = {
     "practice": Score,
     "reach": SheetReach,
     "read": MachineNumbers,
-    "recover": HomeAnswer | SlipAnswer,
+    "recover": HomeAnswer,
     "report": ReportAnswer,
     "resume": ResumeAnswer,
     "send": SendAnswer,

@@ -13,7 +13,7 @@ from typing import Any, NamedTuple, TypeVar
 
 from plumb.diagnosis import Checked
 from plumb.fit.by_hand import UNITS, number_read
-from plumb.fit.expected import refuse_absurd
+from plumb.fit.compare import refuse_absurd
 from plumb.fit.fit import PRIORS, priors_with
 from plumb.fit.inputs import Inputs, read_inputs
 from plumb.marks.read import without_marks

@@ -8,9 +8,8 @@ from plumb.cli.output import say_failure
 from plumb.cli.screen import headline, in_text, print_json
 from plumb.diagnosis.explanation import FEWEST_NUMBERS
 from plumb.diary.file import RECHECK, folder_of, keep, read_diary
-from plumb.diary.recheck import Recheck, fit_of, recheck
+from plumb.diary.recheck import MeasuredMark, Recheck, are_apart, fit_of, recheck
 from plumb.fit.inputs import Inputs
-from plumb.job.home import HomeTouch, are_apart
 from plumb.words.recheck import RecheckAnswer, in_words
 from plumb.words.states import KINDS
 
@@ -33,12 +32,12 @@ def checked_by_fit(inputs: Inputs, path: str) -> RecheckAnswer | None:
             return None
     if any(mark.chains or mark.sled_weight for mark in measured.marks):
         return None
-    touches = [HomeTouch(mark.name, where, mark.target) for mark, where in measured.readings]
+    marks = [MeasuredMark(mark.name, where, mark.target) for mark, where in measured.readings]
     fit = fit_of(read_diary(folder), settings)
-    if fit is None or not are_apart(touches):
+    if fit is None or not are_apart(marks):
         return None
     sigma = inputs.sigma or measured.tape_sigma
-    return in_words(recheck(fit, settings, touches, sigma=sigma, unit=inputs.unit))
+    return in_words(recheck(fit, settings, marks, sigma=sigma, unit=inputs.unit))
 
 
 def is_all(checked: Recheck) -> bool:

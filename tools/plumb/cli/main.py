@@ -48,7 +48,7 @@ GROUPS: Mapping[str, Mapping[str, str]] = {
     },
     "trouble": {
         "read": "read the machine's numbers and where its sled is",
-        "recover": "keep holes as home marks, bring a lost position back, repair a slipped chain",
+        "recover": "keep holes as home marks, and bring a lost position back by them",
     },
     "engineers": {
         "vm": "start a virtual machine with a serial port, as if a board were plugged in",
@@ -71,7 +71,7 @@ GONE: Mapping[str, str] = {
     "home": "plumb recover does it, with the same options",
     "preview": "plumb grid --settings FILE --details prints its table",
     "recheck": "plumb calibrate says whether marks that were cut with fitted settings hold",
-    "slip": "plumb recover does it, with the same options",
+    "slip": "plumb recover --at sets the chains by a home mark, whichever slipped",
     "telemetry": "plumb send says at the end of a program what deserves a look; docs/trouble.md "
     "explains an answer to B30",
 }

@@ -1,4 +1,4 @@
-"""`plumb recover`: keeps home marks, brings a lost place back, and repairs a slipped chain."""
+"""`plumb recover`: keeps home marks, and brings a lost place back by them."""
 
 import argparse
 import re
@@ -11,86 +11,36 @@ import numpy as np
 from plumb.cli.arguments import add_shared, place, unit_of
 from plumb.cli.output import STDOUT, say_failure, write_outputs
 from plumb.cli.screen import headline, in_text, next_step, print_json, sentences
-from plumb.diary.file import HOME, SLIP, keep
+from plumb.diary.file import HOME, keep
 from plumb.fit.inputs import settings_in
 from plumb.job.home import (
-    CANNOT_TELL,
     SAME,
     HomeMark,
-    HomeTouch,
     Point,
-    find_slip,
     hole_program,
     home_file,
     home_fit,
     new_home_mark,
-    next_hole,
     read_home_marks,
-    refuse_repeated,
     repair_program,
     write_home_marks,
 )
-from plumb.settings.machine import MachineSettings
 from plumb.text.answers import json_of
 from plumb.text.errors import InputError
 from plumb.text.files import alone
-from plumb.words.recover import (
-    KINDS,
-    HomeAnswer,
-    SlipAnswer,
-    asked_signs,
-    fit_sentence,
-    home_marks,
-    repair_lines,
-)
+from plumb.words.recover import HomeAnswer, fit_sentence, home_marks
 
 # A command opens the line, which resets the board; and that keeps no place while z is not known.
 Z_TOO = "Is z lost too? Bring the bit's tip to the sheet's face and send both at once:"
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Keep, restore or list home marks, or weigh what touched holes say; return the exit code."""
-    is_home = arguments.keep or arguments.at or not arguments.touch
-    for option in ("taped", "fixed", "sigma"):
-        if is_home and getattr(arguments, option):
-            raise InputError(f"--{option} is for touched holes: give --touch, and no home mark")
-    settings = settings_in(arguments.settings)
-    return _home(arguments, settings) if is_home else _slip(arguments, settings)
-
-
-def _slip(arguments: argparse.Namespace, settings: MachineSettings) -> int:
-    """Weigh what may have happened to the chains, write, print, and return the exit code."""
-    finding = find_slip(
-        settings,
-        _touches(arguments),
-        sigma=arguments.sigma,
-        fixed=arguments.fixed,
-        taped=arguments.taped,
-    )
-    lines = repair_lines(finding) if arguments.output else []
-    answer = SlipAnswer(
-        finding=finding,
-        written=_write(arguments, lines) if lines else [],
-        touch_next=next_hole(settings, finding) if finding.verdict == CANNOT_TELL else None,
-        unit=unit_of(arguments),
-    )
-    say_failure(keep(arguments.settings, SLIP, json_of(answer), begin=False))
-    if arguments.json:
-        print_json(answer)
-    else:
-        parts = [headline(answer.sentence, KINDS[answer.verdict]), *in_text(answer.tables)]
-        parts += [sentences([answer.to_do], mark="")] if answer.to_do else []
-        if answer.lines:
-            parts.append(next_step("Send it:", ["send", arguments.output or answer.lines[-1]]))
-        asked = asked_signs(finding.touches)
-        print("\n\n".join([*parts, sentences(asked, mark="")] if asked else parts))
-    return int(KINDS[finding.verdict] != "good")
-
-
-def _home(arguments: argparse.Namespace, settings: MachineSettings) -> int:
     """Keep, restore or list home marks, write, print, and return the exit code."""
-    if arguments.keep and (arguments.at or arguments.touch):
+    if arguments.touch and not arguments.at:
+        raise InputError("--touch says how well another home mark fits: give --at too")
+    if arguments.keep and arguments.at:
         raise InputError("--keep goes alone: keep the home mark first, then restore by it")
+    settings = settings_in(arguments.settings)
     kept = read_home_marks(home_file(arguments.settings))
     answer = HomeAnswer(settings, kept, unit_of(arguments))
     if arguments.keep:
@@ -101,7 +51,7 @@ def _home(arguments: argparse.Namespace, settings: MachineSettings) -> int:
     if arguments.at:
         _restore(arguments, answer)
     answer.written = _written(arguments, answer)
-    print_json(answer) if arguments.json else print("\n\n".join(_home_text(arguments, answer)))
+    print_json(answer) if arguments.json else print("\n\n".join(_text(arguments, answer)))
     return int(not all(fit.fits for fit in answer.fits))
 
 
@@ -109,16 +59,14 @@ def _restore(arguments: argparse.Namespace, answer: HomeAnswer) -> None:
     """Say the chains with the bit in a home mark, and how well others fit."""
     answer.used = mark = _home_mark(arguments.settings, arguments.at)
     answer.lines = repair_program(np.array(mark.chains), where=f"home mark {mark.name}")
-    for touched in _touches(arguments):
-        other = answer.kept.get(touched.name)
-        if other is None:
-            raise InputError(f"--touch {touched.name}: give the name of a home mark")
+    for name, shown in arguments.touch:
+        other = _home_mark(arguments.settings, name)
         if dist(other.place, mark.place) < SAME:
             raise InputError(
-                f"--touch {touched.name}: that is the hole of --at {mark.name}, by which the "
+                f"--touch {name}: that is the hole of --at {mark.name}, by which the "
                 "chains were set; touch another home mark"
             )
-        answer.fits.append(home_fit(answer.settings, other, touched.shown))
+        answer.fits.append(home_fit(answer.settings, other, shown))
 
 
 def _written(arguments: argparse.Namespace, answer: HomeAnswer) -> list[str]:
@@ -145,7 +93,7 @@ def _written(arguments: argparse.Namespace, answer: HomeAnswer) -> list[str]:
     return written
 
 
-def _home_text(arguments: argparse.Namespace, answer: HomeAnswer) -> list[str]:
+def _text(arguments: argparse.Namespace, answer: HomeAnswer) -> list[str]:
     """Return what was done with a home mark; else all home marks, or how to begin."""
     if not answer.said:
         parts = in_text([home_marks([*answer.kept.values()], answer.unit)])
@@ -155,8 +103,6 @@ def _home_text(arguments: argparse.Namespace, answer: HomeAnswer) -> list[str]:
         return parts
     parts = [headline(answer.said[0]), sentences(answer.said[1:], mark="")]
     parts += [sentences([fit_sentence(fit, answer.unit)], mark="") for fit in answer.fits]
-    if arguments.at and (asked := asked_signs(_touches(arguments))):
-        parts.append(sentences(asked, mark=""))
     if arguments.output:
         parts.append(next_step("Send it:", ["send", arguments.output]))
     elif arguments.at and not answer.fits:
@@ -170,21 +116,6 @@ def _write(arguments: argparse.Namespace, lines: Sequence[str]) -> list[str]:
     content = "\n".join([*lines, ""]).encode()
     write_outputs({arguments.output: content}, inputs=[arguments.settings])
     return [] if arguments.output == STDOUT else [arguments.output]
-
-
-def _touches(arguments: argparse.Namespace) -> tuple[HomeTouch, ...]:
-    """Return the touches, numbered, those of home marks by name. Raises InputError for a hole
-    twice.
-    """
-    touches = []
-    for number, (hole, shown) in enumerate(arguments.touch, 1):
-        if isinstance(hole, str):
-            mark = _home_mark(arguments.settings, hole)
-            touches.append(HomeTouch(hole, mark.place, shown))
-        else:
-            touches.append(HomeTouch(str(number), hole, shown))
-    refuse_repeated(touches)
-    return tuple(touches)
 
 
 def _home_mark(settings: str, name: str) -> HomeMark:
@@ -201,11 +132,10 @@ def _home_mark(settings: str, name: str) -> HomeMark:
 
 EXAMPLES = (
     "plumb recover machine.toml --keep left=-900,250 -o hole.nc",
-    "plumb recover machine.toml --touch=-900,250:-895.4,253.7 --touch=900,-250:897.9,-246.5",
+    "plumb recover machine.toml --at left --touch=right:900.4,-250.7",
 )
 EXIT = (
-    "Exit: 0 done, or no chain slipped; 1 a chain slipped, the touches cannot tell, no slip "
-    "explains them, or a second home mark does not fit the first; 2 an input cannot be used, and "
+    "Exit: 0 done; 1 a second home mark does not fit the first; 2 an input cannot be used, and "
     "nothing was written."
 )
 WORD = re.compile(r"[A-Za-z0-9_-]+")
@@ -229,26 +159,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument(
         "--touch",
-        metavar="HOLE:SHOWN",
+        metavar="NAME:X,Y",
         action="append",
         type=touch,
         default=[],
-        help="a hole with the bit in it, like --touch=-900,250:-896.2,253.1 (x,y of the hole, or "
-        "the name of a home mark; then what the machine shows): with two or more say whether a "
-        "chain slipped; with --at, how well another home mark fits",
+        help="another home mark with the bit in it, and what the machine shows there after --at: "
+        "says how well it fits",
     )
-    parser.add_argument(
-        "--taped",
-        action="store_true",
-        help="you measured the places of the holes with a tape [else they are where the machine "
-        "was sent when it made them]",
-    )
-    parser.add_argument(
-        "--fixed",
-        action="store_true",
-        help="the holes are in the frame or its board, not in a sheet that can move",
-    )
-    add_shared(parser, sigma="0.5; with --taped what the fit of SETTINGS left, if that is more")
     add_shared(parser, output="write the program to this file")
     add_shared(parser, "--force", "--units", "--json")
 
@@ -261,9 +178,9 @@ def named_place(text: str) -> tuple[str, Point]:
     return name, place(where)
 
 
-def touch(text: str) -> tuple[str | Point, Point]:
-    """Read HOLE:SHOWN; a hole is a place or a name."""
-    hole, separator, shown = text.rpartition(":")
-    if not (separator and hole):
-        raise argparse.ArgumentTypeError(f"'{text}' is not HOLE:SHOWN, like -900,250:-896.2,253.1")
-    return (place(hole) if "," in hole else hole), place(shown)
+def touch(text: str) -> tuple[str, Point]:
+    """Read NAME:X,Y."""
+    name, _, shown = text.partition(":")
+    if not WORD.fullmatch(name):
+        raise argparse.ArgumentTypeError(f"'{text}' is not NAME:X,Y, like right:900.4,-250.7")
+    return name, place(shown)

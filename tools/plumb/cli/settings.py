@@ -9,8 +9,13 @@ from typing import Annotated
 from plumb.cli.arguments import add_shared, file
 from plumb.cli.output import write_outputs
 from plumb.cli.screen import headline, next_step, print_json, sentences, table
-from plumb.firmware.client_files import CLIENT_FILES, ClientFiles, client_files
-from plumb.firmware.settings import SentSetting, firmware_numbers
+from plumb.firmware.settings import (
+    CLIENT_FILES,
+    ClientFiles,
+    SentSetting,
+    client_files,
+    firmware_numbers,
+)
 from plumb.fit.inputs import settings_in
 from plumb.settings.machine import CLIENTS, FIRMWARES, MachineSettings
 from plumb.text.answers import Internal, in_json, meant

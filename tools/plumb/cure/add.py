@@ -21,14 +21,15 @@ from plumb.fit.compare import (
     PATCH,
     Comparison,
     Covariate,
+    PlausibleRange,
     best_patch,
     best_pose,
     chain_errors,
     compare,
     covariates,
     hung_places,
+    plausible_range,
 )
-from plumb.fit.expected import PlausibleRange, plausible_range
 from plumb.fit.fit import USUAL_SIGMA, Estimate, Fit, fit
 from plumb.fit.inputs import Inputs
 from plumb.fit.observations import Observations, different_numbers, notes_on, rms, unit_of

@@ -31,7 +31,7 @@ from plumb.diagnosis.outliers import Outlier
 from plumb.diagnosis.posterior import Account, Listed, Posterior, Spot
 from plumb.diagnosis.priors import LIKELIER
 from plumb.diagnosis.readings import CleanReadings, clean_readings, shifts
-from plumb.fit.expected import plausible_range, range_said
+from plumb.fit.compare import plausible_range, range_said
 from plumb.fit.fit import Checked
 from plumb.fit.inputs import Inputs, Stated
 from plumb.model.catalogue import effect_names, parameter_words, place_of

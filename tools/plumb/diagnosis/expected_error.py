@@ -11,8 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from plumb.diagnosis.explanation import Explanation
-from plumb.fit.compare import best_pose, chain_errors, hung_places
-from plumb.fit.expected import places_over
+from plumb.fit.compare import best_pose, chain_errors, hung_places, places_over
 from plumb.fit.observations import Observations, Sighting, sighted, visited
 from plumb.model.plain import ranked
 from plumb.model.predict import FOUND, NAMES, Array, lengths, settings_of

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from plumb.diagnosis.explanation import Board, Explanation
-from plumb.fit.expected import plausible_range
+from plumb.fit.compare import plausible_range
 from plumb.fit.fit import USUAL_SIGMA, Checked
 from plumb.fit.inputs import Stated
 from plumb.model.catalogue import EVERY_MACHINE

@@ -35,7 +35,7 @@ Folder = Source
 class Entry:
     """Entry of the diary."""
 
-    kind: str  # "fit", "numbers", "program", "recheck", "slip", "home" or "check"
+    kind: str  # "fit", "numbers", "program", "recheck", "home" or "check"
     at: Moment  # with its offset from UTC
     content: Internal[Mapping[str, Any]]  # lists, numbers and words as JSON has them
 
@@ -158,7 +158,7 @@ def _add_line(path: Path, line: bytes) -> None:
 
 FIT, NUMBERS, PROGRAM = "fit", "numbers", "program"
 CHECK = "check"  # as the page called its rechecks before
-RECHECK, SLIP, HOME = "recheck", "slip", "home"
+RECHECK, HOME = "recheck", "home"
 
 
 def fit_entry(

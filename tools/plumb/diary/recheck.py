@@ -7,6 +7,8 @@ marks may lie from where the settings put them, and which errors are too large f
 import tomllib
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from itertools import combinations
+from math import dist
 from typing import Annotated, Literal
 
 import numpy as np
@@ -14,13 +16,16 @@ import scipy
 
 from plumb.diary.file import FIT, Diary, Entry
 from plumb.fit.observations import SHEET_ROTATION
-from plumb.job.home import TOUCH_SIGMA, HomeTouch, Point, believed_chains, turned_back
 from plumb.model.plain import ranked
-from plumb.model.predict import FOUND, NAMES, Array, places_with_slopes, values_of
+from plumb.model.predict import FOUND, NAMES, Array, believed_lengths, places_with_slopes, values_of
 from plumb.settings.machine import MachineSettings, machine_in
 from plumb.text.answers import Internal, Moment, in_json, key, part
+from plumb.text.errors import InputError
 from plumb.text.values import MM, Unit
 
+Point = tuple[float, float]
+READ_SIGMA = 0.5  # [mm] of a coordinate, unless it is stated or the fit found more
+FAR = 50.0  # [mm] between holes from which on they are two places; nearer, they err alike
 LEVEL = 0.99  # of the rechecks of an unchanged machine hold
 STEP = 0.1  # [mm] of chain
 # Changes that need no new fit: how much longer a chain is than the machine believes, where the
@@ -28,6 +33,20 @@ STEP = 0.1  # [mm] of chain
 LEFT, RIGHT, SHEET_X, SHEET_Y = "left chain", "right chain", "sheet x", "sheet y"
 Sameness = Literal["as_fitted", "sheet_moved", "changed", "beyond_these_marks"]
 FRAME = ("motor_gap", "motor_height", "motor_center_x")
+
+
+@dataclass(frozen=True)
+class MeasuredMark:
+    """A mark that took no part in the fit. mm, from the middle of the sheet, y up."""
+
+    name: str
+    hole: Point  # where it is
+    target: Point  # where it was sent
+
+
+def are_apart(measured: Sequence[MeasuredMark]) -> bool:
+    """Return whether two of the holes are far enough apart to be two places."""
+    return any(dist(one.hole, other.hole) >= FAR for one, other in combinations(measured, 2))
 
 
 @dataclass(frozen=True)
@@ -92,7 +111,7 @@ class Recheck:
 def recheck(
     fit: Entry,
     settings: MachineSettings,
-    touches: Sequence[HomeTouch],
+    measured: Sequence[MeasuredMark],
     *,
     cut_with: MachineSettings | None = None,
     sigma: float | None = None,
@@ -103,37 +122,43 @@ def recheck(
     The sheet hangs as it was fitted, or somebody has hung it straight since, as the lab advises:
     whichever fits the marks better counts.
     """
-    chains = believed_chains(cut_with or settings, touches)
+    targets = np.array([mark.target for mark in measured], dtype=float)
+    try:
+        chains = believed_lengths(cut_with or settings, targets)
+    except ValueError as error:
+        raise InputError(str(error)) from None
     fitted = settings.fitted.last_sheet_rotation if settings.fitted else 0.0
-    turned = [_recheck(fit, settings, touches, chains, turn, sigma) for turn in (fitted, 0.0)]
+    turned = [_recheck(fit, settings, measured, chains, turn, sigma) for turn in (fitted, 0.0)]
     return replace(ranked(turned, lambda checked: checked.chi_square)[0], unit=unit)
 
 
 def _recheck(
     fit: Entry,
     settings: MachineSettings,
-    touches: Sequence[HomeTouch],
+    measured: Sequence[MeasuredMark],
     chains: Array,
     turn: float,
     sigma: float | None,
 ) -> Recheck:
     """Hold marks on a sheet that is turned [rad] against a fit."""
-    holes = turned_back(np.array([touch.hole for touch in touches], dtype=float), turn)
+    # From the edges of the turned sheet, as the machine has them.
+    cosine, sine = np.cos(turn), np.sin(turn)
+    holes = np.array([mark.hole for mark in measured]) @ np.array([[cosine, -sine], [sine, cosine]])
     where, slopes = _places(settings, chains)
     errors = holes - where
-    noise = sigma or max(TOUCH_SIGMA, fit.content.get("sigma_mm", 0.0))
+    noise = sigma or max(READ_SIGMA, fit.content.get("sigma_mm", 0.0))
     covariance = noise**2 * np.eye(errors.size) + _known(fit, where, slopes)
     left = errors.ravel()
     limit = float(scipy.special.chdtri(errors.size, 1 - LEVEL))
-    spread = covariance.reshape(len(touches), 2, len(touches), 2)
-    widest = [np.linalg.eigvalsh(spread[i, :, i])[-1] for i in range(len(touches))]
+    spread = covariance.reshape(len(measured), 2, len(measured), 2)
+    widest = [np.linalg.eigvalsh(spread[i, :, i])[-1] for i in range(len(measured))]
     expected = np.sqrt(scipy.special.chdtri(2, 1 - LEVEL) * np.array(widest))
-    each = zip(touches, errors.tolist(), expected.tolist(), strict=True)
+    each = zip(measured, errors.tolist(), expected.tolist(), strict=True)
     return Recheck(
         fit=fit,
         marks=tuple(
-            RecheckedMark(touch.name, touch.hole, touch.shown, (x, y), most)
-            for touch, (x, y), most in each
+            RecheckedMark(mark.name, mark.hole, mark.target, (x, y), most)
+            for mark, (x, y), most in each
         ),
         chi_square=float(left @ np.linalg.solve(covariance, left)),
         limit=limit,

@@ -96,8 +96,8 @@ def slip_suspicion(telemetry: Telemetry) -> str | None:
     return (
         f"Look at {chains}: a motor's load fell away for a moment, {often} since power-on, the "
         f"last time on the {last.chain} near x {x}, y {y} mm, {ago(last.seconds_ago)} ago. A chain "
-        "that slips does that. Touch two holes, and ask "
-        + to_do("plumb recover.", page="whether they are where they were.")
+        "that slips does that. Drive to a hole that the machine made. If the bit misses it, "
+        + to_do("plumb recover --at sets the chains right.", page="set the chains again.")
     )
 
 

@@ -8,9 +8,8 @@ from pathlib import Path
 import numpy as np
 
 from plumb.diary.file import write_and_keep
-from plumb.firmware.client_files import gcode
-from plumb.firmware.settings import CLIENT_NUMBERS, firmware_numbers, machine_of_numbers
-from plumb.fit.expected import expected_anywhere, expected_error, expected_priors, expected_sentence
+from plumb.firmware.settings import CLIENT_NUMBERS, firmware_numbers, gcode, machine_of_numbers
+from plumb.fit.compare import expected_anywhere, expected_error, expected_priors, expected_sentence
 from plumb.fit.inputs import settings_in
 from plumb.guide.talk import (
     HEAVIEST,

@@ -7,7 +7,7 @@ from pydantic import ConfigDict
 
 from plumb.diagnosis import Checked
 from plumb.fit.by_hand import WEIGHED, WEIGHT, readings
-from plumb.fit.expected import WIDE, is_absurd, plausible_range, refuse_absurd
+from plumb.fit.compare import WIDE, is_absurd, plausible_range, refuse_absurd
 from plumb.fit.fit import priors_with
 from plumb.lab.project import Choices, Number
 from plumb.model.predict import RuleReading

@@ -5,8 +5,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
-from plumb.firmware.client_files import gcode
-from plumb.firmware.settings import every_setting, firmware_numbers
+from plumb.firmware.settings import every_setting, firmware_numbers, gcode
 from plumb.line.sender import REPORTS, STANDS, Sender, Watch
 from plumb.settings.machine import MachineSettings
 from plumb.text.errors import InputError, to_do

@@ -28,8 +28,7 @@ from plumb.settings.files import read_settings, settings_as_they_were
 from plumb.settings.machine import Controller, Known, MachineSettings
 from plumb.text.answers import meant
 from plumb.text.errors import InputError, Source, naming, to_do
-from plumb.text.files import CODE, as_path, parsed, read_bytes, read_text
-from plumb.text.ini import IniText, read_ini
+from plumb.text.files import CODE, IniText, as_path, parsed, read_bytes, read_ini, read_text
 from plumb.text.tables import KeyPath, Number, Table, read_table
 from plumb.text.values import (
     INCH,

@@ -12,7 +12,7 @@ import scipy
 from plumb.diagnosis.diagnosis import NOTHING, hidden_share
 from plumb.diagnosis.explanation import FEWEST_NUMBERS, Board, Explanation
 from plumb.diagnosis.priors import chance_of, largest_met
-from plumb.fit.expected import Expected, expected_anywhere, expected_priors, expected_sentence
+from plumb.fit.compare import Expected, expected_anywhere, expected_priors, expected_sentence
 from plumb.fit.fit import PRIORS
 from plumb.fit.observations import different_numbers, model_and_observations
 from plumb.grid.options import APPROACH

@@ -33,8 +33,17 @@ from plumb.settings.machine import (
     tuned_numbers,
 )
 from plumb.text.errors import InputError, Source
-from plumb.text.files import CODE, parsed, read_bytes, read_text
-from plumb.text.ini import IniEntry, IniText, parse_ini, read_ini, with_values
+from plumb.text.files import (
+    CODE,
+    IniEntry,
+    IniText,
+    parse_ini,
+    parsed,
+    read_bytes,
+    read_ini,
+    read_text,
+    with_values,
+)
 from plumb.text.tables import read_table
 from plumb.text.values import number_in
 

@@ -27,8 +27,7 @@ from plumb.bench.boards import (
 from plumb.bench.kinds import REAL
 from plumb.bench.report import shape_error
 from plumb.diagnosis import Checked
-from plumb.firmware.client_files import gcode
-from plumb.firmware.settings import CLIENT_NUMBERS, firmware_numbers
+from plumb.firmware.settings import CLIENT_NUMBERS, firmware_numbers, gcode
 from plumb.line.sender import Sender
 from plumb.model.catalogue import LAB_EFFECTS
 from plumb.model.predict import judged

@@ -13,8 +13,8 @@ from plumb.diagnosis.diagnosis import hidden_share, room_for, sizes_of
 from plumb.diagnosis.evidence import KNOWN, Noise
 from plumb.diagnosis.expected_error import drawn_by, expected_error, model_by, rival_error
 from plumb.diagnosis.explanation import Board, explain, gaussian_process_columns
-from plumb.fit import expected
-from plumb.fit.expected import places_over, plausible_range
+from plumb.fit import compare
+from plumb.fit.compare import places_over, plausible_range
 from plumb.fit.fit import PRIORS, Checked, fit
 from plumb.fit.inputs import Inputs
 from plumb.fit.observations import observe
@@ -232,7 +232,7 @@ def test_better_readings_and_more_of_them_leave_less():
 
 def test_before_any_mark_the_expected_error_is_the_normal_one():
     bare = replace(MAKER, effects={})
-    normal = expected.expected_error(bare, PRIORS)
+    normal = compare.expected_error(bare, PRIORS)
     before = open_of(plan(3, 3), settings=bare).before
     assert before == pytest.approx(normal.among_marks_mm, rel=0.1)
 

@@ -25,9 +25,8 @@ from plumb.diary.file import (
     read_diary,
     write_and_keep,
 )
-from plumb.diary.recheck import LEFT, RIGHT, SHEET_Y, fit_of, recheck
+from plumb.diary.recheck import LEFT, RIGHT, SHEET_Y, MeasuredMark, fit_of, recheck
 from plumb.fit.inputs import Inputs
-from plumb.job.home import HomeTouch
 from plumb.line.memory import kept_before
 from plumb.line.sender import Sender
 from plumb.marks.read import Measurements
@@ -314,7 +313,7 @@ def touched(settings, *, longer=(0.0, 0.0), true=TRUE, noise=(0, 0), turn=0.0):
     where = places(true, lengths(settings, AT)[0] + np.array(longer))[0] + noise
     where = where @ np.array([[np.cos(turn), np.sin(turn)], [-np.sin(turn), np.cos(turn)]])
     return [
-        HomeTouch(str(i), tuple(hole), tuple(target))
+        MeasuredMark(str(i), tuple(hole), tuple(target))
         for i, (hole, target) in enumerate(zip(where.tolist(), AT.tolist(), strict=True))
     ]
 
@@ -381,7 +380,7 @@ def checked(tmp_path):
         entry["settings"] = machine_toml(MAKER)
         fit = append(tmp_path, FIT, entry)
         touches = [
-            HomeTouch(str(i), tuple(hole), tuple(at))
+            MeasuredMark(str(i), tuple(hole), tuple(at))
             for i, (hole, at) in enumerate(zip((AT + errors).tolist(), AT.tolist(), strict=True))
         ]
         return recheck(fit, MAKER, touches, sigma=sigma)

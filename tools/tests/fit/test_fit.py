@@ -10,7 +10,7 @@ from plumb.bench.boards import MAKER
 from plumb.cli.screen import in_text
 from plumb.cure.add import add
 from plumb.cure.decision import toml_of
-from plumb.fit.expected import refuse_absurd
+from plumb.fit.compare import refuse_absurd
 from plumb.fit.fit import PRIORS, Checked, Linearized, Problem, fit, solve
 from plumb.fit.inputs import Inputs
 from plumb.fit.observations import SHEET_ROTATION, model_and_observations, observe, sighted

@@ -7,12 +7,14 @@ import numpy as np
 import pytest
 from chain_views import chain_view
 from plumb.diagnosis import diagnose
-from plumb.fit.compare import best_pose, compare, covariates
-from plumb.fit.expected import (
+from plumb.fit.compare import (
     COLUMNS,
     MARGIN,
     ROWS,
     WIDE,
+    best_pose,
+    compare,
+    covariates,
     expected_anywhere,
     expected_error,
     expected_priors,

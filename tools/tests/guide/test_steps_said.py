@@ -3,7 +3,7 @@
 from types import SimpleNamespace
 
 import pytest
-from plumb.fit.expected import expected_anywhere, expected_priors, expected_sentence
+from plumb.fit.compare import expected_anywhere, expected_priors, expected_sentence
 from plumb.guide import steps
 from plumb.guide.steps import (
     GuideVisit,

@@ -8,7 +8,7 @@ from itertools import product
 import pytest
 from example_machine import EXAMPLE
 from plumb.cli.main import main
-from plumb.firmware.client_files import client_numbers
+from plumb.firmware.settings import client_numbers
 from plumb.settings.files import (
     SOURCES,
     changed_client_file,
@@ -21,7 +21,7 @@ from plumb.settings.files import (
 )
 from plumb.settings.machine import PublishedSettings
 from plumb.text.errors import InputError
-from plumb.text.ini import read_ini
+from plumb.text.files import read_ini
 from published_marks import SETTINGS
 
 SAG = {"chain_sag": {"weight_ratio_squared": 8.2e-12}}

@@ -4,7 +4,7 @@ import configparser
 
 import pytest
 from plumb.text.errors import InputError
-from plumb.text.ini import parse_ini, with_values
+from plumb.text.files import parse_ini, with_values
 
 TEXT = """; a comment
 [Maslow Settings]

@@ -11,8 +11,7 @@ from pydantic import BaseModel, Field, FiniteFloat
 
 from plumb.cure.add import Chosen, FitStep, Quality, add, add_to
 from plumb.cure.decision import record_of, toml_of
-from plumb.fit.compare import Covariate
-from plumb.fit.expected import plausible_range
+from plumb.fit.compare import Covariate, plausible_range
 from plumb.fit.fit import Fit
 from plumb.lab.background import LiveBoards, WarmBoard
 from plumb.lab.project import Choices

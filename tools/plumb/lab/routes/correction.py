@@ -20,8 +20,8 @@ from plumb.cure.decision import (
     toml_of,
 )
 from plumb.diary.file import FIT, fit_entry, keep
-from plumb.firmware.client_files import CLIENT_FILES, ClientFiles, client_files
-from plumb.fit.expected import range_said
+from plumb.firmware.settings import CLIENT_FILES, ClientFiles, client_files
+from plumb.fit.compare import range_said
 from plumb.fit.fit import Checked
 from plumb.fit.inputs import Inputs
 from plumb.lab.background import key_of

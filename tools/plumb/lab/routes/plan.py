@@ -8,7 +8,7 @@ from threading import Lock
 from fastapi import APIRouter
 from pydantic import BaseModel, Field
 
-from plumb.fit.expected import expected_priors
+from plumb.fit.compare import expected_priors
 from plumb.lab.known import measured_to, planned_priors, possible
 from plumb.lab.project import Choices, Layout
 from plumb.lab.rounds import (

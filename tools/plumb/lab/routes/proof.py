@@ -9,9 +9,8 @@ from pydantic import BaseModel
 
 from plumb.cure.add import add
 from plumb.diary.file import FIT, RECHECK, Entry, append, fit_entry, read_diary
-from plumb.diary.recheck import fit_of, recheck
+from plumb.diary.recheck import MeasuredMark, fit_of, recheck
 from plumb.fit.inputs import Inputs
-from plumb.job.home import HomeTouch
 from plumb.lab.machine_line import TheLine
 from plumb.lab.project import Choices, Project, save_choices
 from plumb.lab.proof_marks import inputs_of_promise, proof_forms, proof_round
@@ -141,13 +140,13 @@ def _rounds(project: Project, choices: Choices, proof_form: str) -> list[RoundEr
 def _checked(project: Project, inputs: Inputs, form: str) -> RecheckAnswer | None:
     """Return the proof marks against the fit; None before all are read."""
     marks = form_of(project, project.choices, form).measurements
-    touches = [HomeTouch(mark.name, where, mark.target) for mark, where in marks.readings]
-    if len(touches) < len(marks.marks):
+    measured = [MeasuredMark(mark.name, where, mark.target) for mark, where in marks.readings]
+    if len(measured) < len(marks.marks):
         return None
     fit = fit_of(read_diary(project.folder), inputs.settings) or _fitted_now(project, inputs)
     cut_with = marks.rounds[0].cut_with
     sigma, unit = marks.tape_sigma, inputs.unit
-    checked = recheck(fit, inputs.settings, touches, cut_with=cut_with, sigma=sigma, unit=unit)
+    checked = recheck(fit, inputs.settings, measured, cut_with=cut_with, sigma=sigma, unit=unit)
     return in_words(checked)
 
 
