@@ -12,13 +12,13 @@ from plumb.cli.effects import Library
 from plumb.cli.forward import PlacesAnswer
 from plumb.cli.grid import PlannedGrid
 from plumb.cli.inverse import ChainLengths
-from plumb.cli.reach import ReachMap
 from plumb.cli.read import MachineNumbers
 from plumb.cli.report import ReportAnswer
 from plumb.cli.resume import ResumeAnswer
 from plumb.cli.send import SendAnswer
 from plumb.cli.settings import SettingLines
 from plumb.fit.compare import Comparison
+from plumb.plan.sheet_reach import SheetReach
 from plumb.text.answers import schema_of
 from plumb.vm.practice import Score
 from plumb.words.job import JobAnswer
@@ -49,7 +49,7 @@ ANSWERS: dict[str, Any] = {
     "inverse": ChainLengths,
     "next": ProposalsAnswer,
     "practice": Score,
-    "reach": ReachMap,
+    "reach": SheetReach,
     "read": MachineNumbers,
     "recover": HomeAnswer | SlipAnswer,
     "report": ReportAnswer,

@@ -295,9 +295,9 @@ def checked(text: str) -> Measured:
     return Measured(name.strip(), value.strip(), sigma.strip(), unit)
 
 
-def picture_form(path: str, *, option: str = "--picture") -> str:
+def picture_form(path: str) -> str:
     """Return the form of a picture by its name's ending."""
     form = Path(path).suffix.lower().lstrip(".")
     if form not in FORMATS:
-        raise InputError(f"{option} {path}: end the name with .{', .'.join(FORMATS)}")
+        raise InputError(f"--picture {path}: end the name with .{', .'.join(FORMATS)}")
     return form

@@ -1,7 +1,6 @@
 """reach: which part of a sheet is usable, on the command line, in a grid and next to the tool."""
 
 import re
-import xml.etree.ElementTree as ElementTree
 from dataclasses import replace
 
 import numpy as np
@@ -109,12 +108,6 @@ def test_the_map_shows_the_sheet_as_it_hangs():
     assert {len(line) for line in lines} == {77} and len(lines) == 39
     assert lines[0][38] == "T" and lines[-1][0] == lines[-1][-1] == "S"
     assert lines[20][38] == "." and set("".join(lines)) <= set(SIGNS)
-
-
-def test_the_drawn_map_is_written(run, machine, tmp_path):
-    path = tmp_path / "map.svg"
-    assert run("reach", machine(motor_gap=2900.0, motor_height=909.6), "-o", path)[0] == 0
-    assert ElementTree.parse(path).getroot().tag.endswith("svg")
 
 
 def test_a_grid_that_the_tool_allows_is_refused_where_the_model_knows_better(run):
