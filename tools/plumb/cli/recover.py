@@ -48,7 +48,7 @@ Z_TOO = "Is z lost too? Bring the bit's tip to the sheet's face and send both at
 def run(arguments: argparse.Namespace) -> int:
     """Keep, restore or list home marks, or weigh what touched holes say; return the exit code."""
     is_home = arguments.keep or arguments.at or not arguments.touch
-    for option in ("taped", "fixed", "sigma"):
+    for option in ("fixed", "sigma"):
         if is_home and getattr(arguments, option):
             raise InputError(f"--{option} is for touched holes: give --touch, and no home mark")
     settings = settings_in(arguments.settings)
@@ -57,13 +57,8 @@ def run(arguments: argparse.Namespace) -> int:
 
 def _slip(arguments: argparse.Namespace, settings: MachineSettings) -> int:
     """Weigh what may have happened to the chains, write, print, and return the exit code."""
-    finding = find_slip(
-        settings,
-        _touches(arguments),
-        sigma=arguments.sigma,
-        fixed=arguments.fixed,
-        taped=arguments.taped,
-    )
+    touches = _touches(arguments)
+    finding = find_slip(settings, touches, sigma=arguments.sigma, fixed=arguments.fixed)
     lines = repair_lines(finding) if arguments.output else []
     answer = SlipAnswer(
         finding=finding,
@@ -235,17 +230,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "chain slipped; with --at, how well another home mark fits",
     )
     parser.add_argument(
-        "--taped",
-        action="store_true",
-        help="you measured the places of the holes with a tape [else they are where the machine "
-        "was sent when it made them]",
-    )
-    parser.add_argument(
         "--fixed",
         action="store_true",
         help="the holes are in the frame or its board, not in a sheet that can move",
     )
-    add_shared(parser, sigma="0.5; with --taped what the fit of SETTINGS left, if that is more")
+    add_shared(parser, sigma="0.5")
     add_shared(parser, output="write the program to this file")
     add_shared(parser, "--force", "--units", "--json")
 

@@ -201,18 +201,6 @@ def places_with(settings: MachineSettings, chains: Array) -> Array:
     return where.reshape(chains.shape)
 
 
-def sigma_of(settings: MachineSettings, *, taped: bool) -> float:
-    """Return the usual error of a coordinate of a touch [mm].
-
-    A hole that the machine made by these settings is as good as a touch: what the settings do not
-    know moves hole and bit alike. A hole that was measured with a tape is no better than what the
-    fit left at marks that it did not see.
-    """
-    if not taped or settings.fitted is None:
-        return TOUCH_SIGMA
-    return max(TOUCH_SIGMA, settings.fitted.left_out_rms / 2**0.5)
-
-
 def turned_back(holes: Array, turn: float) -> Array:
     """Holes (n, 2) [mm] that a tape read from the edges of a sheet, as the machine has them, if the
     sheet is turned [rad] counter-clockwise about its middle."""

@@ -13,13 +13,12 @@ import numpy as np
 import scipy
 
 from plumb.job.home import (
+    TOUCH_SIGMA,
     HomeTouch,
     Point,
     are_apart,
     believed_chains,
     places_with,
-    sigma_of,
-    turned_back,
 )
 from plumb.model.plain import greatest, ranked
 from plumb.model.predict import FOUND, Array, lengths
@@ -68,7 +67,6 @@ class SlipFinding:
     sigma: float  # [mm] of a coordinate
     believed: Array  # (n, 2) [mm] the chains that the machine believes at each touch
     fixed: bool  # whether the marks are on what cannot move
-    log_density: float  # of the touches, over all accounts
 
     @property
     def best(self) -> SlipAccount:
@@ -88,35 +86,24 @@ def find_slip(
     *,
     sigma: float | None = None,
     fixed: bool = False,
-    taped: bool = False,
 ) -> SlipFinding:
     """Weigh what may have happened to the chains since the marks were made.
 
-    fixed: the marks are on the frame, so no sheet could move. taped: the places of the holes were
-    read with a tape; else they are where the machine was sent when it made them. A tape reads from
-    the sheet's edges: the sheet hangs as it was fitted, or was hung straight since.
-    sigma [mm] of a coordinate of a touch, if it is known better. Raises InputError.
+    fixed: the marks are on the frame, so no sheet could move. sigma [mm] of a coordinate of a
+    touch, if it is known better. Raises InputError.
     """
-    used = sigma or sigma_of(settings, taped=taped)
-    fitted = settings.fitted.last_sheet_rotation if taped and settings.fitted else 0.0
-    turns = (fitted, 0.0) if fitted else (0.0,)
-    turned = [_finding(settings, touches, turn, used, fixed) for turn in turns]
-    return ranked(turned, lambda finding: -finding.log_density)[0]
-
-
-def _finding(
-    settings: MachineSettings, touches: Sequence[HomeTouch], turn: float, used: float, fixed: bool
-) -> SlipFinding:
-    """Return what may have happened, if the sheet is turned [rad] counter-clockwise."""
+    # A hole that the machine made by these settings is as good as a touch: what the settings do
+    # not know moves hole and bit alike.
+    used = sigma or TOUCH_SIGMA
     believed = believed_chains(settings, touches)
-    holes = turned_back(np.array([touch.hole for touch in touches], dtype=float), turn)
+    holes = np.array([touch.hole for touch in touches], dtype=float).reshape(-1, 2)
     counts = [(left, right) for left in COUNTS for right in COUNTS]
     slipped = believed + LINK * np.array(counts, dtype=float)[:, None]
     errors = {
         links: holes - where
         for links, where in zip(counts, places_with(settings, slipped), strict=True)
     }
-    accounts, log_density = _weighed(errors, holes, used, fixed)
+    accounts = _weighed(errors, holes, used, fixed)
     best = accounts[0]
     return SlipFinding(
         verdict=_verdict(accounts, apart=are_apart(touches), fixed=fixed),
@@ -127,14 +114,13 @@ def _finding(
         sigma=used,
         believed=believed,
         fixed=fixed,
-        log_density=log_density,
     )
 
 
 def _weighed(
     errors: dict[Links, Array], holes: Array, sigma: float, fixed: bool
-) -> tuple[tuple[SlipAccount, ...], float]:
-    """Return all accounts with their odds, the likeliest first, and how likely the touches are."""
+) -> tuple[SlipAccount, ...]:
+    """Return all accounts with their odds, the likeliest first."""
     poses = () if fixed else POSES
     logs: dict[tuple[str, Links], list[float]] = {}
 
@@ -158,9 +144,7 @@ def _weighed(
     totals = {key: float(scipy.special.logsumexp(each)) for key, each in logs.items()}
     whole = float(scipy.special.logsumexp([*totals.values()]))
     likeliest = ranked(totals, lambda key: -totals[key])
-    return tuple(
-        SlipAccount(*key, odds=float(np.exp(totals[key] - whole))) for key in likeliest
-    ), whole
+    return tuple(SlipAccount(*key, odds=float(np.exp(totals[key] - whole))) for key in likeliest)
 
 
 def _slip_shares() -> Iterator[tuple[Links, float]]:

@@ -1,6 +1,5 @@
 """Machines of the judge that their owner has calibrated, and what he touches after a mishap."""
 
-from dataclasses import replace
 from functools import cache
 
 import numpy as np
@@ -12,18 +11,9 @@ from plumb.fit.inputs import Inputs
 from plumb.job.home import HomeTouch
 from plumb.job.slip import LINK, NO_LINKS
 from plumb.model.predict import lengths, places
-from plumb.settings.toml import FitRecord
 
 HOLES = np.array([(-900.0, 250.0), (900.0, -250.0)])  # [mm] that the machine made
 HAND = 0.3  # [mm] of a coordinate: how well a bit sits in its hole
-
-
-def record_of(left_out, turn=0.0):
-    """The record of a fit, of which the error of marks that were left out [mm] and the sheet's
-    turn [rad] matter."""
-    return FitRecord(
-        start_rms=5.0, rms=1.0, priced_rms=1.1, left_out_rms=left_out, sheet_rotation=turn
-    )
 
 
 @cache
@@ -33,8 +23,7 @@ def fitted_machine(number):
     board = cut(as_bought(usual_machine(source, number, sites), source), sites, seed=source)
     model, rows = Inputs(MAKER, board.measurements).model_and_observations()
     done = fit(model, rows, effects=("chain_pitch", "chain_stretch"), sigma=0.5)
-    record = record_of(done.left_out_rms, done.sheet_rotation)
-    return board.machine, replace(done.settings, fitted=record)
+    return board.machine, done.settings
 
 
 def touched(number, *, links=NO_LINKS, moved=(0.0, 0.0), seed, holes=HOLES):

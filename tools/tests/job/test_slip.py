@@ -1,12 +1,11 @@
 """Slips of whole links are named; a moved sheet and noise are none; which hole to touch next."""
 
-from dataclasses import replace
 from itertools import product
 
 import numpy as np
 import pytest
 from plumb.bench.causes import MAKER
-from plumb.job.home import HomeTouch, sigma_of
+from plumb.job.home import HomeTouch
 from plumb.job.slip import (
     CANNOT_TELL,
     COUNTS,
@@ -21,7 +20,7 @@ from plumb.job.slip import (
     next_hole,
 )
 from plumb.model.predict import lengths, places
-from slipped_machine import fitted_machine, record_of, touched
+from slipped_machine import fitted_machine, touched
 
 FIRST = (-900.0, 250.0)
 
@@ -119,29 +118,6 @@ def test_a_single_hole_tells_only_if_it_cannot_move(links):
     assert open_question.verdict == CANNOT_TELL and open_question.best.links == links
     settled = find_slip(MAKER, asked, fixed=True)
     assert (settled.verdict, settled.best.links) == (SLIP, links)
-
-
-def test_a_taped_hole_is_as_good_as_the_fit():
-    fitted = replace(MAKER, fitted=record_of(2.0))
-    assert sigma_of(fitted, taped=False) == 0.5
-    assert sigma_of(fitted, taped=True) == pytest.approx(2.0 / 2**0.5)
-    assert sigma_of(MAKER, taped=True) == 0.5
-    assert find_slip(fitted, touches(), taped=True).sigma == pytest.approx(2.0 / 2**0.5)
-
-
-@pytest.mark.parametrize("turn", [0.004, -0.004])
-def test_a_tape_on_a_turned_sheet_finds_the_holes_where_the_fit_has_them(turn):
-    fitted = replace(MAKER, fitted=record_of(0.6, turn))
-    holes = np.array([(-900.0, 400.0), (900.0, 400.0), (-900.0, -400.0), (900.0, -400.0)])
-    # The sheet hangs as it did, or straight.
-    for moved in ((0.0, 0.0, -turn), (0.0, 0.0, 0.0)):
-        still = find_slip(fitted, touches(holes, moved=moved), taped=True)
-        assert still.verdict == NOTHING and np.abs(still.left).max() < 0.05
-        slipped = find_slip(fitted, touches(holes, links=(1, 0), moved=moved), taped=True)
-        assert slipped.verdict == SLIP and slipped.best.links == (1, 0)
-    # Holes that the machine made are where it was sent, however the sheet hangs.
-    made = find_slip(fitted, touches(holes, moved=(0.0, 0.0, -turn)))
-    assert made.verdict == SHEET
 
 
 @pytest.mark.parametrize(
