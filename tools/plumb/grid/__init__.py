@@ -1,7 +1,7 @@
 """The G-code for calibration marks."""
 
 from plumb.grid.options import MIN_FREE_CHAIN, PRESETS, Grid, GridError, PlainMachine
-from plumb.grid.pattern import check, inwards, listed, tensions, touches_of
+from plumb.grid.pattern import check, inwards, tensions, touches_of
 from plumb.grid.program import marks_list, program
 
 __all__ = [
@@ -12,7 +12,6 @@ __all__ = [
     "PlainMachine",
     "check",
     "inwards",
-    "listed",
     "marks_list",
     "program",
     "tensions",

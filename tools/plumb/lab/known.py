@@ -35,9 +35,13 @@ def stated(choices: Choices) -> Statements:
 
 def possible(choices: Choices, settings: MachineSettings) -> Choices:
     """Return the choices without numbers that cannot have been measured on this machine."""
-    absurd = {check.name for check in stated(choices).checked if is_absurd(check, settings)}
+    absurd = _absurd(choices, settings)
     known = {name: number for name, number in choices.known.items() if name not in absurd}
     return choices.model_copy(update={"known": known})
+
+
+def _absurd(choices: Choices, settings: MachineSettings) -> dict[str, Checked]:
+    return {check.name: check for check in stated(choices).checked if is_absurd(check, settings)}
 
 
 def planned_priors(choices: Choices) -> dict[str, float]:
@@ -51,11 +55,6 @@ def planned_priors(choices: Choices) -> dict[str, float]:
         if check.name in known.priors
     }
     return {**known.priors, **narrow}
-
-
-def measured_to(choices: Choices) -> dict[str, float]:
-    """Return how far each number may be off that the owner measured."""
-    return {name: number.sigma for name, number in choices.known.items() if number.sigma > 0}
 
 
 # The numbers that an owner can measure by hand, each as it is read, and whether it can be.
@@ -98,7 +97,7 @@ def known_numbers(settings: MachineSettings, choices: Choices) -> list[KnownNumb
         for name in checks
     ]
     # What rests on an absurd number is not judged.
-    absurd = {check.name: check for check in stated(choices).checked if is_absurd(check, settings)}
+    absurd = _absurd(choices, settings)
     numbers = [
         replace(each, refused=_why(each, absurd[each.name].value, choices.unit))
         if each.name in absurd and each.by not in absurd

@@ -1,7 +1,5 @@
 """Where results go, how they fit a screen, and in which unit they are."""
 
-import json
-import math
 import os
 import re
 import stat
@@ -348,25 +346,19 @@ def test_a_number_that_moved_too_far_is_shown_in_the_chosen_unit(run, tmp_path):
     assert abs(float(moved[1]) - 117.26) == pytest.approx(float(moved[2]), abs=0.002)
 
 
-@pytest.mark.parametrize("preset", ["nine", "distances"])
-def test_a_form_in_inches_is_filled_in_inches_and_read(preset, run, ask, here):
-    words = ("grid", "--settings", INI, "--preset", preset, *INCHES, "--output", "grid.nc")
-    assert run(*words, "--marks", "marks.toml", "--paper", "paper.pdf")[0] == 0
+def test_a_form_in_inches_is_filled_in_inches_and_read(run, here):
+    words = ("grid", "--settings", INI, "--preset", "nine", *INCHES, "--output", "grid.nc")
+    assert run(*words, "--marks", "marks.toml")[0] == 0
     text = Path("marks.toml").read_text()
     assert "inch from the sheet's top left corner" in text
-    places = [json.loads(each) for each in re.findall(r"^target = (.*)", text, re.MULTILINE)]
     text = re.sub(r"^target = (.*)", r"target = \1\nmeasured = \1", text, flags=re.MULTILINE)
     text = text.replace("measured = [3.9370, 3.9370]", "measured = [3 7/8, 4 3/16]")
-    names = re.findall(r'^# between = \["(.)", "(.)"\]', text, re.MULTILINE)
-    for first, second in names:
-        size = math.dist(places[int(first) - 1], places[int(second) - 1])
-        text = text.replace("# inch =", f"inch = {int(size)} {int(size % 1 * 16)}/16", 1)
-    Path("marks.toml").write_text(text.replace("# [[", "[[").replace("# between", "between"))
+    Path("marks.toml").write_text(text)
     read = read_marks("marks.toml", sheet=SHEET)
     first = read.marks[0]
     assert first.target == pytest.approx((100 - 1219.2, 609.6 - 100), abs=0.002)
     assert first.measured == pytest.approx((3.875 * 25.4 - 1219.2, 609.6 - 4.1875 * 25.4))
-    assert len(read.distances) == (0 if preset == "nine" else 12) and read.typed.unit == "inch"
+    assert read.typed.unit == "inch"
 
 
 def test_a_grid_is_the_same_in_inches(run):
@@ -382,5 +374,5 @@ def test_a_grid_is_the_same_in_inches(run):
 def test_places_and_lengths_of_a_command_are_the_same_in_inches():
     assert place("4in,-2 1/2in") == pytest.approx((101.6, -63.5))
     assert length('1/32"') == pytest.approx(0.79375)
-    hole, shown = touch("-36in,10in:-35 7/8in,254")
-    assert hole == pytest.approx((-914.4, 254)) and shown == pytest.approx((-911.225, 254))
+    name, shown = touch("left:-35 7/8in,254")
+    assert name == "left" and shown == pytest.approx((-911.225, 254))

@@ -9,7 +9,7 @@ from fastapi import APIRouter
 from pydantic import BaseModel, Field
 
 from plumb.fit.compare import expected_priors
-from plumb.lab.known import measured_to, planned_priors, possible
+from plumb.lab.known import planned_priors, possible, stated
 from plumb.lab.project import Choices, Layout
 from plumb.lab.rounds import (
     TITLES,
@@ -39,7 +39,6 @@ class LayoutAnswer(BaseModel):
 
     id: Layout
     title: str
-    marks: int
     minutes: float
     places: list[tuple[float, float]]  # [mm] machine frame
 
@@ -95,7 +94,6 @@ def _layout(settings: MachineSettings, layout: Layout) -> LayoutAnswer:
     return LayoutAnswer(
         id=layout,
         title=TITLES[layout],
-        marks=len(plan.touches),
         minutes=plan.minutes,
         places=[(touch.x, touch.y) for touch in plan.touches],
     )
@@ -175,7 +173,7 @@ def reach(project: TheProject) -> ReachAnswer:
     """Return where on the sheet the machine is usable."""
     settings = opened(project)
     choices = possible(project.choices, settings)
-    known = measured_to(choices)
+    known = {check.name: check.sigma for check in stated(choices).checked}
     survey, expected = reach_of(settings, known)
     words = prior_words(expected_priors(known), expected_priors({}))
     said = command("reach", choices.settings, *words, *unit_words(choices))
