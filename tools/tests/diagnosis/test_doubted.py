@@ -16,7 +16,7 @@ def board(columns=5, rows=3):
 
 
 def doubts(measurements, **how):
-    return look_over(Inputs(BELIEVED, measurements, **how)).doubts
+    return look_over(Inputs(BELIEVED, measurements, **how))
 
 
 @pytest.mark.parametrize("sigma", [None, 0.3])

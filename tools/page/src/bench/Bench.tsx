@@ -1,6 +1,5 @@
 // The bench for effects: add and remove them, and see at once how much error is left.
 import { useMemo, useRef, useState } from "preact/hooks";
-import { useUnits } from "../controls/lengths";
 import { Trouble } from "../controls/Trouble";
 import { Residuals } from "../residuals/Residuals";
 import { useDrawn } from "../residuals/useDrawn";
@@ -20,12 +19,8 @@ export function Bench() {
   return <OpenBench bench={bench} />;
 }
 
-const ARROWS =
-  "Pale arrows show the state before. Lay an effect over the marks to see what it draws. ";
-
 function OpenBench({ bench }: { bench: Board }) {
   const { project, choose } = useProject();
-  const units = useUnits();
   const kept = keptChoice(project.choices.bench);
   const [moving, setMoving] = useState<Choice>(); // while a slider is being moved
   const choice = moving ?? kept;
@@ -62,8 +57,7 @@ function OpenBench({ bench }: { bench: Board }) {
   }, [bench, frame, now, previous, drawn]);
   return (
     <Screen
-      title="Effects bench"
-      say={`Add an effect: each row says what would be left with it [${units}]. ${hasMarks ? ARROWS : ""}Nothing goes to the machine.`}
+      {...bench.heading}
       why={<Why />}
       {...(now ? { command: now.fit.command } : {})}
       stage={stage}

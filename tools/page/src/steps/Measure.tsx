@@ -1,11 +1,11 @@
 // Step 4: choose how to measure, and see what the marks could tell before a hole is cut.
 import { type Schemas, send } from "../api/client";
+import { Segments } from "../controls/Segments";
 import { Trouble } from "../controls/Trouble";
 import { useAsked } from "../shell/asked";
 import { useNewest } from "../shell/newest";
 import { useProject } from "../shell/project";
 import { Screen } from "../shell/Screen";
-import { type LayoutId, Layouts } from "./measure/Layouts";
 import { MarksMap, type Place } from "./measure/MarksMap";
 
 const MOMENT_MS = 250; // after a plan was changed
@@ -120,5 +120,35 @@ function EffectList({ causes }: { causes: Schemas["PlannedCause"][] }) {
         ))}
       </ul>
     </details>
+  );
+}
+
+type LayoutId = Schemas["LayoutAnswer"]["id"];
+
+interface LayoutsParts {
+  layouts: Schemas["LayoutAnswer"][];
+  chosen: LayoutId;
+  /** Marks that you place yourself. */
+  count: number;
+  choose: (id: LayoutId) => void;
+}
+
+function Layouts({ layouts, chosen, count, choose }: LayoutsParts) {
+  // It is always there, so that the sheet does not move under the finger that drags a mark.
+  const mine = { id: "own" as const, title: "Your choice", minutes: 0 };
+  return (
+    <Segments
+      class="layouts"
+      legend="How to measure"
+      chosen={chosen}
+      choose={choose}
+      options={[...layouts, mine].map(({ id, title, minutes }) => [
+        id,
+        <>
+          <b>{title}</b>{" "}
+          <small>{minutes > 0 ? `about ${Math.round(minutes)} min` : `${count} marks`}</small>
+        </>,
+      ])}
+    />
   );
 }

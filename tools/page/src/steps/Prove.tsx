@@ -20,10 +20,16 @@ export function Prove() {
   const answer = useRoundOf<ProofAnswer>("proof");
   const writing = useWriting();
   useNoted(answer);
-  if (!answer && project.changed_since_fit)
-    return <Refused title="Is it true?" refused="" writing={writing} />;
+  if (!answer && project.stale) return <Refused title="Is it true?" refused="" writing={writing} />;
   if (!answer) return <Screen title="Is it true?" say="One moment …" busy />;
-  return answer.round ? <OpenProof answer={answer} round={answer.round} /> : <NoPromise />;
+  if (answer.round) return <OpenProof answer={answer} round={answer.round} />;
+  return (
+    <Screen {...answer.heading}>
+      <a class="button primary" href={`#/${answer.instead?.screen}`}>
+        {answer.instead?.text}
+      </a>
+    </Screen>
+  );
 }
 
 function OpenProof({ answer, round }: { answer: ProofAnswer; round: Round }) {
@@ -35,8 +41,7 @@ function OpenProof({ answer, round }: { answer: ProofAnswer; round: Round }) {
   );
   return (
     <Screen
-      title="Is it true?"
-      say="Cut two marks that took no part, on the same sheet, with the new settings. Then read them. They show how the machine does away from the marks of the fit."
+      {...answer.heading}
       {...running}
       why={<Why />}
       command={answer.command}
@@ -96,19 +101,5 @@ function Why() {
       counts how well your marks settle the numbers, and how well a tape is read. 99 of 100 such
       marks lie within it if nothing is missing.
     </p>
-  );
-}
-
-/** Nothing can be proved before there is a correction. */
-function NoPromise() {
-  return (
-    <Screen
-      title="Is it true?"
-      say="Two marks that took no part show whether the settings hold. First write a correction: it makes the promise."
-    >
-      <a class="button primary" href="#/correct">
-        To the correction
-      </a>
-    </Screen>
   );
 }

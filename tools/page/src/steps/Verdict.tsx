@@ -16,15 +16,13 @@ import { Screen } from "../shell/Screen";
 import { TakeAlong } from "../shell/TakeAlong";
 import { Refused } from "./correct/Refused";
 import { useWriting } from "./correct/useWriting";
-import { HalfTyped } from "./verdict/HalfTyped";
-import { NextAct, NextStep } from "./verdict/NextStep";
+import { NextAct, type NextAnswer, NextStep } from "./verdict/NextStep";
 import { SuspectCard } from "./verdict/SuspectCard";
-import type { NextAnswer, VerdictAnswer } from "./verdict/words";
 import "./verdict/verdict.css";
 
 export function Verdict() {
   const { project, trouble } = useProject();
-  const { answer, refused } = useAnswer<VerdictAnswer>("verdict");
+  const { answer, refused } = useAnswer<Schemas["VerdictAnswer"]>("verdict");
   const writing = useWriting();
   const [isNextWanted, wantNext] = useNextWanted(project.key);
   const next = useAnswer<NextAnswer>("next", isNextWanted);
@@ -45,12 +43,7 @@ export function Verdict() {
   const card =
     chosen === undefined ? likeliest : verdict?.cards.find(({ title }) => title === chosen);
   const drawn = useDrawn(card?.account.effects ?? [], bench?.board ?? "");
-  if (refused)
-    return (
-      <Refused title="No verdict yet" refused={refused} writing={writing}>
-        <HalfTyped />
-      </Refused>
-    );
+  if (refused) return <Refused title="No verdict yet" refused={refused} writing={writing} />;
   if (!verdict) {
     return (
       <Screen title="Why are the marks off?" say="Every known effect is tried on your readings.">
@@ -102,7 +95,6 @@ export function Verdict() {
           ))}
         </ul>
       )}
-      {!isReport && <HalfTyped />}
       <div ref={place}>{isNextWanted && <NextStep marks={verdict.marks} next={next} />}</div>
       {verdict.cards.length > 0 && (
         <section aria-label="Suspects">

@@ -27,7 +27,9 @@ from plumb.marks.model import tape_sigma
 from plumb.plan.preview import Preview, as_read, preview
 from plumb.plan.sheet_reach import SheetReach, reach_of
 from plumb.settings.machine import MachineSettings
+from plumb.text.answers import in_json
 from plumb.text.errors import InputError
+from plumb.words import Heading
 from plumb.words.proposals import advised, chances, could_tell
 
 router = APIRouter(tags=["plan"])
@@ -40,8 +42,6 @@ class LayoutAnswer(BaseModel):
 
     id: Layout
     title: str
-    marks: int
-    distances: int
     minutes: float
     places: list[tuple[float, float]]  # [mm] machine frame
     spans: list[tuple[int, int]]  # distances between marks, by their place in the list
@@ -85,6 +85,12 @@ class ReachAnswer(SheetReach):
 
     command: str
 
+    @in_json
+    def heading(self) -> Heading:
+        """How a screen begins that shows it."""
+        said = self.conclusion.partition(";")[0]
+        return Heading(f"{said.removesuffix('.')}.", self.normal)
+
 
 @router.get("/layouts")
 def layouts(project: TheProject) -> list[LayoutAnswer]:
@@ -99,8 +105,6 @@ def _layout(settings: MachineSettings, layout: Layout) -> LayoutAnswer:
     return LayoutAnswer(
         id=layout,
         title=TITLES[layout],
-        marks=len(plan.touches),
-        distances=len(plan.spans),
         minutes=plan.minutes,
         places=[(touch.x, touch.y) for touch in plan.touches],
         spans=[(order.index(first), order.index(second)) for first, second in plan.spans],

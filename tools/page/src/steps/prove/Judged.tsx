@@ -36,10 +36,7 @@ export function Judged({ answer: { rounds, is_used }, checked }: JudgedParts) {
   const most = Math.max(...rounds.map(({ off_target }) => off_target), 0.1);
   return (
     <>
-      <p
-        class={checked.state === "as_fitted" ? "judged box edge" : "judged trouble edge"}
-        role="status"
-      >
+      <p class={checked.holds ? "judged box edge" : "judged trouble edge"} role="status">
         {checked.sentence}
       </p>
       <Table
