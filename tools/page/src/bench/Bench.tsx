@@ -1,5 +1,6 @@
 // The bench for effects: add and remove them, and see at once how much error is left.
 import { useMemo, useRef, useState } from "preact/hooks";
+import { List } from "../controls/Parts";
 import { Trouble } from "../controls/Trouble";
 import { Residuals } from "../residuals/Residuals";
 import { useDrawn } from "../residuals/useDrawn";
@@ -21,7 +22,8 @@ export function Bench() {
 
 function OpenBench({ bench }: { bench: Board }) {
   const { project, choose } = useProject();
-  const kept = keptChoice(project.choices.bench);
+  const { effects: added = [], held = {} } = project.choices.bench ?? {};
+  const kept = { effects: added, held };
   const [moving, setMoving] = useState<Choice>(); // while a slider is being moved
   const choice = moving ?? kept;
   const live = useLive(choice, kept, bench.board);
@@ -82,13 +84,7 @@ function OpenBench({ bench }: { bench: Board }) {
         {now?.fit.intervals && kept.effects.length > 0 && (
           <p class="intervals">In brackets: the interval. {now.fit.intervals}</p>
         )}
-        {stairs && stairs.warnings.length > 0 && (
-          <ul class="wrong">
-            {stairs.warnings.map((line) => (
-              <li key={line}>{line}</li>
-            ))}
-          </ul>
-        )}
+        <List class="wrong" said={stairs?.warnings ?? []} />
       </div>
     </Screen>
   );
@@ -124,10 +120,4 @@ function Why() {
       mark would have needed: most effects are a simple curve there.
     </p>
   );
-}
-
-function keptChoice(
-  bench: { effects?: string[]; held?: Record<string, number> } | undefined,
-): Choice {
-  return { effects: bench?.effects ?? [], held: bench?.held ?? {} };
 }

@@ -2,6 +2,7 @@
 import { useRef } from "preact/hooks";
 import type { Schemas } from "../api/client";
 import { namedLength, shownLength, useUnits } from "../controls/lengths";
+import { List } from "../controls/Parts";
 import { Progress } from "../controls/Progress";
 import { Residuals } from "../residuals/Residuals";
 import { useAnswer } from "../shell/answer";
@@ -183,21 +184,11 @@ export function Notes({ title, said }: { title: string; said: readonly string[] 
   );
 }
 
-function List({ said }: { said: readonly string[] }) {
-  return (
-    <ul>
-      {said.map((each) => (
-        <li key={each}>{each}</li>
-      ))}
-    </ul>
-  );
-}
-
 export function Why({ made: { reasons, doubts, intervals } }: { made: Made }) {
   return (
     <>
       <p>{reasons.join(" ")}</p>
-      {doubts.length > 0 && <List said={doubts} />}
+      <List said={doubts} />
       <p>The number behind ± is half of the 95 % interval. {intervals}</p>
     </>
   );

@@ -3,6 +3,7 @@
 import { useEffect } from "preact/hooks";
 import { type Project, send } from "../api/client";
 import { shownLength, useUnits } from "../controls/lengths";
+import { Table } from "../controls/Table";
 import { Grid } from "../readings/Grid";
 import { useReadings } from "../readings/useReadings";
 import { useProject } from "../shell/project";
@@ -12,7 +13,7 @@ import { useWriting } from "./correct/useWriting";
 import { CutMap } from "./cut/CutMap";
 import type { Round } from "./cut/round";
 import { useCutting, useRoundOf } from "./cut/useCutting";
-import { Judged, JudgedMap, Promised, type ProofAnswer } from "./prove/Judged";
+import { Judged, JudgedMap, type ProofAnswer } from "./prove/Judged";
 import "../readings/readings.css";
 
 export function Prove() {
@@ -66,7 +67,9 @@ function OpenProof({ answer, round }: { answer: ProofAnswer; round: Round }) {
         </>
       )}
       {round.is_saved && !running && <ProofReadings file={round.form} />}
-      <Promised answer={answer} />
+      {answer.tables.map(({ header, rows }) => (
+        <Table key={header[0]} class="checked" names={header} rows={rows} />
+      ))}
     </Screen>
   );
 }

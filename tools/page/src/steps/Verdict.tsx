@@ -3,7 +3,7 @@
 import { useRef, useState } from "preact/hooks";
 import { isReport } from "../api/answers";
 import type { Schemas } from "../api/client";
-import { Parts } from "../controls/Parts";
+import { List, Parts } from "../controls/Parts";
 import { Progress } from "../controls/Progress";
 import { Table } from "../controls/Table";
 import { capital } from "../controls/words";
@@ -88,13 +88,7 @@ export function Verdict() {
         )
       }
     >
-      {verdict.warned.length > 0 && (
-        <ul class="slips trouble">
-          {verdict.warned.map((each) => (
-            <li key={each}>{each}</li>
-          ))}
-        </ul>
-      )}
+      <List class="slips trouble" said={verdict.warned} />
       <div ref={place}>{isNextWanted && <NextStep marks={verdict.marks} next={next} />}</div>
       {verdict.cards.length > 0 && (
         <section aria-label="Suspects">
@@ -163,13 +157,7 @@ function Why({ why: [noise, ...notes] }: { why: string[] }) {
         does. Every set of effects is weighed by how well it explains your marks, and by what real
         machines have. The odds of a suspect are against all others together. {noise}
       </p>
-      {notes.length > 0 && (
-        <ul>
-          {notes.map((note) => (
-            <li key={note}>{note}</li>
-          ))}
-        </ul>
-      )}
+      <List said={notes} />
     </>
   );
 }

@@ -177,17 +177,12 @@ def _taking(project: Project, inputs: api.Inputs, advice: Next, place: int) -> T
     files = {name: form} if program is None else {name: form, cut_by: program}
     cut_by = cut_by if program else ""
     said, act = taking_words(len(option.visits), name, cut_by)
-    command = _command(project, inputs, advice, place, ["--marks", name], cut_by)
+    command = _command(project, inputs, advice, place, name, cut_by)
     return Taking(place, name, cut_by, files, there[0] is not None, said, act, command)
 
 
 def _command(
-    project: Project,
-    inputs: api.Inputs,
-    advice: Next,
-    place: int,
-    form: list[str],
-    program: str,
+    project: Project, inputs: api.Inputs, advice: Next, place: int, form: str, program: str
 ) -> str:
     """Return the command that writes the same files."""
     choices = project.choices
@@ -196,4 +191,4 @@ def _command(
     in_force = advice.case and advice.case.settings == opened(project)
     moved_by = [] if in_force else ["--cut-next-with", choices.settings]
     words = [*board_and_known(project, inputs), "--choose", f"{place}", *moved_by]
-    return command("next", *words, *form, *output)
+    return command("next", *words, "--marks", form, *output)

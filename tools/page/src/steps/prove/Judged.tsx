@@ -63,14 +63,3 @@ export function Judged({ answer: { rounds, is_used }, checked }: JudgedParts) {
     </>
   );
 }
-
-/** Each proof mark against the promise, and what may have changed. */
-export function Promised({ answer: { tables } }: { answer: ProofAnswer }) {
-  return (
-    <>
-      {tables.map(({ header, rows }) => (
-        <Table key={header[0]} class="checked" names={header} rows={rows} />
-      ))}
-    </>
-  );
-}
