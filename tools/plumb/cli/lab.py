@@ -3,7 +3,7 @@
 import argparse
 from pathlib import Path
 
-from plumb.lab.phones import Sharing
+from plumb.lab.routes.phones import Sharing
 from plumb.lab.server import serve
 
 

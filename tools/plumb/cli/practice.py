@@ -111,8 +111,8 @@ def _reveal(folder: Path, arguments: argparse.Namespace) -> int:
 
 def _as_text(result: Score, unit: Unit) -> str:
     """Return the score for people."""
-    after = "out of reach" if result.after_mm is None else unit.bare(result.after_mm)
-    rows = [["as the settings were", unit.bare(result.before_mm)], ["yours", after]]
+    before, after = unit.bare(result.before_mm), result.after(unit.bare)
+    rows = [["as the settings were", before], ["yours", after]]
     return "\n\n".join(
         [
             headline(f"Hidden was {result.hidden}."),

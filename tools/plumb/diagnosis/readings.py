@@ -1,6 +1,5 @@
 """The readings that can be trusted: mix-ups put right, outliers set aside, the noise known."""
 
-from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -27,8 +26,6 @@ from plumb.marks.read import Measurements, far_reading
 from plumb.model.plain import greatest
 
 DOUBTED = 1 / 3  # chance from which on a reading is read again: that costs a minute
-SURE = 1.96  # sigmas
-MOST_WITHIN = 10.0  # [mm] others who know less of a mark say nothing of it
 SHARE_OF_OUTLIERS = 12  # with more than one in this many readings outliers are not the story
 
 
@@ -168,45 +165,14 @@ class Doubted:
     corrected: tuple[float, ...] | None  # [mm] the reading that was meant, if that is likely
 
 
-@dataclass(frozen=True)
-class OthersSay:
-    """Where a mark lies by all other readings, by its index among the marks. mm."""
-
-    index: int
-    place: tuple[float, float]
-    within: tuple[float, float]  # 95 % of such readings
-
-
-@dataclass(frozen=True)
-class LookedOver:
-    """The readings so far: which to look at again, and what each is by the others."""
-
-    doubts: tuple[Doubted, ...]
-    others: tuple[OthersSay, ...] = ()
-
-
-def look_over(inputs: Inputs) -> LookedOver:
+def look_over(inputs: Inputs) -> tuple[Doubted, ...]:
     """Return which readings so far no machine explains. Raises InputError for a bad target."""
     far = _far_readings(inputs)
     near = _without(inputs.measurements, {doubt.index for doubt in far})
     if not near.measured_marks and not near.distances:
-        return LookedOver(far)
+        return far
     clean = _clean(replace(inputs, measurements=near))
-    doubts = (*far, *(_doubted(outlier, inputs.measurements) for outlier in clean.outliers))
-    return LookedOver(doubts, tuple(_others_say(clean, inputs.measurements)))
-
-
-def _others_say(clean: CleanReadings, measurements: Measurements) -> Iterator[OthersSay]:
-    """Yield what the others say of each mark, by the likeliest account, where they say it well."""
-    fitted = clean.explained(clean.posterior.accounts[0])
-    rows = fitted.board.rows
-    marks = [(mark.name, mark.measured) for mark in measurements.marks]
-    for shift in shifts(fitted)[: len(rows.measured)]:
-        place, within = rows.measured[shift.reading.index], SURE * shift.sigma
-        read = (rows.names[shift.reading.index], (float(place[0]), float(place[1])))
-        if read in marks and within.max() < MOST_WITHIN:
-            x, y = (place - shift.offset).tolist()
-            yield OthersSay(marks.index(read), (x, y), (float(within[0]), float(within[1])))
+    return (*far, *(_doubted(outlier, inputs.measurements) for outlier in clean.outliers))
 
 
 def _far_readings(inputs: Inputs) -> tuple[Doubted, ...]:

@@ -19,10 +19,10 @@ from starlette.types import ASGIApp
 from plumb.lab import routes
 from plumb.lab.background import Background, LiveBoards
 from plumb.lab.guard import Address, Guard
-from plumb.lab.guide_desk import GuideDesk
 from plumb.lab.machine_line import MachineLine
-from plumb.lab.phones import Phones
 from plumb.lab.project import ChangedError, Project
+from plumb.lab.routes.guide import GuideDesk
+from plumb.lab.routes.phones import Phones
 from plumb.text.errors import InputError, on_page
 
 PAGE = Path(__file__).parent / "page"

@@ -3,6 +3,7 @@
 import re
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
+from dataclasses import dataclass
 from typing import Annotated
 
 from fastapi import Body
@@ -30,22 +31,20 @@ class BrokenCut(BaseModel):
 NOTES = TypeAdapter(dict[str, BrokenCut])  # by the name of the program's file
 
 
-class HowFar(BaseModel):
+@dataclass(frozen=True, kw_only=True)
+class HowFar:
     """The progress of a program that broke off."""
 
     broke_off: int | None = None  # marks that are surely cut; None: it did not break off
     perhaps: int = 0  # marks after these that the machine may have cut
     goes_on: bool = False  # the next mark can be cut on that sheet
-    broke_said: str = ""  # how far it came, in a sentence or two; empty: it did not break off
 
 
 # The number of marks on the sheet, as counted by the owner.
 OnSheet = Annotated[int, Body(embed=True)]
 
 
-def how_far(
-    project: Project, line: MachineLine, program: str, text: str, names: Sequence[str]
-) -> HowFar:
+def how_far(project: Project, line: MachineLine, program: str, text: str) -> HowFar:
     """Return how far this program of marks came, if it broke off and does not run now."""
     progress = line.state.program
     runs = progress and progress.title == program and progress.outcome == "running"
@@ -56,20 +55,7 @@ def how_far(
         broke_off=cut.marks,
         perhaps=cut.begun - cut.marks,
         goes_on=cut.is_virtual == (line.virtual is not None),
-        broke_said=_broke_said(cut, names),
     )
-
-
-def _broke_said(cut: BrokenCut, names: Sequence[str]) -> str:
-    """Return how far a cut came, from the folder, so that it survives a restart of the lab."""
-    if cut.marks == len(names):
-        return "All marks are cut."
-    said = f"Cut {cut.marks} of {len(names)} marks, then it broke off."
-    *more, last = names[cut.marks : cut.begun] or [""]
-    if not last:
-        return said
-    which = f"marks {', '.join(more)} and {last}" if more else f"mark {last}"
-    return f"{said} The machine may have cut {which} too."
 
 
 def begin(

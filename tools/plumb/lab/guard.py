@@ -17,7 +17,7 @@ from starlette.datastructures import Headers, MutableHeaders
 from starlette.responses import JSONResponse
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
-from plumb.lab.phones import BY_HAND, COOKIE, PAIR, Phones, may_ask
+from plumb.lab.routes.phones import BY_HAND, COOKIE, PAIR, Phones, may_ask
 
 LARGEST_BODY = 6_000_000  # bytes; a file of marks may have five million
 LARGEST_HEADER = 16_384  # bytes, all of them together

@@ -2,6 +2,7 @@
 
 import math
 from dataclasses import dataclass, replace
+from typing import Literal, cast
 
 from pydantic import ConfigDict
 
@@ -60,6 +61,7 @@ def planned_priors(choices: Choices) -> dict[str, float]:
 # The numbers that an owner can measure by hand, each as it is read, and whether it can be.
 
 FIRST = ("chain_pitch",)  # effects that everybody measures
+Marked = Literal["", "motor_gap", "motor_height", "rotation_radius", "sled_weight", "chain"]
 ON_DRAWING = ("chain_pitch", "chain_zero")  # effects that mark the chain there
 
 
@@ -73,7 +75,8 @@ class KnownNumber(RuleReading):
     steps: str
     minutes: float
     believed: float | None  # what the settings say, as it would be read; None: they leave it out
-    marked: str  # the distance on the drawing; empty: none is
+    believed_said: str = ""
+    marked: Marked  # the distance on the drawing; empty: none is
     by: str  # the number by whose square this is divided; empty: none is
     is_first: bool  # it belongs to what everybody measures
     stated: tuple[float, float] | None  # as it was read, and how far that may be off
@@ -96,6 +99,7 @@ def known_numbers(settings: MachineSettings, choices: Choices) -> list[KnownNumb
         _number(name, checks[name], by_hand[name], settings, choices.known.get(name))
         for name in checks
     ]
+    numbers = [replace(each, believed_said=_believed(each, choices.unit)) for each in numbers]
     # What rests on an absurd number is not judged.
     absurd = _absurd(choices, settings)
     numbers = [
@@ -147,6 +151,12 @@ def refuse_absurd_known(settings: MachineSettings, choices: Choices) -> None:
     refuse_absurd(stated(choices).checked, settings)
 
 
+def _believed(number: KnownNumber, unit: Unit) -> str:
+    if number.believed is None:
+        return "the settings leave it out"
+    return f"the settings say {number.said(number.value(number.believed), unit)}"
+
+
 def _why(number: KnownNumber, value: float, unit: Unit) -> str:
     """Why a value of a number cannot be, as it is read."""
     said = number.said(value, unit)
@@ -188,7 +198,7 @@ def _number(
         steps=check.steps,
         minutes=check.minutes / len(check.sigmas),
         believed=reading.read(value) if value or is_first else None,
-        marked=("chain" if effect in ON_DRAWING else "") if effect else name,
+        marked=("chain" if effect in ON_DRAWING else "") if effect else cast(Marked, name),
         by=WEIGHT if reading.unit == "g" else "",
         is_first=is_first,
         stated=(

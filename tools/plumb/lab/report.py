@@ -23,6 +23,7 @@ from plumb.lab.routes.next import next_answer
 from plumb.lab.routes.project import ProjectAnswer, machine_of
 from plumb.lab.routes.verdict import Verdict, VerdictAnswer, verdict_of
 from plumb.plan import Next
+from plumb.words import Heading
 from plumb.words.comparison import conclusion, readings_said
 
 PAGE = Path(__file__).parent / "page"
@@ -67,7 +68,8 @@ def _project(inputs: Inputs) -> ProjectAnswer:
         choices_digest="",
         machine=machine_of(inputs.settings, settings, inputs.unit),
         trouble="",
-        changed_since_fit="",
+        heading=Heading("", ""),
+        stale=None,
     )
 
 

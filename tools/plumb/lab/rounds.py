@@ -9,9 +9,11 @@ from dataclasses import dataclass, field, replace
 from pathlib import PurePath
 from typing import Literal
 
+import numpy as np
+
 from plumb import api
 from plumb.fit.fit import PRIORS, Checked
-from plumb.fit.inputs import settings_in
+from plumb.fit.inputs import Inputs, settings_in
 from plumb.grid import PRESETS, Grid, PlainMachine, marks_list, program, touches_of
 from plumb.grid.pattern import Touch
 from plumb.lab.known import refuse_absurd_known, stated
@@ -21,9 +23,11 @@ from plumb.marks.read import Mark, read_marks
 from plumb.model.predict import known_effects
 from plumb.model.reach import plain_machine, refuse_way, with_soft_chains
 from plumb.plan import planned_visits
+from plumb.plan.planned_visits import proof_places
 from plumb.plan.proposal import MARK, ROUND
 from plumb.settings.files import cut_with_lines, digest_of, with_form
 from plumb.settings.machine import MachineSettings
+from plumb.text.answers import Internal
 from plumb.text.commands import quoted
 from plumb.text.errors import InputError, on_page
 from plumb.text.files import is_ours, numbered
@@ -174,7 +178,7 @@ Origin = Literal["chosen", "proposed", "proof"]
 
 
 @dataclass(frozen=True, kw_only=True)
-class Round:
+class RoundToCut:
     """Marks of a form, and the program that cuts them."""
 
     origin: Origin
@@ -185,12 +189,13 @@ class Round:
     command: str
     trouble: str = ""  # why the sled cannot take this way; empty if it can
     new_sheet: bool = False
-    cut_with: MachineSettings | None = None  # that the form names; None: those that are open
+    # That the form names; None: those that are open.
+    cut_with: Internal[MachineSettings | None] = None
     # Written before it is cut, with the digests of what they replace; empty: it is in the folder.
-    files: Mapping[str, bytes] = field(default_factory=dict)
-    read: Mapping[str, str] = field(default_factory=dict)
+    files: Internal[Mapping[str, bytes]] = field(default_factory=dict)
+    read: Internal[Mapping[str, str]] = field(default_factory=dict)
 
-    def is_saved(self, project: Project) -> bool:
+    def is_in(self, project: Project) -> bool:
         """Return whether its files are in the folder as they would be written now."""
         return all(project.read(name) == content for name, content in self.files.items())
 
@@ -202,7 +207,7 @@ class Round:
             project.save({**self.files, **kept_settings(project, project.choices)}, read=self.read)
 
 
-def chosen_round(project: Project) -> Round:
+def chosen_round(project: Project) -> RoundToCut:
     """Return the marks of the chosen layout, or those that somebody took from the verdict."""
     choices, digest = read_choices(project)
     settings = opened(project)
@@ -226,7 +231,7 @@ def new_round(
     *,
     origin: Origin,
     read: Mapping[str, str] | None = None,
-) -> Round:
+) -> RoundToCut:
     """Return a round of planned marks, for files of these names."""
     form, file = names
     settings, path = project.path(choices.settings), str(project.path(form))
@@ -237,7 +242,7 @@ def new_round(
     named = cut_with_lines(settings, path)
     filled = marks_list(plan.grid, plan.machine, named, new_sheet=new_sheet)
     made = grid_command(project, choices, plan, form=form, program=file)
-    return Round(
+    return RoundToCut(
         origin=origin,
         form=form,
         program=file,
@@ -253,11 +258,11 @@ def new_round(
     )
 
 
-def saved_round(project: Project, form: str, origin: Origin) -> Round:
+def saved_round(project: Project, form: str, origin: Origin) -> RoundToCut:
     """Return a round that is in the folder."""
     measurements = form_of(project, project.choices, form).measurements
     file = program_name(form)
-    return Round(
+    return RoundToCut(
         origin=origin,
         form=form,
         program=file,
@@ -396,3 +401,58 @@ def read_names(project: Project, among: Sequence[str], choices: Choices) -> list
         for name in among
         if not name.endswith(ENDING) or _is_read(form_of(project, choices, name))
     ]
+
+
+# Proof marks: two that took no part in the fit, on the sheet of the marks before them.
+
+
+FORM = re.compile(r"(proof|check)(?:-(\d+))?\.toml")  # check: as they were called before
+
+
+def proof_round(project: Project, *, anew: bool = False) -> RoundToCut:
+    """Return the newest round of proof marks; another where there is none, or `anew`: it takes the
+    place of one without readings.
+    """
+    forms = proof_forms(project)
+    if forms and not anew:
+        return saved_round(project, forms[-1], "proof")
+    choices, inputs = project.choices, inputs_of_promise(project)
+    names = next_names(project, PROOFS)
+    before = [form_of(project, choices, form) for form in forms if form not in names]
+    cut = [mark.target for form in before for mark in form.measurements.marks]
+    # Far from the marks that were fitted, and from proof marks that were cut before.
+    known = [*map(tuple, inputs.measurements.targets), *cut]
+    places = proof_places(inputs.settings, np.array(known))
+    if not len(places):
+        raise InputError("no place is left that the sled reaches and that was not fitted")
+    plan = planned(inputs.settings, "own", [(float(x), float(y)) for x, y in places])
+    same_sheet = choices.model_copy(update={"new_sheet": False})
+    return new_round(project, same_sheet, plan, names, origin="proof")
+
+
+def proof_forms(project: Project) -> list[str]:
+    """Return the forms of proof marks in the folder, in the order in which they were made."""
+    found = [match for name in project.names() if (match := FORM.fullmatch(name))]
+    return [match[0] for match in sorted(found, key=lambda match: (match[1], int(match[2] or 1)))]
+
+
+def inputs_of_promise(project: Project) -> Inputs:
+    """Return the readings that the promise goes by. Raises InputError."""
+    return inputs_of(project, among=_promising(project))
+
+
+def _promising(project: Project) -> list[str]:
+    """Return the files of these readings: proof marks take no part, nor does a sheet that was laid
+    after the correction, for proof marks are on the sheet before it.
+    """
+    choices = project.choices
+    names = [name for name in choices.marks if not is_proof(name)]
+    settings = settings_of(project, choices)
+    fitted = settings and settings.fitted
+    seen = [board.marks for board in fitted.boards] if fitted else names
+    later = (
+        place
+        for place, name in enumerate(names)
+        if name not in seen and form_of(project, choices, name).measurements.rounds[0].new_sheet
+    )
+    return names[: next(later, len(names))]

@@ -21,7 +21,7 @@ from uvicorn.protocols.http.h11_impl import H11Protocol
 
 from plumb.lab.app import lab_app
 from plumb.lab.guard import Address
-from plumb.lab.phones import Phones, Sharing
+from plumb.lab.routes.phones import Phones, Sharing
 from plumb.text.errors import InputError
 from plumb.text.files import is_private
 

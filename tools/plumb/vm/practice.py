@@ -5,7 +5,7 @@ The file of the secret holds the number from which a machine is drawn, not what 
 
 import json
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
@@ -78,6 +78,10 @@ class Score:
         if self.false:
             parts.append(f"You added {plainly(self.false)}, which is not there.")
         return " ".join(parts) or "You added no effect."
+
+    def after(self, shown: Callable[[float], str]) -> str:
+        """Return the error by the answer as lengths are shown."""
+        return "out of reach" if self.after_mm is None else shown(self.after_mm)
 
 
 def score(secret: Secret, answer: MachineSettings) -> Score:

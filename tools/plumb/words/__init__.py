@@ -30,6 +30,22 @@ class Sentences:
 Part = Rows | Sentences
 
 
+@dataclass(frozen=True)
+class Heading:
+    """What a screen is called, and what it says first: at most forty words."""
+
+    title: str
+    say: str
+
+
+@dataclass(frozen=True)
+class Link:
+    """Where a screen goes on."""
+
+    text: str
+    screen: str
+
+
 def filled(*parts: Part) -> list[Part]:
     """Return the parts that hold anything."""
     return [each for each in parts if (each.rows if isinstance(each, Rows) else each.lines)]

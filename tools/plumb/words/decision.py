@@ -11,7 +11,8 @@ from plumb.model.plain import noun_of, plain_before, plain_size, plainly
 from plumb.plan import Proposal
 from plumb.text.answers import in_json
 from plumb.text.errors import in_both, to_do
-from plumb.words import Kind, Part, Rows, Sentences, filled, paragraph
+from plumb.text.values import Unit
+from plumb.words import Heading, Kind, Link, Part, Rows, Sentences, filled, paragraph
 from plumb.words import verdict as of_marks
 from plumb.words.comparison import about, conclusion, outside_sentence, pose_sentence
 from plumb.words.states import STATES
@@ -311,21 +312,60 @@ def sureness(decision: Decision) -> list[tuple[str, str]]:
     return [(what, decision.inputs.unit.worded(size)) for what, size in sizes.items()]
 
 
-@dataclass(frozen=True)
-class Step:
-    """Where a page goes on."""
-
-    text: str
-    screen: str
-
-
-def step(decision: Decision) -> Step:
+def step(decision: Decision) -> Link:
     """Return where a page goes on."""
     follows, addition = STATES[decision.state], decision.addition
     count = sum(has_setting(each.name) for each in addition.parameters) if addition else 0
     slip = next((slip.called for slip in decision.diagnosis.outliers), "")
     what = slip or f"{count} number{'s' if count != 1 else ''}"
-    return Step(follows.link.format(what), follows.screen)
+    return Link(follows.link.format(what), follows.screen)
+
+
+# A screen on which numbers are accepted, written and sent.
+
+CHANGES = "What would change?"
+FITTED = Heading(CHANGES, "The numbers are fitted to your readings.")
+
+
+def what_changes(decision: Decision, file: str, *, count: int) -> Heading:
+    """Return how a screen begins that offers so many numbers of a file to change."""
+    if decision.addition is None:
+        return Heading(STATES[decision.state].title, headline(decision))
+    if count == 0:
+        return Heading("Nothing would change", f"{file} fits these marks as it is.")
+    return Heading(CHANGES, headline(decision))
+
+
+def what_is_written(file: str) -> Heading:
+    """Return the same once the numbers are in a file, and not in the machine."""
+    return Heading(
+        "The numbers are written",
+        f"{file} holds them; your old file stays. The machine takes them next: nothing moves, and "
+        "each number is read back.",
+    )
+
+
+def what_is_stale(file: str, form: str, before: str) -> Heading:
+    """Return the same for numbers fitted to a form that has other readings by now; `before`: the
+    file that was open before them, empty if there is none.
+    """
+    then = (
+        f"Go back to {before}, and they are fitted again to what you read now. {file} stays in the "
+        "folder."
+        if before
+        else "Open the settings that were in force when the marks were cut."
+    )
+    said = f"The numbers in {file} are stale: they were fitted to {form} as it was before. {then}"
+    return Heading("Your readings have changed", said)
+
+
+def what_is_added(unit: Unit, *, any_marks: bool) -> Heading:
+    """Return how the bench for effects begins."""
+    said = f"Add an effect: each row says what would be left with it [{unit.name}]. "
+    if any_marks:
+        said += "Pale arrows show the state before. Lay an effect over the marks to see what it "
+        said += "draws. "
+    return Heading("Effects bench", f"{said}Nothing goes to the machine.")
 
 
 # A round of measuring: the size of the error, then the decision, or what is measured first.

@@ -1,8 +1,9 @@
-"""What the connected machine does, and whether it holds what is open, in words."""
+"""What the machine does, whether it holds what is open, and who may move it, in words."""
 
 from plumb.line.worker import LineState
 from plumb.settings.machine import MachineSettings
 from plumb.text.values import Unit
+from plumb.words import Heading
 
 
 def doing(state: LineState, subject: str) -> str:
@@ -28,6 +29,30 @@ def doing(state: LineState, subject: str) -> str:
     return f"{subject} {does}"
 
 
+def at_work(state: LineState) -> Heading:
+    """Return how a screen begins while the machine cuts what it was sent."""
+    if asks := state.waits_for:
+        return Heading(
+            "The machine waits for you", f"{asks[0].upper()}{asks[1:]}. Then press Go on."
+        )
+    return Heading("The machine is cutting", "Stay beside it. Hold pauses; Stop gives up.")
+
+
+def which(*, is_open: bool) -> Heading:
+    """Return how a screen begins on which a machine is opened."""
+    if is_open:
+        return Heading(
+            "This machine is open",
+            "Is it yours? Else open another file; this file stays. Nothing moves before you press "
+            "a button that says what moves.",
+        )
+    return Heading(
+        "Which machine is it?",
+        "Open the settings that your machine has now, connect the machine, or try a virtual "
+        "machine. Nothing moves here.",
+    )
+
+
 def size(settings: MachineSettings, unit: Unit) -> str:
     """Return how large a machine and its sheet are, and how many effects its settings know."""
     gap, width, height = (unit.worded(mm, 1) for mm in (settings.motor_gap, *settings.sheet))
@@ -41,3 +66,29 @@ def held_otherwise(subject: str, file: str, *, is_fit: bool) -> str:
     if is_fit:
         return f"{subject} does not hold the numbers of {file} yet."
     return f"{subject} holds other numbers than {file}. Which hold?"
+
+
+def held_alike(file: str) -> Heading:
+    """Return how a screen begins once a machine holds the numbers of a file."""
+    return Heading(
+        "The machine holds the numbers",
+        f"They are those of {file}. Two marks on the same sheet show whether it came true.",
+    )
+
+
+def what_was_sent(count: int, kept: str, *, back: bool) -> str:
+    """Return that a machine holds so many other numbers; `kept`: the file of those before."""
+    if count == 0:
+        return "The machine held these numbers already; each was read back."
+    said = f"The machine holds {count} {'old' if back else 'new'} numbers; each was read back."
+    return f"{said} Those before are in {kept}."
+
+
+NOTHING_HIDDEN = "No virtual machine was started in this folder."
+
+
+def how_to_pair(address: str, pin: str) -> str:
+    """Return how a phone gets to the lab at this address; empty: there is no network."""
+    if not address:
+        return f"No network is here yet, so no phone reaches the lab. The PIN is {pin}."
+    return f"Scan it with a phone, or open {address}, PIN {pin}."

@@ -1,4 +1,4 @@
-"""Is it as it was? A sentence, each mark against the promise, and what may have changed."""
+"""Is it as it was? A sentence, each mark against the promise, what may have changed; the diary."""
 
 from dataclasses import dataclass
 from math import dist
@@ -16,9 +16,38 @@ from plumb.diary.recheck import (
 from plumb.model.plain import in_feet, plain_change, plain_name, words_of
 from plumb.text.answers import in_json, json_of
 from plumb.text.values import Unit
-from plumb.words import Rows
+from plumb.words import Heading, Link, Rows
 
 SHOWN = 4  # changes
+PROVES = (
+    "Cut two marks that took no part, on the same sheet, with the new settings. Then read them. "
+    "They show how the machine does away from the marks of the fit."
+)
+NO_PROMISE = (
+    "Two marks that took no part show whether the settings hold. First write a correction: it "
+    "makes the promise."
+)
+TO_PROMISE = Link("To the correction", "correct")
+
+
+def what_is_proved(*, is_promised: bool) -> Heading:
+    """Return how a screen begins that holds marks against a promise, once there is one."""
+    return Heading("Is it true?", PROVES if is_promised else NO_PROMISE)
+
+
+NOTES = (
+    "Each correction with its error, and the history of the numbers. A number that moved by more "
+    "than its interval says that the machine has changed."
+)
+NO_NOTE = (
+    "Each correction that you write, and what you send to the machine, is noted here by itself. "
+    "Nothing is noted yet."
+)
+
+
+def what_is_noted(*, any_note: bool) -> Heading:
+    """Return how a screen begins that shows a diary."""
+    return Heading("The diary", NOTES if any_note else NO_NOTE)
 
 
 @dataclass(frozen=True)

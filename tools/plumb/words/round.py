@@ -1,6 +1,9 @@
-"""A round of marks in words: what is cut, what to do about a broken cut, and the next sheet."""
+"""A round of marks in words: what is cut, how that ended, the next sheet, and how it is read."""
+
+from collections.abc import Sequence
 
 from plumb.text.values import Unit
+from plumb.words import Heading
 
 LEAST_MM = 0.5  # a smaller turn of a sheet is not worth a shim
 CHOSEN = (
@@ -13,11 +16,47 @@ PROPOSED = (
 )
 
 
-def what_is_cut(marks: int, origin: str) -> tuple[str, str]:
-    """Return a title and a sentence or two for so many marks of this origin."""
+def what_is_cut(marks: int, origin: str) -> Heading:
+    """Return how a screen begins that cuts so many marks of this origin."""
     if origin == "proposed":
-        return f"Cut {marks} more marks", PROPOSED
-    return f"Cut {marks} marks", CHOSEN
+        return Heading(f"Cut {marks} more marks", PROPOSED)
+    return Heading(f"Cut {marks} marks", CHOSEN)
+
+
+def of_files(program: str, form: str, *, is_saved: bool) -> str:
+    """Return where a round is kept, or what its files are."""
+    if is_saved:
+        return f"{program} and {form} are in your folder."
+    return f"{program} is the G-code, {form} the form for your readings."
+
+
+ALL_CUT = "All marks are cut."
+ENDED = {
+    "done": ALL_CUT,
+    "stopped": "Stopped. The machine knows where it is.",
+    "refused": "The machine refused a line; read what it says below.",
+    "lost": (
+        "The line was lost. Nothing that you typed is lost. Connect it again in the bar below, and "
+        "set its chains."
+    ),
+}
+
+
+def ended(outcome: str, broken: str) -> str:
+    """Return how a cut ended that was sent last, and how far one came that broke off."""
+    return ALL_CUT if outcome == "done" else f"{ENDED.get(outcome, '')} {broken}".strip()
+
+
+def how_far(cut: int, begun: int, names: Sequence[str]) -> str:
+    """Return how far a cut came that broke off: marks that are surely cut, and perhaps."""
+    if cut == len(names):
+        return ALL_CUT
+    said = f"Cut {cut} of {len(names)} marks, then it broke off."
+    *more, last = names[cut:begun] or [""]
+    if not last:
+        return said
+    which = f"marks {', '.join(more)} and {last}" if more else f"mark {last}"
+    return f"{said} The machine may have cut {which} too."
 
 
 def begin_or_go_on(
@@ -52,3 +91,27 @@ def next_sheet(rise: float, unit: Unit, *, is_virtual: bool) -> str:
         return f"{stops}."
     way = "higher" if rise > 0 else "lower"
     return f"{stops}, its right end {unit.worded(abs(rise), 1)} {way}."
+
+
+READ = "What does the tape say?"
+PLACED = (
+    "Type each mark from the blue edges, or touch another on the sheet. Enter goes on. Each number "
+    "is saved at once."
+)
+TAPED = (
+    "Lay the tape between the two marks of each line, in this order, and type what it says. Each "
+    "number is saved at once and stays open to change."
+)
+
+
+def what_is_read(*, asks_lengths: bool) -> Heading:
+    """Return how a screen begins where marks are read, or lengths between them."""
+    return Heading(READ, TAPED if asks_lengths else PLACED)
+
+
+def how_much_is_read(read: int, marks: int, taped: int, lengths: int) -> str:
+    """Return how many marks are read, and how many of the lengths that are asked, if any are."""
+    said = [f"{taped} of {lengths} distances are read."] if lengths else []
+    if read or not lengths:
+        said.append(f"{read} of {marks} marks are read.")
+    return " ".join(said)

@@ -360,8 +360,9 @@ class Suspect:
 
     title: str
     account: Together
-    odds: str  # empty where there are none
+    odds: str  # empty where there are none; "no": no real machine has such sizes
     facts: tuple[tuple[str, str], ...]  # a heading, and what stands behind it
+    met: tuple[str, ...]  # which sizes real machines have, for each parameter
 
 
 def suspects(diagnosis: Diagnosis) -> list[Suspect]:
@@ -388,9 +389,16 @@ def suspects(diagnosis: Diagnosis) -> list[Suspect]:
             if index in (i, j)
         ]
         facts += [("looks like", "; ".join(near[:MOST_ALIKE]))] if near else []
-        odds = _odds(diagnosis, each)
-        cards.append(Suspect(called(diagnosis, each), each, odds, tuple(facts)))
+        odds = _odds(diagnosis, each) if each.possible else "no"
+        met = [range_met(size.range_said, possible=size.possible) for size in each.parameters]
+        cards.append(Suspect(called(diagnosis, each), each, odds, tuple(facts), tuple(met)))
     return cards
+
+
+def range_met(range_said: str, *, possible: bool) -> str:
+    """Return which sizes real machines have; empty where no limit is known."""
+    met = f"real machines have {range_said}" if range_said else ""
+    return met if possible or not met else f"impossible: {met}; something else looks like it"
 
 
 def less_likely(diagnosis: Diagnosis) -> str:

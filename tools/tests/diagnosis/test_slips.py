@@ -124,7 +124,7 @@ def plain_board(columns=5, rows=3):
 
 
 def doubts(measurements, **how):
-    return look_over(Inputs(BELIEVED, measurements, **how)).doubts
+    return look_over(Inputs(BELIEVED, measurements, **how))
 
 
 @pytest.mark.parametrize("sigma", [None, 0.3])

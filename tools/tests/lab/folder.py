@@ -11,6 +11,7 @@ from plumb.lab.app import lab_app
 from plumb.lab.guard import Address
 from plumb.lab.project import Project
 from plumb.lab.rounds import inputs_of
+from plumb.marks.read import from_edges
 
 TOKEN = "t" * 32
 ADDRESS = Address("127.0.0.1", 8123)
@@ -71,10 +72,10 @@ def write_correction(client, status=200):
 def type_in(client, file, *offsets):
     """Each mark of a form is read so far [mm] from where it was sent; offsets take turns."""
     form = got(client.get("/api/readings", params={"file": file}))
-    readings = [
-        {"index": mark["index"], "read": [mark["meant"][0] + x, mark["meant"][1] + y]}
-        for mark, (x, y) in zip(form["marks"], cycle(offsets), strict=False)
-    ]
+    readings = []
+    for mark, (x, y) in zip(form["marks"], cycle(offsets), strict=False):
+        across, along = from_edges(mark["target"], sheet=form["sheet"], corner=form["edges"])
+        readings.append({"index": mark["index"], "read": [across + x, along + y]})
     body = {key: form[key] for key in ("file", "digest", "edges")}
     return got(client.put("/api/readings", json={**body, "readings": readings}))
 

@@ -51,7 +51,7 @@ def test_a_mark_counts_as_cut_or_perhaps_cut_and_never_back(tmp_path):
     project, text, line = Project(tmp_path), "\n".join(LINES), Line()
 
     def far(program="grid.nc", text=text):
-        now = how_far(project, line, program, text, ["1", "2"])
+        now = how_far(project, line, program, text)
         return now.broke_off, now.perhaps
 
     begin(project, line, "grid.nc", text)

@@ -26,8 +26,9 @@ def known(client):
 
 
 def test_a_correction_is_written_opened_and_undone(client, tmp_path):
-    before = shown(client)["correction"]
-    assert before["accepted"] is None and not before["is_written"]
+    answer = shown(client)
+    before = answer["correction"]
+    assert before["accepted"] is None and not answer["is_written"]
     names = [number["name"] for number in before["numbers"]]
     gap = before["numbers"][names.index("motor_gap")]
     assert gap["unit"] == "mm" and float(gap["margin"]) > 0 and gap["possible"]
@@ -43,7 +44,7 @@ def test_a_correction_is_written_opened_and_undone(client, tmp_path):
     assert compared(tmp_path).rms == pytest.approx(before["whole"]["fit_rms"], abs=0.02)
     (entry,) = read_diary(tmp_path).of_kind("fit")
     assert entry.content["machine"] == "machine.toml"
-    assert shown(client)["correction"]["is_written"]
+    assert shown(client)["heading"]["title"] == "The numbers are written"
     undone = client.post("/api/correction/undo", json=known(client)).json()
     assert undone["choices"]["settings"] == "groundcontrol.ini"
     assert compared(tmp_path).rms == pytest.approx(before["as_set"]["fit_rms"])
@@ -62,8 +63,8 @@ def test_nothing_accepted_is_not_written_and_an_older_page_neither(client, tmp_p
 def test_a_machine_that_is_as_good_as_its_marks_can_show_is_left_as_it_is(client):
     type_in(client, "marks.toml", (0.3, -0.4), (-0.5, 0.1), (0.2, 0.5), (-0.1, -0.3))
     made = shown(client)["correction"]
-    assert (made["nothing"], made["instead"]["screen"]) == ("Nothing to change", "verdict")
-    assert made["said"] == "Your machine is as good as these marks can show."
+    assert (made["heading"]["title"], made["instead"]["screen"]) == ("Nothing to change", "verdict")
+    assert made["heading"]["say"] == "Your machine is as good as these marks can show."
     write_correction(client, 422)
     verdict = awaited(client, "verdict", lambda answer: answer["verdict"])["verdict"]
     assert verdict["title"] == "Nothing to change"

@@ -119,7 +119,7 @@ def test_accepted_marks_are_cut_read_and_counted(client, folder):
         "let 5.0 kg more hang on the sled, low and in the middle",
         "take off what hangs on the sled",
     ]
-    lines = [mark["lines"] for mark in shown["marks"]]
+    lines = shown["lines"]
     first, last = (pause["lines"] for pause in shown["pauses"])
     assert first < lines[0] and lines == sorted(lines) and lines[-1] < last
     assert got(client.get("/api/readings"))["file"] == "more.toml"
@@ -232,7 +232,7 @@ def test_a_broken_off_proposal_goes_on_with_its_extra_weight(client, folder, mon
         got(client.post("/api/rounds/marks/cut"))
         until(client, lambda state: state["waits_for"])
         got(client.post("/api/machine/go-on"))
-        lines = [mark["lines"] for mark in got(client.get("/api/rounds/marks"))["marks"]]
+        lines = got(client.get("/api/rounds/marks"))["lines"]
         until(client, lambda state: state["program"]["done"] > lines[1])
         got(client.post("/api/machine/stop"))
         until(client, lambda state: state["phase"] == "ready")

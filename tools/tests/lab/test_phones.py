@@ -6,9 +6,9 @@ import pytest
 from fastapi.testclient import TestClient
 from folder import ADDRESS, EXAMPLE, TOKEN, example_form, got, with_settings
 from playwright.sync_api import expect
-from plumb.lab import phones
 from plumb.lab.app import lab_app
-from plumb.lab.phones import Phones
+from plumb.lab.routes import phones
+from plumb.lab.routes.phones import Phones
 from screens import at_rest, axe_findings
 from served_lab import serve
 from starlette.websockets import WebSocketDisconnect

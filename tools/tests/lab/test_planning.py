@@ -216,10 +216,10 @@ def test_program_and_form_are_written_and_no_reading_is_overwritten(client, tmp_
     assert not before["is_saved"] and before["trouble"] == ""
     assert (before["form"], before["program"]) == ("marks.toml", "grid.nc")
     lines = list(cleaned(before["text"].splitlines()))
-    for mark in before["marks"]:
-        x, y = mark["place"]
-        assert lines[mark["lines"] - 3] == f"G1 X{x:g} Y{y:g} F700"
-        assert lines[mark["lines"] - 2].startswith("G1 Z-0.5")
+    for mark, taken in zip(before["marks"], before["lines"], strict=True):
+        x, y = mark["target"]
+        assert lines[taken - 3] == f"G1 X{x:g} Y{y:g} F700"
+        assert lines[taken - 2].startswith("G1 Z-0.5")
     assert [mark["name"] for mark in before["marks"]] == list("123654789")
     got(client.post("/api/rounds/marks"))
     after = got(client.get("/api/rounds/marks"))

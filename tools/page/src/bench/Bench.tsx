@@ -1,6 +1,6 @@
 // The bench for effects: add and remove them, and see at once how much error is left.
 import { useMemo, useRef, useState } from "preact/hooks";
-import { useUnits } from "../controls/lengths";
+import { List } from "../controls/Parts";
 import { Trouble } from "../controls/Trouble";
 import { Residuals } from "../residuals/Residuals";
 import { useDrawn } from "../residuals/useDrawn";
@@ -20,13 +20,10 @@ export function Bench() {
   return <OpenBench bench={bench} />;
 }
 
-const ARROWS =
-  "Pale arrows show the state before. Lay an effect over the marks to see what it draws. ";
-
 function OpenBench({ bench }: { bench: Board }) {
   const { project, choose } = useProject();
-  const units = useUnits();
-  const kept = keptChoice(project.choices.bench);
+  const { effects: added = [], held = {} } = project.choices.bench ?? {};
+  const kept = { effects: added, held };
   const [moving, setMoving] = useState<Choice>(); // while a slider is being moved
   const choice = moving ?? kept;
   const live = useLive(choice, kept, bench.board);
@@ -62,8 +59,7 @@ function OpenBench({ bench }: { bench: Board }) {
   }, [bench, frame, now, previous, drawn]);
   return (
     <Screen
-      title="Effects bench"
-      say={`Add an effect: each row says what would be left with it [${units}]. ${hasMarks ? ARROWS : ""}Nothing goes to the machine.`}
+      {...bench.heading}
       why={<Why />}
       {...(now ? { command: now.fit.command } : {})}
       stage={stage}
@@ -88,13 +84,7 @@ function OpenBench({ bench }: { bench: Board }) {
         {now?.fit.intervals && kept.effects.length > 0 && (
           <p class="intervals">In brackets: the interval. {now.fit.intervals}</p>
         )}
-        {stairs && stairs.warnings.length > 0 && (
-          <ul class="wrong">
-            {stairs.warnings.map((line) => (
-              <li key={line}>{line}</li>
-            ))}
-          </ul>
-        )}
+        <List class="wrong" said={stairs?.warnings ?? []} />
       </div>
     </Screen>
   );
@@ -130,10 +120,4 @@ function Why() {
       mark would have needed: most effects are a simple curve there.
     </p>
   );
-}
-
-function keptChoice(
-  bench: { effects?: string[]; held?: Record<string, number> } | undefined,
-): Choice {
-  return { effects: bench?.effects ?? [], held: bench?.held ?? {} };
 }

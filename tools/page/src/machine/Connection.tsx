@@ -2,11 +2,12 @@
 import { useState } from "preact/hooks";
 import { get, LOOK_MS, send } from "../api/client";
 import { later } from "../api/rest";
+import { Field, Select } from "../controls/Field";
+import { Progress } from "../controls/Progress";
 import { Do } from "../shell/doing";
 import { type Machine, useMachine } from "../shell/machine";
 import { Ports } from "../shell/Ports";
 import { useProject, useTell } from "../shell/project";
-import { Firmware } from "./Firmware";
 import "./connection.css";
 
 export function Connection() {
@@ -24,12 +25,22 @@ export function Connection() {
 }
 
 const MACHINES = 1_000_000; // that can be drawn
+const HIDES = [
+  ["random", "a hidden effect"],
+  ["nothing", "nothing but wrong numbers"],
+] as const;
+const SPEEDS = [
+  [1, "as slowly as a real machine"],
+  [10, "10 times as fast"],
+  [100, "100 times as fast"],
+  [1000, "as fast as this computer can"],
+] as const;
 
 function VirtualStart() {
   const { project } = useProject();
   const tell = useTell();
-  const [hides, setHides] = useState<"random" | "nothing">("random");
-  const [speed, setSpeed] = useState(100);
+  const [hides, setHides] = useState<(typeof HIDES)[number][0]>("random");
+  const [speed, setSpeed] = useState<(typeof SPEEDS)[number][0]>(100);
   const [number, setNumber] = useState("");
   const start = async () => {
     const drawn = Math.floor(Math.random() * MACHINES);
@@ -42,39 +53,17 @@ function VirtualStart() {
   return (
     <section class="box">
       <h2>A virtual machine to try</h2>
-      <label>
-        It has{" "}
-        <select
-          value={hides}
-          onChange={(event) => setHides(event.currentTarget.value as typeof hides)}
-        >
-          <option value="random">a hidden effect</option>
-          <option value="nothing">nothing but wrong numbers</option>
-        </select>
-      </label>
-      <label>
-        and cuts{" "}
-        <select
-          value={String(speed)}
-          onChange={(event) => setSpeed(Number(event.currentTarget.value))}
-        >
-          <option value="1">as slowly as a real machine</option>
-          <option value="10">10 times as fast</option>
-          <option value="100">100 times as fast</option>
-          <option value="1000">as fast as this computer can</option>
-        </select>
-      </label>
+      <Select label="It has" options={HIDES} chosen={hides} choose={setHides} />
+      <Select label="and cuts" options={SPEEDS} chosen={speed} choose={setSpeed} />
       <details>
         <summary>A certain machine</summary>
-        <label>
-          Its number{" "}
-          <input
-            inputMode="numeric"
-            value={number}
-            placeholder="drawn"
-            onInput={(event) => setNumber(event.currentTarget.value)}
-          />
-        </label>
+        <Field
+          label="Its number"
+          inputMode="numeric"
+          value={number}
+          placeholder="drawn"
+          hear={setNumber}
+        />
       </details>
       <Do work={start} meanwhile="It starts …">
         Start a virtual machine
@@ -123,5 +112,42 @@ function Connected({ machine }: { machine: Machine }) {
         </details>
       )}
     </section>
+  );
+}
+
+/** The firmware on the board, and ours to write over it. */
+function Firmware({ machine }: { machine: Machine }) {
+  const { brought, firmware, phase, written } = machine;
+  const [asked, setAsked] = useState(false);
+  if (written !== null) {
+    return (
+      <>
+        <p>{brought} is being written to the board. Leave its cable in.</p>
+        <Progress share={written} label="Written" />
+      </>
+    );
+  }
+  if (machine.kind !== "board" || !brought || phase === "connecting") return null;
+  const write = async () => {
+    await send("POST", "machine/firmware");
+    setAsked(false);
+  };
+  return (
+    <details open={firmware !== "" && firmware !== brought}>
+      <summary>On the board: {firmware || "a firmware that did not say its name"}</summary>
+      {asked ? (
+        <p>
+          Its motors go off and the sled may sink. Settings and chain lengths stay.{" "}
+          <Do work={write}>Write it now</Do>{" "}
+          <button type="button" onClick={() => setAsked(false)}>
+            Leave it as it is
+          </button>
+        </p>
+      ) : (
+        <button type="button" onClick={() => setAsked(true)}>
+          Write {brought} to this board
+        </button>
+      )}
+    </details>
   );
 }

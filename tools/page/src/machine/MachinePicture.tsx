@@ -4,23 +4,17 @@ import { useMachine } from "../shell/machine";
 import "./picture.css";
 
 type Machine = Schemas["Machine"];
-export type Distance =
-  | "motor_gap"
-  | "motor_height"
-  | "rotation_radius"
-  | "sheet"
-  | "sled_weight"
-  | "chain";
+type Distance = Schemas["KnownNumber"]["marked"];
 
 interface PictureParts {
   machine: Machine;
   /** The distance to mark. */
-  marked?: Distance | undefined;
+  marked?: Distance;
   /** Its label. */
   words?: string;
 }
 
-export function MachinePicture({ machine, marked, words = "" }: PictureParts) {
+export function MachinePicture({ machine, marked = "", words = "" }: PictureParts) {
   const [width, height] = machine.sheet;
   const gap = machine.frame.motor_gap ?? width;
   const up = machine.frame.motor_height ?? height;
@@ -34,7 +28,6 @@ export function MachinePicture({ machine, marked, words = "" }: PictureParts) {
     motor_gap: [-gap / 2, -up - 150, gap / 2, -up - 150],
     motor_height: [width / 2 - 60, -height / 2, width / 2 - 60, -up],
     rotation_radius: [sled[0], sled[1], sled[0] + ring, sled[1]],
-    sheet: [-width / 2, height / 2 + 90, width / 2, height / 2 + 90],
     sled_weight: [sled[0], sled[1], sled[0], sled[1] + 330],
     chain: [gap / 4, -up / 2, gap / 4, -up / 2],
   } as const;
@@ -69,7 +62,7 @@ export function MachinePicture({ machine, marked, words = "" }: PictureParts) {
 }
 
 interface MarkedParts {
-  marked: Distance;
+  marked: Exclude<Distance, "">;
   words: string;
   ends: readonly [number, number, number, number];
   sled: readonly [number, number];
@@ -86,7 +79,7 @@ function Marked({ marked, words, ends: [x1, y1, x2, y2], sled }: MarkedParts) {
       <circle cx={x2} cy={y2} r={18} />
       <text
         x={below ? sled[0] : level ? x : x - 40}
-        y={below ? sled[1] + 420 : level ? (marked === "sheet" ? y + 120 : y - 70) : y + 30}
+        y={below ? sled[1] + 420 : level ? y - 70 : y + 30}
         text-anchor={below || level ? "middle" : "end"}
       >
         {words}

@@ -1,6 +1,7 @@
 // The reading of a mark, from two edges. Text stays as it was typed; half a reading is kept in this browser.
 import { useState } from "preact/hooks";
 import type { Schemas } from "../api/client";
+import { store, stored } from "../api/stored";
 import {
   lengthText,
   namedLength,
@@ -10,7 +11,6 @@ import {
   useUnits,
 } from "../controls/lengths";
 import { useProject } from "../shell/project";
-import { halfOf, keepHalf, type Texts } from "./halves";
 import { pasted } from "./paste";
 import type { Form, Place, TypedForm } from "./useReadings";
 
@@ -122,4 +122,38 @@ function complete(texts: Texts, units: Unit): Place | undefined {
 function means(texts: Texts, value: Place | undefined, units: Unit): boolean {
   const read = complete(texts, units);
   return !!read && !!value && read.every((mm, axis) => Math.abs(mm - (value[axis] ?? 0)) < 1e-3);
+}
+
+// Half readings, and texts that are not yet lengths: kept in this browser until complete. They do not count.
+
+const PREFIX = "plumb-half:";
+type Texts = readonly [string, string];
+
+/** A mark of a form, in the folder with this key. */
+interface HalfPlace {
+  key: string;
+  file: string;
+  index: number;
+}
+
+interface Half {
+  edges: string; // from which it was typed
+  texts: Texts;
+}
+
+/** What was typed for a mark, from these edges. */
+function halfOf({ key, file, index }: HalfPlace, edges: string): Texts | undefined {
+  const half = halvesOf(key)[`${file}:${index}`];
+  return half?.edges === edges ? half.texts : undefined;
+}
+
+/** Stores half a reading, or removes it if there is none. */
+function keepHalf({ key, file, index }: HalfPlace, half: Half | undefined): void {
+  const { [`${file}:${index}`]: _, ...others } = halvesOf(key);
+  const all = half ? { ...others, [`${file}:${index}`]: half } : others;
+  store(PREFIX + key, all);
+}
+
+function halvesOf(key: string): Record<string, Half> {
+  return stored(PREFIX + key) ?? {};
 }

@@ -1,5 +1,6 @@
 // Chooses the form to type into, or imports a file of readings.
 import { sendFile } from "../api/client";
+import { Select } from "../controls/Field";
 import { Do } from "../shell/doing";
 import { useMachine } from "../shell/machine";
 import { PickFile } from "../shell/PickFile";
@@ -22,16 +23,15 @@ export function FormPicker({ form, choose }: FormPickerParts) {
     );
   if (form.files.length === 1) return null;
   return (
-    <label class="form-picker">
-      Form
-      <select value={form.file} onChange={(event) => choose(event.currentTarget.value)}>
-        {form.files.map((file) => (
-          <option key={file.name} value={file.name}>
-            {file.name}: {file.read} of {file.asked} read
-          </option>
-        ))}
-      </select>
-    </label>
+    <Select
+      label="Form"
+      options={form.files.map((file) => [
+        file.name,
+        `${file.name}: ${file.read} of ${file.asked} read`,
+      ])}
+      chosen={form.file}
+      choose={choose}
+    />
   );
 }
 

@@ -1,5 +1,5 @@
 // The edges that the tape measures from, and how fine its lines are.
-import type { Choices } from "../api/client";
+import { Select } from "../controls/Field";
 import { useProject } from "../shell/project";
 import { type Form, useSave } from "./saves";
 
@@ -32,41 +32,24 @@ export function Tape({ form, take }: TapeParts) {
   // If only distances are asked for, edges do not matter.
   const fromEdges = form.spans.length === 0 || form.marks.some((mark) => mark.read);
   const finest = project.choices.fineness ?? 0.5;
-  const state = (value: string) =>
-    save("fineness", () => ({ finest: value ? Number(value) : null }));
   return (
     <div class="tape tiles">
       {fromEdges && (
-        <label>
-          Measured from
-          <select
-            value={project.choices.edges}
-            onChange={(event) =>
-              choose({ edges: event.currentTarget.value as NonNullable<Choices["edges"]> })
-            }
-          >
-            {EDGES.map(([corner, said]) => (
-              <option key={corner} value={corner}>
-                {said}
-              </option>
-            ))}
-          </select>
-        </label>
+        <Select
+          label="Measured from"
+          options={EDGES}
+          chosen={project.choices.edges ?? "top-left"}
+          choose={(edges) => choose({ edges })}
+        />
       )}
-      <label>
-        Finest lines of the tape
-        <select
-          value={stated ? String(nearest(finest)) : ""}
-          onChange={(event) => void state(event.currentTarget.value)}
-        >
-          <option value="">not said</option>
-          {LINES.map(([mm, said]) => (
-            <option key={said} value={String(mm)}>
-              {said}
-            </option>
-          ))}
-        </select>
-      </label>
+      <Select
+        label="Finest lines of the tape"
+        options={[["", "not said"], ...LINES]}
+        chosen={stated ? nearest(finest) : ""}
+        choose={(finest) =>
+          void save("fineness", () => ({ finest: finest === "" ? null : finest }))
+        }
+      />
     </div>
   );
 }

@@ -1,7 +1,6 @@
 // Saves of a form: its readings, distances and tape. Each waits for the one before.
 import { lineOf, type Schemas, send } from "../api/client";
 import { useProject } from "../shell/project";
-import { Succession } from "../shell/succession";
 
 export type Form = Schemas["ReadingsAnswer"];
 const forms = new Map<string, Succession<Form>>(); // of this tab, by file
@@ -32,4 +31,43 @@ export function useSave(
       setTrouble(lineOf(error));
     }
   };
+}
+
+// Saves of the same thing from this tab: each waits for the answer to the save before it, and names the state that it
+// left. Saves made elsewhere are not part of it, so the server still refuses to overwrite them unseen.
+
+interface Saved {
+  digest: string;
+}
+
+class Succession<State extends Saved> {
+  private readonly after = new Map<string, State>(); // what this tab replaced a state by, by digest
+  private line: Promise<unknown> = Promise.resolve();
+
+  /** Saves in turn; `save` gets the state that the saves before it left of what is known. */
+  save(known: State, save: (now: State) => Promise<State>): Promise<State> {
+    const turn = this.line.then(async () => {
+      const now = this.newest(known);
+      const answer = await save(now);
+      this.learn(answer);
+      if (answer.digest !== now.digest) this.after.set(now.digest, answer);
+      return answer;
+    });
+    this.line = turn.catch(() => undefined);
+    return turn;
+  }
+
+  /** This state is there now, so nothing replaced it. */
+  learn(state: State): void {
+    this.after.delete(state.digest);
+  }
+
+  private newest(known: State): State {
+    let now = known;
+    for (;;) {
+      const next = this.after.get(now.digest);
+      if (!next) return now;
+      now = next;
+    }
+  }
 }

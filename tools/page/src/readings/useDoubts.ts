@@ -5,17 +5,16 @@ import type { Form } from "./useReadings";
 
 export type Doubt = Schemas["Doubted"];
 type Answer = Schemas["DoubtsAnswer"];
-export type OthersSay = Schemas["OthersSay"];
 const PAUSE_MS = 500;
 
 /** The previous answer stays visible, so that rings do not flicker. */
 export function useDoubts(
   form: Form | undefined,
-): Omit<Asked<unknown>, "answer"> & Pick<Answer, "doubts" | "others" | "compared"> {
+): Omit<Asked<unknown>, "answer"> & Pick<Answer, "doubts" | "compared"> {
   const { file = "", digest = "" } = form ?? {};
   const isEmpty = !form?.distances.length && !form?.marks.some((mark) => mark.read);
   const ask = () => get<Answer>(`doubts?file=${encodeURIComponent(file)}`);
   const { answer, ...asked } = useAsked(isEmpty ? undefined : ask, `${file} ${digest}`, PAUSE_MS);
   const isOfForm = !isEmpty && !asked.refused && answer?.file === file;
-  return { ...asked, ...(isOfForm ? answer : { doubts: [], others: [], compared: "" }) };
+  return { ...asked, ...(isOfForm ? answer : { doubts: [], compared: "" }) };
 }

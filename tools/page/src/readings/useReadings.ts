@@ -1,12 +1,11 @@
 // The form of readings: loaded, edited, and saved reading by reading.
-import { useCallback, useEffect, useRef, useState } from "preact/hooks";
+import { useCallback, useEffect, useLayoutEffect, useRef, useState } from "preact/hooks";
 import { isSilence, lineOf, READ_MS, type Schemas, send } from "../api/client";
 import { useFresh } from "../shell/fresh";
 import { type Kept, useKept } from "../shell/kept";
 import { useProject } from "../shell/project";
 import { same } from "../shell/rebase";
 import { type Form, savesOf } from "./saves";
-import { type OpenMark, useOpenMark } from "./useOpenMark";
 
 export type { Form };
 export type Place = readonly [number, number];
@@ -106,4 +105,28 @@ function changes(was: Typed, is: Typed): Schemas["TypedReading"][] {
       index: Number(index),
       read: is[index] ? ([...is[index]] as [number, number]) : null,
     }));
+}
+
+interface OpenMark {
+  open: number;
+  pick: (index: number) => void;
+}
+
+/** The mark being typed: at first one without a reading. After choosing another you can type at once. */
+function useOpenMark(form: Form | undefined): OpenMark {
+  const [picked, setPicked] = useState<{ file: string; index: number }>();
+  const begin = useRef({ file: "", index: 0 });
+  const { file = "", marks = [] } = form ?? {};
+  if (begin.current.file !== file) {
+    const waiting = marks.find((mark) => !mark.read) ?? marks[0];
+    begin.current = { file, index: waiting?.index ?? 0 };
+  }
+  // At once, so that the next key is for it.
+  useLayoutEffect(() => {
+    if (picked) document.querySelector<HTMLElement>(`#mark-${picked.index} input`)?.focus();
+  }, [picked]);
+  return {
+    open: picked?.file === file ? picked.index : begin.current.index,
+    pick: (index) => setPicked({ file, index }),
+  };
 }

@@ -1,14 +1,12 @@
 // A saved report: the verdict as the lab shows it, the numbers, and their sources. It needs no server.
 import type { Project, Schemas } from "../api/client";
+import { shownLength, useUnits, withMinus } from "../controls/lengths";
 import { Table } from "../controls/Table";
 import { Shares } from "../shell/Shares";
 import { Notes, Why } from "../steps/Correct";
 import { NumberTable } from "../steps/correct/NumberTable";
-import { Course } from "../steps/diary/Course";
-import { Errors } from "../steps/diary/Errors";
+import { Course, Errors } from "../steps/diary/History";
 import { Verdict } from "../steps/Verdict";
-import type { VerdictAnswer } from "../steps/verdict/words";
-import { MarkTable } from "./MarkTable";
 import "./report.css";
 
 /** What a report holds besides the lab's answers. */
@@ -26,7 +24,7 @@ const stays = async () => {};
 export function Report({ answers }: { answers: Readonly<Record<string, unknown>> }) {
   const project = answers.project as Project;
   const about = answers.about as About;
-  const { verdict } = answers.verdict as VerdictAnswer;
+  const { verdict } = answers.verdict as Schemas["VerdictAnswer"];
   const diary = answers.diary as Schemas["DiaryAnswer"];
   const shared = { project, take: stays, choose: stays, reload: stays, trouble: "" };
   return (
@@ -60,8 +58,8 @@ function Numbers({ made }: { made: Schemas["CorrectionParts"] }) {
     <section>
       <h2>The numbers, before and after</h2>
       {made.numbers.length > 0 && <NumberTable numbers={made.numbers} />}
-      <Notes made={made} weight="stop" />
-      <Notes made={made} weight="by_hand" />
+      <Notes title="Do not write these numbers" said={made.stops} />
+      <Notes title="By hand" said={made.by_hand} />
       <Why made={made} />
     </section>
   );
@@ -82,6 +80,39 @@ function Sources({ about }: { about: About }) {
       <p>
         Made by {about.versions}. The same again: <code>{about.command}</code>
       </p>
+    </section>
+  );
+}
+
+/** Each mark with its error, for paper, where you cannot point at a mark. */
+function MarkTable({ verdict }: { verdict: Schemas["Verdict"] }) {
+  const units = useUnits();
+  const left = verdict.states.at(-1);
+  const pair = (both: readonly (number | null)[] | null | undefined, digits: number) =>
+    withMinus(
+      both?.map((each) => (each === null ? "–" : shownLength(each, units, digits))).join(", ") ??
+        "–",
+    );
+  return (
+    <section>
+      <h2>The readings [{units}]</h2>
+      <p>
+        From the middle of the sheet, x right, y up. Off by: read − where the settings put it. Left:
+        what {left?.title} leaves, on the sheet and as left and right chain.
+      </p>
+      <Table
+        class="readings-read"
+        names={["mark", "target", "read", "off by", "left", "chains"]}
+        tone={(row) => (verdict.doubted.includes(row) ? "doubted" : "")}
+        rows={verdict.marks.map((mark, i) => [
+          `${mark.name} ${verdict.doubted.includes(i) ? "(read it again)" : ""}`,
+          pair(mark.target, 1),
+          pair(mark.measured, 1),
+          pair(mark.error, 2),
+          pair(left?.errors[i], 2),
+          pair(left?.chains[i], 2),
+        ])}
+      />
     </section>
   );
 }

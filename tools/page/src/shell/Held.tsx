@@ -1,18 +1,18 @@
 // Differences between the connected machine and the open file, and the question which of them is right. Nothing is cut
 // before that is answered.
 
-import { send } from "../api/client";
+import { type Schemas, send } from "../api/client";
 import { Table } from "../controls/Table";
 import { Do } from "./doing";
 import { isReady, useMachine } from "./machine";
+import { useNewest } from "./newest";
 import { useProject, useTell } from "./project";
-import { type HeldAnswer, useHeld } from "./useHeld";
 
 const SHOWN = 6;
 
 export function Held() {
   const held = useHeld();
-  if (!held || held.said.length === 0) return null;
+  if (!held || held.alike) return null;
   if (held.is_fit)
     return (
       <p class="box trouble" role="status">
@@ -55,4 +55,17 @@ function Question({ held }: { held: HeldAnswer }) {
       )}
     </section>
   );
+}
+
+type HeldAnswer = Schemas["HeldAnswer"];
+
+/** Differences between the connected machine and the open file; undefined while one of them is unknown. */
+export function useHeld(): HeldAnswer | undefined {
+  const machine = useMachine();
+  const { project } = useProject();
+  const file = project.choices.settings ?? "";
+  const known = machine.numbers_digest !== "" && file !== "";
+  const state = JSON.stringify([machine.numbers_digest, file, project.files[file]]);
+  const held = useNewest<HeldAnswer>(known ? "machine/held" : "", state);
+  return known && held?.file === file ? held : undefined;
 }

@@ -2,7 +2,9 @@
 import { useEffect, useState } from "preact/hooks";
 import { type Schemas, send } from "../api/client";
 import { kindOfPhone } from "../api/here";
+import { Field } from "../controls/Field";
 import { useDo } from "./doing";
+import { Screen } from "./Screen";
 
 const SCANNED = /^#\/pair\/(\d{6})$/;
 
@@ -22,11 +24,10 @@ export function Pair({ paired }: { paired: () => Promise<void> }) {
   }, []);
   return (
     <main id="screen">
-      <section class="screen">
-        <h1>Pair this phone</h1>
-        <p class="say">
-          Scan the code that the lab shows on the computer, or type the PIN that stands beside it.
-        </p>
+      <Screen
+        title="Pair this phone"
+        say="Scan the code that the lab shows on the computer, or type the PIN that stands beside it."
+      >
         <form
           class="row"
           onSubmit={(event) => {
@@ -34,23 +35,21 @@ export function Pair({ paired }: { paired: () => Promise<void> }) {
             void pair(pin);
           }}
         >
-          <label>
-            PIN{" "}
-            <input
-              inputMode="numeric"
-              autocomplete="one-time-code"
-              maxLength={6}
-              size={6}
-              value={pin}
-              onInput={(event) => setPin(event.currentTarget.value)}
-            />
-          </label>
+          <Field
+            label="PIN"
+            inputMode="numeric"
+            autocomplete="one-time-code"
+            maxLength={6}
+            size={6}
+            value={pin}
+            hear={setPin}
+          />
           <button type="submit" class="primary" disabled={busy || pin.length < 6}>
             Pair
           </button>
         </form>
         {refusal}
-      </section>
+      </Screen>
     </main>
   );
 }

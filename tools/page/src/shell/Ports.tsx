@@ -2,6 +2,7 @@
 // machine at them.
 import { useState } from "preact/hooks";
 import { type Schemas, send } from "../api/client";
+import { Field } from "../controls/Field";
 import { useDo } from "./doing";
 import { useWatched } from "./watched";
 
@@ -37,10 +38,7 @@ export function Ports({ lost }: { lost?: string }) {
             void connect(typed);
           }}
         >
-          <label>
-            Its name, like COM3 or /dev/ttyACM0{" "}
-            <input value={typed} onInput={(event) => setTyped(event.currentTarget.value)} />
-          </label>{" "}
+          <Field label="Its name, like COM3 or /dev/ttyACM0" value={typed} hear={setTyped} />{" "}
           <button type="submit" disabled={busy || !typed}>
             Connect
           </button>

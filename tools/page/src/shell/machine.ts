@@ -14,6 +14,7 @@ const NONE: Machine = {
   name: "",
   subject: "",
   doing: "",
+  at_work: { title: "", say: "" },
   phase: "none",
   place: null,
   knows_place: true,

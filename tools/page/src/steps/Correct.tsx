@@ -1,18 +1,17 @@
 // Step 8: each number before and after, accepted one by one; written, sent, read back, and undone.
 import { useRef } from "preact/hooks";
-import type { Choices, Schemas } from "../api/client";
+import type { Schemas } from "../api/client";
 import { namedLength, shownLength, useUnits } from "../controls/lengths";
+import { List } from "../controls/Parts";
 import { Progress } from "../controls/Progress";
-import { capital } from "../controls/words";
 import { Residuals } from "../residuals/Residuals";
 import { useAnswer } from "../shell/answer";
+import { useHeld } from "../shell/Held";
 import { useChoosing } from "../shell/kept";
 import { useProject } from "../shell/project";
 import { Screen } from "../shell/Screen";
-import { useHeld } from "../shell/useHeld";
-import { GoBack } from "./correct/GoBack";
-import { Numbers } from "./correct/Numbers";
-import { Refused } from "./correct/Refused";
+import { Numbers } from "./correct/NumberTable";
+import { GoBack, Refused } from "./correct/Refused";
 import { ToMachine, ToSend } from "./correct/ToMachine";
 import { type CorrectionAnswer, useKnown, useWriting, type Writing } from "./correct/useWriting";
 import "./correct/correct.css";
@@ -20,10 +19,9 @@ import "./correct/correct.css";
 type Made = Schemas["CorrectionParts"];
 
 export function Correct() {
-  const { project } = useProject();
   const { answer, refused } = useAnswer<CorrectionAnswer>("correction");
   const writing = useWriting();
-  const isHeld = useHeld()?.said.length === 0;
+  const held = useHeld()?.alike;
   // The numbers stay in view while they are fitted again.
   const latest = useRef(answer?.correction);
   latest.current = answer?.correction ?? latest.current;
@@ -31,40 +29,28 @@ export function Correct() {
   if (refused) return <Refused title="No correction yet" refused={refused} writing={writing} />;
   if (!answer || !made) {
     return (
-      <Screen title="What would change?" say="The numbers are fitted to your readings.">
+      <Screen {...(answer?.heading ?? { title: "What would change?", say: "One moment …" })}>
         <Progress share={answer?.share ?? 0} label="The correction" />
       </Screen>
     );
   }
-  if (made.nothing) {
+  if (made.instead) {
     return (
-      <Screen title={made.nothing} say={made.said} why={<p>{made.reasons.join(" ")}</p>}>
-        {made.instead && <a href={`#/${made.instead.screen}`}>{made.instead.text}</a>}
+      <Screen {...made.heading} why={<p>{made.reasons.join(" ")}</p>}>
+        <a href={`#/${made.instead.screen}`}>{made.instead.text}</a>
         <GoBack writing={writing} />
       </Screen>
     );
   }
-  const parts = { answer, made, writing, isHeld };
-  return isWritten(made, project.choices, writing) ? (
-    <Written {...parts} />
-  ) : (
-    <Question {...parts} />
-  );
-}
-
-/** Whether the open file holds a fit to these marks, and nothing more is accepted: it goes to the machine next. */
-function isWritten(made: Made, choices: Choices, writing: Writing): boolean {
-  if (choices.accepted?.length) return false;
-  if (made.settings === choices.settings) return made.is_written;
-  return writing.written?.file === choices.settings; // and its fit is on its way
+  return <Opened {...{ answer, made, writing, held }} />;
 }
 
 interface Parts {
   answer: CorrectionAnswer;
   made: Made;
   writing: Writing;
-  /** Whether the machine holds the numbers of the open file. */
-  isHeld: boolean;
+  /** What the screen says if the machine holds the numbers of the open file. */
+  held: Schemas["Heading"] | null | undefined;
 }
 
 /** Whether the fit on the screen is that of what is accepted, and the server knows what that is. */
@@ -78,104 +64,85 @@ function useCurrent({ answer, made }: Parts): boolean {
   );
 }
 
-/** Which numbers are accepted and written. */
-function Question(parts: Parts) {
-  const { answer, made, writing, isHeld } = parts;
+/** Numbers to accept and write; once they are written, they are sent, and what would still change is folded away. */
+function Opened(parts: Parts) {
+  const { answer, made, writing, held } = parts;
   const { accepted = [] } = useProject().project.choices;
   const current = useCurrent(parts);
-  const known = useKnown();
-  const count = made.numbers.filter((number) => accepted.includes(number.name)).length;
-  const isAsked = made.asked.length > 0;
+  const isWritten = answer.is_written && accepted.length === 0;
+  const fitted = isWritten ? (current ? made.as_set : null) : (made.accepted ?? made.whole);
+  const states = isWritten ? [fitted] : [made.as_set, made.accepted, made.whole];
+  const toMachine = { writing, isHeld: !!held, isNext: isWritten, last: answer.last_sent };
+  const numbers = <Numbers made={made} busy={!current} />;
   return (
     <Screen
-      title={isAsked ? "What would change?" : "Nothing would change"}
-      say={isAsked ? made.said : `${made.settings} fits these marks as it is.`}
+      {...(isWritten ? (held ?? answer.heading) : made.heading)}
       why={<Why made={made} />}
       command={answer.command}
-      stage={
-        <Compared
-          made={made}
-          states={[made.as_set, made.accepted, made.whole].filter((each) => each !== null)}
-        />
-      }
+      stage={<Compared made={made} states={states.filter((each) => each !== null)} />}
       fieldsFirst
       act={
-        isAsked && (
-          <button
-            type="button"
-            class="primary"
-            disabled={count === 0 || !current || writing.busy}
-            onClick={() => void writing.write(known)}
-          >
-            {count === 0
-              ? "Accept a number first"
-              : `Write ${count} ${count === 1 ? "number" : "numbers"} into ${answer.file}`}
-          </button>
+        isWritten ? (
+          <>
+            <ToSend {...toMachine} />
+            {writing.notSent}
+          </>
+        ) : (
+          <Write {...parts} current={current} />
         )
       }
     >
-      <Fall from={made.as_set} to={made.accepted ?? made.whole} busy={!current} />
-      {isAsked && (
-        <p>
-          Accept each number that you believe; the rest is fitted again. Writing moves nothing, and
-          your old file stays.
-        </p>
-      )}
-      <Numbers made={made} busy={!current} />
-      <Notes made={made} weight="stop" />
-      <Notes made={made} weight="by_hand" />
-      <p class="row">
-        <GoBack writing={writing} />
-        {writing.notWritten}
-      </p>
-      <ToMachine {...{ writing, isHeld }} isNext={false} last={answer.last_sent} />
-    </Screen>
-  );
-}
-
-/** Sends what is written to the machine; numbers that would still change are folded away. */
-function Written(parts: Parts) {
-  const { answer, made, writing, isHeld } = parts;
-  const { settings } = useProject().project.choices;
-  const current = useCurrent(parts);
-  return (
-    <Screen
-      title={isHeld ? "The machine holds the numbers" : "The numbers are written"}
-      say={
-        isHeld
-          ? `They are those of ${settings}. Two marks on the same sheet show whether it came true.`
-          : `${settings} holds them; your old file stays. The machine takes them next: nothing moves, and each number is read back.`
-      }
-      why={<Why made={made} />}
-      command={answer.command}
-      stage={<Compared made={made} states={current && made.as_set ? [made.as_set] : []} />}
-      fieldsFirst
-      act={
-        <>
-          <ToSend {...{ writing, isHeld }} isNext last={answer.last_sent} />
-          {writing.notSent}
-        </>
-      }
-    >
-      {writing.written && !isHeld && (
+      {isWritten && writing.written && !held && (
         <p role="status">
           Written: {writing.written.files.join(", ")}. {writing.written.failure}
         </p>
       )}
-      <Fall from={null} to={current ? made.as_set : null} busy={!current} />
-      <ToMachine {...{ writing, isHeld }} isNext last={answer.last_sent} />
-      {current && <Notes made={made} weight="by_hand" />}
-      {current && made.asked.length > 0 && (
+      <Fall from={isWritten ? null : made.as_set} to={fitted} busy={!current} />
+      {!isWritten && (
+        <>
+          {made.asked.length > 0 && (
+            <p>
+              Accept each number that you believe; the rest is fitted again. Writing moves nothing,
+              and your old file stays.
+            </p>
+          )}
+          {numbers}
+          <Notes title="Do not write these numbers" said={made.stops} />
+        </>
+      )}
+      {(current || !isWritten) && <Notes title="By hand" said={made.by_hand} />}
+      {isWritten && current && made.asked.length > 0 && (
         <details>
           <summary>What would still change</summary>
-          <Numbers made={made} busy={false} />
+          {numbers}
         </details>
       )}
       <p class="row">
         <GoBack writing={writing} />
         {writing.notWritten}
       </p>
+      <ToMachine {...toMachine} />
     </Screen>
+  );
+}
+
+/** The button that writes what is accepted. */
+function Write({ answer, made, writing, current }: Parts & { current: boolean }) {
+  const { accepted = [] } = useProject().project.choices;
+  const known = useKnown();
+  const count = made.numbers.filter((number) => accepted.includes(number.name)).length;
+  if (made.asked.length === 0) return null;
+  return (
+    <button
+      type="button"
+      class="primary"
+      disabled={count === 0 || !current || writing.busy}
+      onClick={() => void writing.write(known)}
+    >
+      {count === 0
+        ? "Accept a number first"
+        : `Write ${count} ${count === 1 ? "number" : "numbers"} into ${answer.file}`}
+    </button>
   );
 }
 
@@ -206,37 +173,22 @@ function Fall({ from, to, busy }: { from: State; to: State; busy: boolean }) {
   );
 }
 
-const TITLES = { stop: "Do not write these numbers", by_hand: "By hand" };
-
 /** Why the numbers must not be used, or work on the machine without which their promise is void. */
-export function Notes({ made, weight }: { made: Made; weight: keyof typeof TITLES }) {
-  const said = made.notes.filter((note) => note.weight === weight);
+export function Notes({ title, said }: { title: string; said: readonly string[] }) {
   if (said.length === 0) return null;
   return (
-    <section class="box edge warned" aria-label={TITLES[weight]}>
-      <h2>{TITLES[weight]}</h2>
-      <ul>
-        {said.map(({ text }) => (
-          <li key={text}>{capital(text)}.</li>
-        ))}
-      </ul>
+    <section class="box edge warned" aria-label={title}>
+      <h2>{title}</h2>
+      <List said={said} />
     </section>
   );
 }
 
-export function Why({ made }: { made: Made }) {
-  const { reasons, notes, intervals } = made;
-  const doubts = notes.filter(({ weight }) => weight === "doubt" || weight === "hint");
+export function Why({ made: { reasons, doubts, intervals } }: { made: Made }) {
   return (
     <>
       <p>{reasons.join(" ")}</p>
-      {doubts.length > 0 && (
-        <ul>
-          {doubts.map(({ text }) => (
-            <li key={text}>{capital(text)}.</li>
-          ))}
-        </ul>
-      )}
+      <List said={doubts} />
       <p>The number behind ± is half of the 95 % interval. {intervals}</p>
     </>
   );

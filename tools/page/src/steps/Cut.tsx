@@ -15,8 +15,7 @@ function OpenCut({ round }: { round: Round }) {
   const { act, fields, fieldsFirst, running } = useCutting(round);
   return (
     <Screen
-      title={round.title}
-      say={round.say}
+      {...round.heading}
       {...running}
       why={<Why />}
       command={round.command}

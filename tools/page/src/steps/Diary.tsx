@@ -4,8 +4,7 @@ import type { Schemas } from "../api/client";
 import { useNewest } from "../shell/newest";
 import { useProject } from "../shell/project";
 import { Screen } from "../shell/Screen";
-import { Course } from "./diary/Course";
-import { Errors } from "./diary/Errors";
+import { Course, Errors } from "./diary/History";
 import "./diary/diary.css";
 
 type DiaryAnswer = Schemas["DiaryAnswer"];
@@ -17,19 +16,8 @@ export function Diary() {
   const diary = useNewest<DiaryAnswer>("diary", state);
   if (!diary) return <Screen title="The diary" say="One moment …" busy />;
   const { fits } = diary;
-  if (fits.length === 0 && diary.others.length === 0) {
-    return (
-      <Screen
-        title="The diary"
-        say="Each correction that you write, and what you send to the machine, is noted here by itself. Nothing is noted yet."
-      />
-    );
-  }
   return (
-    <Screen
-      title="The diary"
-      say="Each correction with its error, and the history of the numbers. A number that moved by more than its interval says that the machine has changed."
-    >
+    <Screen {...diary.heading}>
       {fits.length > 0 && <Errors fits={fits} />}
       {diary.courses.length > 0 && (
         <section>

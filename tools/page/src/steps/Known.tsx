@@ -1,7 +1,7 @@
 // Step 2: what you can measure without marks: a drawing with the distance, a number, and its uncertainty.
 import { useState } from "preact/hooks";
 import type { Schemas } from "../api/client";
-import { type Distance, MachinePicture } from "../machine/MachinePicture";
+import { MachinePicture } from "../machine/MachinePicture";
 import { useNewest } from "../shell/newest";
 import { useProject } from "../shell/project";
 import { Screen } from "../shell/Screen";
@@ -52,13 +52,7 @@ export function Known() {
         </p>
       }
       command={answer?.command ?? ""}
-      stage={
-        <MachinePicture
-          machine={project.machine}
-          marked={(shown.marked || undefined) as Distance | undefined}
-          words={shown.title}
-        />
-      }
+      stage={<MachinePicture machine={project.machine} marked={shown.marked} words={shown.title} />}
     >
       {list(numbers.filter((number) => number.is_first))}
       <details open={stated > 0 || !shown.is_first}>

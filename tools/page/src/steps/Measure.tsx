@@ -1,19 +1,21 @@
 // Step 4: choose how to measure, and see what the marks could tell before a hole is cut.
 import { type Schemas, send } from "../api/client";
+import { Segments } from "../controls/Segments";
 import { Trouble } from "../controls/Trouble";
 import { useAsked } from "../shell/asked";
 import { useNewest } from "../shell/newest";
 import { useProject } from "../shell/project";
 import { Screen } from "../shell/Screen";
-import { type LayoutId, Layouts } from "./measure/Layouts";
 import { MarksMap, type Place } from "./measure/MarksMap";
+
+type Layout = Schemas["LayoutAnswer"];
 
 const MOMENT_MS = 250; // after a plan was changed
 
 export function Measure() {
   const { project, choose } = useProject();
   const { settings = "" } = project.choices;
-  const layouts = useNewest<Schemas["LayoutAnswer"][]>(settings && "layouts", settings) ?? [];
+  const layouts = useNewest<Layout[]>(settings && "layouts", settings) ?? [];
   const advice = useNewest<Schemas["AdviceAnswer"]>(settings && "layouts/advice", settings);
   const saved: Place[] = project.choices.planned ?? [];
   const id = project.choices.layout ?? "nine";
@@ -26,10 +28,11 @@ export function Measure() {
   if (layouts.length === 0 || !project.machine)
     return <Screen title="Which marks?" say="One moment …" busy />;
   const keep = (planned: Place[]) => choose({ layout: "own", planned, proposed: "" });
-  const take = (layout: LayoutId) => {
+  const take = (layout: Layout["id"]) => {
     const planned = layout === "own" && saved.length === 0 ? places : saved;
     choose({ layout, planned, proposed: "" });
   };
+  const own = id === "own" || saved.length === 0 ? places : saved;
   const better = layouts.find((layout) => layout.id === advice?.layout && layout.id !== id);
   return (
     <Screen
@@ -60,11 +63,23 @@ export function Measure() {
           "Working out which marks to recommend …"
         )}
       </p>
-      <Layouts
-        layouts={layouts}
+      <Segments
+        class="layouts"
+        legend="How to measure"
         chosen={id}
-        count={id === "own" || saved.length === 0 ? places.length : saved.length}
         choose={take}
+        // Your own choice is always there, so that the sheet does not move under the finger that drags a mark.
+        options={[...layouts, { id: "own" as const, title: "Your choice", minutes: 0 }].map(
+          (each) => [
+            each.id,
+            <>
+              <b>{each.title}</b>{" "}
+              <small>
+                {each.minutes > 0 ? `about ${Math.round(each.minutes)} min` : `${own.length} marks`}
+              </small>
+            </>,
+          ],
+        )}
       />
       <Trouble>{refused || plan?.trouble}</Trouble>
       {!plan && !refused && (

@@ -21,12 +21,7 @@ export function Open() {
   const read = machine ? `plumb settings ${machine.file}` : "plumb read -o machine.toml";
   return (
     <Screen
-      title={machine ? "This machine is open" : "Which machine is it?"}
-      say={
-        machine
-          ? "Is it yours? Else open another file; this file stays. Nothing moves before you press a button that says what moves."
-          : "Open the settings that your machine has now, connect the machine, or try a virtual machine. Nothing moves here."
-      }
+      {...project.heading}
       why={
         <p>
           Everything below is worked out from these numbers. They are those with which the machine

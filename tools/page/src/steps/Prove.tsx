@@ -3,6 +3,7 @@
 import { useEffect } from "preact/hooks";
 import { type Project, send } from "../api/client";
 import { shownLength, useUnits } from "../controls/lengths";
+import { Table } from "../controls/Table";
 import { Grid } from "../readings/Grid";
 import { useReadings } from "../readings/useReadings";
 import { useProject } from "../shell/project";
@@ -12,7 +13,7 @@ import { useWriting } from "./correct/useWriting";
 import { CutMap } from "./cut/CutMap";
 import type { Round } from "./cut/round";
 import { useCutting, useRoundOf } from "./cut/useCutting";
-import { Judged, JudgedMap, Promised, type ProofAnswer } from "./prove/Judged";
+import { Judged, JudgedMap, type ProofAnswer } from "./prove/Judged";
 import "../readings/readings.css";
 
 export function Prove() {
@@ -20,10 +21,16 @@ export function Prove() {
   const answer = useRoundOf<ProofAnswer>("proof");
   const writing = useWriting();
   useNoted(answer);
-  if (!answer && project.changed_since_fit)
-    return <Refused title="Is it true?" refused="" writing={writing} />;
+  if (!answer && project.stale) return <Refused title="Is it true?" refused="" writing={writing} />;
   if (!answer) return <Screen title="Is it true?" say="One moment …" busy />;
-  return answer.round ? <OpenProof answer={answer} round={answer.round} /> : <NoPromise />;
+  if (answer.round) return <OpenProof answer={answer} round={answer.round} />;
+  return (
+    <Screen {...answer.heading}>
+      <a class="button primary" href={`#/${answer.instead?.screen}`}>
+        {answer.instead?.text}
+      </a>
+    </Screen>
+  );
 }
 
 function OpenProof({ answer, round }: { answer: ProofAnswer; round: Round }) {
@@ -35,8 +42,7 @@ function OpenProof({ answer, round }: { answer: ProofAnswer; round: Round }) {
   );
   return (
     <Screen
-      title="Is it true?"
-      say="Cut two marks that took no part, on the same sheet, with the new settings. Then read them. They show how the machine does away from the marks of the fit."
+      {...answer.heading}
       {...running}
       why={<Why />}
       command={answer.command}
@@ -61,7 +67,9 @@ function OpenProof({ answer, round }: { answer: ProofAnswer; round: Round }) {
         </>
       )}
       {round.is_saved && !running && <ProofReadings file={round.form} />}
-      <Promised answer={answer} />
+      {answer.tables.map(({ header, rows }) => (
+        <Table key={header[0]} class="checked" names={header} rows={rows} />
+      ))}
     </Screen>
   );
 }
@@ -96,19 +104,5 @@ function Why() {
       counts how well your marks settle the numbers, and how well a tape is read. 99 of 100 such
       marks lie within it if nothing is missing.
     </p>
-  );
-}
-
-/** Nothing can be proved before there is a correction. */
-function NoPromise() {
-  return (
-    <Screen
-      title="Is it true?"
-      say="Two marks that took no part show whether the settings hold. First write a correction: it makes the promise."
-    >
-      <a class="button primary" href="#/correct">
-        To the correction
-      </a>
-    </Screen>
   );
 }

@@ -28,8 +28,7 @@ export function Reach() {
     return <Screen title="Reach" say="The sheet is looked over …" busy />;
   return (
     <Screen
-      title={`${reach.conclusion.replace(/;.*|\.$/s, "")}.`}
-      say={reach.normal}
+      {...reach.heading}
       why={<Why reach={reach} />}
       command={reach.command}
       stage={
@@ -53,7 +52,7 @@ export function Reach() {
   );
 }
 
-export function Places({ reach, sheet }: { reach: Answer; sheet: readonly [number, number] }) {
+function Places({ reach, sheet }: { reach: Answer; sheet: readonly [number, number] }) {
   const { at, px } = useScale();
   const columns = reach.map[0]?.length ?? 1;
   const [wide, high] = [sheet[0] / columns, sheet[1] / reach.map.length];

@@ -1,46 +1,34 @@
 // Step 6: the tape's readings, typed into a grid laid out like the sheet.
 
 import { Trouble } from "../controls/Trouble";
-import { lengthBetween } from "../readings/distances";
 import { FileOfReadings, FormPicker, ReadAgain } from "../readings/FormPicker";
 import { Grid } from "../readings/Grid";
 import { ReadingsMap } from "../readings/ReadingsMap";
 import { Spans } from "../readings/Spans";
 import { Tape } from "../readings/Tape";
-import { TapeAt } from "../readings/TapeAt";
 import { useDoubts } from "../readings/useDoubts";
 import { useReadings } from "../readings/useReadings";
 import { Screen } from "../shell/Screen";
 import "../readings/readings.css";
 
 const LEAST = 9; // marks for a first verdict
-const PLACED =
-  "Type each mark from the blue edges, or touch another on the sheet. Enter goes on. Each number is saved at once.";
-const TAPED =
-  "Lay the tape between the two marks of each line, in this order, and type what it says. Each number is saved at once and stays open to change.";
-
 export function Readings() {
   const readings = useReadings();
-  const { doubts, others, compared, looking, refused } = useDoubts(readings.form);
+  const { doubts, compared, looking, refused } = useDoubts(readings.form);
   const { form } = readings;
   if (!form) return <Screen title="What does the tape say?" say="One moment …" busy />;
   const read = form.marks.filter((mark) => mark.read).length;
   const doubted = new Set(doubts.filter((doubt) => doubt.is_mark).map((doubt) => doubt.index));
-  const asked = form.spans.filter((span) => lengthBetween(form.distances, span)).length;
   const isTaped = form.spans.length > 0;
   const grid = <Grid form={form} readings={readings} doubts={doubts} />;
   return (
     <Screen
-      title="What does the tape say?"
-      say={isTaped ? TAPED : PLACED}
+      {...form.heading}
       why={<Why />}
       command={form.command}
       stage={
         form.marks.length > 0 && (
-          <>
-            <ReadingsMap form={form} doubted={doubted} open={readings.open} pick={readings.pick} />
-            <TapeAt form={form} open={readings.open} others={others} />
-          </>
+          <ReadingsMap form={form} doubted={doubted} open={readings.open} pick={readings.pick} />
         )
       }
       fieldsFirst
@@ -52,8 +40,7 @@ export function Readings() {
           <ReadAgain form={form} />
           <Tape form={form} take={readings.take} />
           <p class="count soft" role="status" aria-busy={looking}>
-            {isTaped && `${asked} of ${form.spans.length} distances are read. `}
-            {(!isTaped || read > 0) && `${read} of ${form.marks.length} marks are read.`}
+            {form.counted}
             {compared && ` ${compared}`}
             {looking && " Looking for readings that disagree …"}
           </p>

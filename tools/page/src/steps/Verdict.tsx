@@ -3,7 +3,7 @@
 import { useRef, useState } from "preact/hooks";
 import { isReport } from "../api/answers";
 import { type Schemas, saveReport } from "../api/client";
-import { Parts } from "../controls/Parts";
+import { List, Parts } from "../controls/Parts";
 import { Progress } from "../controls/Progress";
 import { Table } from "../controls/Table";
 import { capital } from "../controls/words";
@@ -16,15 +16,13 @@ import { useProject } from "../shell/project";
 import { Screen } from "../shell/Screen";
 import { Refused } from "./correct/Refused";
 import { useWriting } from "./correct/useWriting";
-import { HalfTyped } from "./verdict/HalfTyped";
-import { NextAct, NextStep } from "./verdict/NextStep";
+import { NextAct, type NextAnswer, NextStep } from "./verdict/NextStep";
 import { SuspectCard } from "./verdict/SuspectCard";
-import type { NextAnswer, VerdictAnswer } from "./verdict/words";
 import "./verdict/verdict.css";
 
 export function Verdict() {
   const { project, trouble } = useProject();
-  const { answer, refused } = useAnswer<VerdictAnswer>("verdict");
+  const { answer, refused } = useAnswer<Schemas["VerdictAnswer"]>("verdict");
   const writing = useWriting();
   const [isNextWanted, wantNext] = useNextWanted(project.key);
   const next = useAnswer<NextAnswer>("next", isNextWanted);
@@ -45,12 +43,7 @@ export function Verdict() {
   const card =
     chosen === undefined ? likeliest : verdict?.cards.find(({ title }) => title === chosen);
   const drawn = useDrawn(card?.account.effects ?? [], bench?.board ?? "");
-  if (refused)
-    return (
-      <Refused title="No verdict yet" refused={refused} writing={writing}>
-        <HalfTyped />
-      </Refused>
-    );
+  if (refused) return <Refused title="No verdict yet" refused={refused} writing={writing} />;
   if (!verdict) {
     return (
       <Screen title="Why are the marks off?" say="Every known effect is tried on your readings.">
@@ -95,14 +88,7 @@ export function Verdict() {
         )
       }
     >
-      {verdict.warned.length > 0 && (
-        <ul class="slips trouble">
-          {verdict.warned.map((each) => (
-            <li key={each}>{each}</li>
-          ))}
-        </ul>
-      )}
-      {!isReport && <HalfTyped />}
+      <List class="slips trouble" said={verdict.warned} />
       <div ref={place}>{isNextWanted && <NextStep marks={verdict.marks} next={next} />}</div>
       {verdict.cards.length > 0 && (
         <section aria-label="Suspects">
@@ -177,13 +163,7 @@ function Why({ why: [noise, ...notes] }: { why: string[] }) {
         does. Every set of effects is weighed by how well it explains your marks, and by what real
         machines have. The odds of a suspect are against all others together. {noise}
       </p>
-      {notes.length > 0 && (
-        <ul>
-          {notes.map((note) => (
-            <li key={note}>{note}</li>
-          ))}
-        </ul>
-      )}
+      <List said={notes} />
     </>
   );
 }

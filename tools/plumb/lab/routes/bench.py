@@ -43,6 +43,8 @@ from plumb.model.predict import Array
 from plumb.text.answers import like
 from plumb.text.errors import InputError, on_page
 from plumb.text.values import Unit
+from plumb.words import Heading
+from plumb.words.decision import what_is_added
 from plumb.words.verdict import noise_sentence, same_for_all
 
 router = APIRouter(tags=["bench"])
@@ -96,6 +98,7 @@ class BenchCovariate(BaseModel):
 class BenchAnswer(Readings):
     """First answer to the bench."""
 
+    heading: Heading
     board: str  # another for other marks or settings
     as_set: State
     effects: list[BenchEffect]
@@ -129,7 +132,6 @@ class BenchFit(State):
     left_out_rms: float  # [mm]
     sizes: dict[str, BenchSize]
     intervals: str  # for which noise they hold
-    settled: bool
     command: str
 
 
@@ -168,6 +170,7 @@ def open_bench(project: TheProject, warm: Warm) -> BenchAnswer:
     doubts = warm.doubts
     return BenchAnswer(
         **readings_of(warm.inputs.measurements, warm.raw, warm.live.noise.sigma, doubts),
+        heading=what_is_added(warm.inputs.unit, any_marks=bool(warm.raw.marks)),
         board=warm.key,
         as_set=as_set(warm.raw, doubts=doubts),
         effects=_effects(warm),
@@ -190,7 +193,6 @@ def refit(choice: BenchChoice, project: TheProject, warm: Warm) -> BenchFit:
         left_out_rms=fitted.left_out_rms,
         sizes=sizes,
         intervals=intervals,
-        settled=fitted.settled,
         command=_command(
             project.choices,
             chosen,

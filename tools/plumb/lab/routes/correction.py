@@ -33,8 +33,9 @@ from plumb.lab.routes.project import ProjectAnswer, TheProject, show
 from plumb.lab.routes.verdict import TheBackground
 from plumb.model.plain import PlainChange, plain_change
 from plumb.text.errors import InputError, on_page
+from plumb.words import Heading, Link
 from plumb.words import decision as words
-from plumb.words.states import STATES
+from plumb.words.verdict import range_met
 
 router = APIRouter(tags=["correction"])
 CLIENT_OF = {Path(file).suffix: client for client, file in CLIENT_FILES.items()}
@@ -49,25 +50,26 @@ class ChangedNumber(PlainChange):
 
     name: str
     possible: bool  # whether its interval reaches what a real machine may have
-    range_said: str  # empty: no limit is known
+    met: str  # which sizes real machines have; empty: no limit is known
     is_accepted: bool
 
 
 class CorrectionParts(Readings):
     """Numbers that could be changed, and those that are accepted."""
 
-    said: str  # the decision, in a sentence or two
+    heading: Heading
     reasons: list[str]  # why these effects, in sentences
     add: list[str]  # what plumb add is given for what is accepted
-    nothing: str = ""  # a heading where no number is to be changed
-    instead: words.Step | None = None  # and where to go on then
+    instead: Link | None = None  # where to go on where no number is to be changed
     numbers: tuple[ChangedNumber, ...] = ()
     # Those that would change, or are accepted, as they become with what is accepted.
     asked: tuple[ChangedNumber, ...] = ()
-    notes: tuple[Note, ...] = ()  # on what is accepted, the heaviest first
+    # On what is accepted: what speaks against it, what to do by hand, and what else is to be known.
+    stops: tuple[str, ...] = ()
+    by_hand: tuple[str, ...] = ()
+    doubts: tuple[str, ...] = ()
     intervals: str = ""  # for which noise they hold
     settings: str = ""  # name of the file that these numbers would change
-    is_written: bool = False  # that file was fitted to just these marks
     as_set: State | None = None  # the marks as that file stands
     accepted: State | None = None  # with what is accepted; None: nothing is
     whole: State | None = None  # with all of it
@@ -77,6 +79,8 @@ class CorrectionAnswer(BaseModel):
     """The correction, or how far it is."""
 
     share: float
+    heading: Heading
+    is_written: bool  # the open file was fitted to just these marks
     correction: CorrectionParts | None
     file: str  # that would be written
     last_sent: str  # whose numbers from before it the folder keeps; empty if there is none
@@ -116,8 +120,12 @@ def show_correction(project: TheProject, background: TheBackground) -> Correctio
     unit = unit_words(choices, inputs.measurements.typed.unit)
     add = answer.result.add if answer.result else _auto_words(choices)
     client = ["--client", *_client_words(choices)]
+    is_written = _is_written(inputs)
+    fitted = answer.result.heading if answer.result else words.FITTED
     return CorrectionAnswer(
         share=answer.share,
+        heading=words.what_is_written(choices.settings) if is_written else fitted,
+        is_written=is_written,
         correction=answer.result,
         file=file,
         last_sent=_last_sent(project),
@@ -135,16 +143,12 @@ def _last_sent(project: Project) -> str:
 
 def correction_of(inputs: Inputs, decision: Decision, choices: Choices) -> CorrectionParts:
     """Return what the marks would change, and what is accepted of it."""
-    said = words.headline(decision)
     reasons = list(map(on_page, words.said(decision)))
     # What was written stays in view: it goes to the machine, or is taken back.
-    record = inputs.settings.fitted
-    is_written = bool(record and record.is_of(each.digest for each in inputs.measurements.rounds))
-    if decision.addition is None and not (decision.state == "good" and is_written):
+    if decision.addition is None and not (decision.state == "good" and _is_written(inputs)):
         return CorrectionParts(
-            said=said,
+            heading=words.what_changes(decision, choices.settings, count=0),
             reasons=reasons,
-            nothing=STATES[decision.state].title,
             instead=words.step(decision),
             add=_auto_words(choices),
         )
@@ -154,22 +158,37 @@ def correction_of(inputs: Inputs, decision: Decision, choices: Choices) -> Corre
     again = {each.name: _number(each, choices) for each in fitted if has_setting(each.name)}
     numbers = [_number(number, choices) for number in made.numbers]
     now = [again.get(number.name, number) for number in numbers]
+    asked = [each for each in now if each.before != each.after or each.is_accepted]
+    notes = (some or whole).notes
     left = partial(fitted_state, view=BoardView(LiveBoard(decision.inputs, noise=noise)))
     return CorrectionParts(
         **readings_of(decision.inputs.measurements, whole.raw, noise.sigma),
-        said=said,
+        heading=words.what_changes(decision, choices.settings, count=len(asked)),
         reasons=reasons,
         numbers=tuple(numbers),
-        asked=tuple(each for each in now if each.before != each.after or each.is_accepted),
-        notes=tuple(Note(each.weight, on_page(each.text)) for each in (some or whole).notes),
+        asked=tuple(asked),
+        stops=_noted(notes, "stop"),
+        by_hand=_noted(notes, "by_hand"),
+        doubts=_noted(notes, "doubt", "hint"),
         intervals=words.intervals(some or whole),
         settings=choices.settings,
-        is_written=is_written,
         as_set=as_set(whole.raw, title=f"as {choices.settings} says"),
         accepted=left("with what you accepted", some.after_fit) if some else None,
         whole=left("with all of it", whole.after_fit),
         add=_add_words(made, decision.diagnosis.usual, choices),
     )
+
+
+def _is_written(inputs: Inputs) -> bool:
+    """Return whether the open settings were fitted to just these marks."""
+    record = inputs.settings.fitted
+    return bool(record and record.is_of(each.digest for each in inputs.measurements.rounds))
+
+
+def _noted(notes: Sequence[Note], *weights: str) -> tuple[str, ...]:
+    """Return the notes of these weights, in sentences."""
+    said = [on_page(note.text) for note in notes if note.weight in weights]
+    return tuple(f"{each[0].upper()}{each[1:]}." for each in said)
 
 
 @router.post("/correction")
@@ -255,7 +274,7 @@ def _number(number: Parameter, choices: Choices) -> ChangedNumber:
         name=number.name,
         **vars(change),
         possible=number.possible,
-        range_said=range_said(number.name, choices.unit),
+        met=range_met(range_said(number.name, choices.unit), possible=number.possible),
         is_accepted=number.name in choices.accepted,
     )
 

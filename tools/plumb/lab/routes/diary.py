@@ -8,6 +8,8 @@ from pydantic import BaseModel
 from plumb.diary.file import FIT, Course, Diary, DiaryFit, history_of, noted, read_diary
 from plumb.lab.routes.project import TheProject
 from plumb.text.values import Unit
+from plumb.words import Heading
+from plumb.words.recheck import what_is_noted
 
 router = APIRouter(tags=["diary"])
 MOST = 50  # other entries that are shown
@@ -23,6 +25,7 @@ class Noted(BaseModel):
 class DiaryAnswer(BaseModel):
     """Rounds and notes of the folder's diary."""
 
+    heading: Heading
     fits: tuple[DiaryFit, ...]
     courses: tuple[Course, ...]
     others: list[Noted]
@@ -38,10 +41,12 @@ def show_diary(project: TheProject) -> DiaryAnswer:
 def diary_answer(diary: Diary, unit: Unit) -> DiaryAnswer:
     """Return a diary as the page shows it."""
     fits, courses = history_of(diary, unit)
+    others = _others(diary)
     return DiaryAnswer(
+        heading=what_is_noted(any_note=bool(fits or others)),
         fits=fits,
         courses=courses,
-        others=_others(diary),
+        others=others,
         spoilt=len(diary.spoilt),
     )
 

@@ -13,6 +13,7 @@ from plumb.lab.routes.project import ProjectAnswer, TheProject, show
 from plumb.plan.case import PlannedCheck
 from plumb.text.errors import InputError
 from plumb.text.values import refuse_unknown
+from plumb.words import Heading
 from plumb.words import machine as words
 
 router = APIRouter(tags=["known"])
@@ -85,6 +86,7 @@ class HeldAnswer(BaseModel):
 
     file: str
     headline: str
+    alike: Heading | None  # None while they differ
     said: list[tuple[str, str, str]]  # each with its name, in the file and in the machine
     is_fit: bool  # the file was fitted to marks that the machine cut with what it holds
     is_written_here: bool  # the file's numbers can be written from here; a client sends others
@@ -94,10 +96,12 @@ class HeldAnswer(BaseModel):
 def show_held(project: TheProject, line: TheLine) -> HeldAnswer:
     """Compare what the machine last listed with the open settings."""
     file, is_fit = project.choices.settings, is_fit_of_machine(project, line)
+    said = [number.said for number in held_otherwise(project, line)]
     return HeldAnswer(
         file=file,
         headline=words.held_otherwise(line.subject, file, is_fit=is_fit),
-        said=[number.said for number in held_otherwise(project, line)],
+        alike=None if said else words.held_alike(file),
+        said=said,
         is_fit=is_fit,
         is_written_here=file.endswith(".toml"),
     )

@@ -35,7 +35,8 @@ from plumb.settings.machine import machine_toml
 from plumb.text.errors import InputError, on_page
 from plumb.vm.garage import RANDOM, VirtualOwner
 from plumb.vm.practice import SECRET, Secret
-from plumb.words.machine import doing
+from plumb.words import Heading
+from plumb.words import machine as words
 
 router = APIRouter(tags=["machine"])
 MACHINE = "machine.toml"
@@ -50,6 +51,7 @@ class MachineAnswer(LineState):
     name: str
     subject: str  # what it is called where a sentence begins
     doing: str  # what it does, in a few words
+    at_work: Heading  # how a screen begins while it cuts
     silent_s: int  # since the machine last reported; 0 while it does
     numbers_digest: str  # of those that it last listed; empty if it listed none
     brought: str  # our firmware, which can be written to a board; empty if there is none
@@ -75,23 +77,12 @@ class NumbersRequest(BaseModel):
     replaces: str = Field(default="", max_length=64)
 
 
-class NumberChange(BaseModel):
-    """A number of the machine that changed."""
-
-    number: int
-    name: str
-    unit: str
-    before: float
-    after: float
-    said: str
-
-
 class NumbersAnswer(BaseModel):
-    """Numbers that were written and read back; `kept` is the file with the numbers before."""
+    """Numbers that were written and read back."""
 
-    changed: list[NumberChange]
-    back: bool  # they are those from before a file was sent
-    kept: str
+    said: str
+    changed: list[tuple[str, str]]  # the name of each that is another now, and what it is
+    kept: str  # the file with the numbers before
     failure: str  # why the diary says nothing of it; empty if it does
 
 
@@ -105,7 +96,8 @@ def machine(line: TheLine) -> MachineAnswer:
         kind=kind if line.name else "none",
         name=line.name,
         subject=line.subject,
-        doing=doing(state, line.subject),
+        doing=words.doing(state, line.subject),
+        at_work=words.at_work(state),
         silent_s=int(line.silence) if line.silence >= SILENT else 0,
         numbers_digest=digest_of_numbers(state.numbers) if state.numbers else "",
         brought=_brought(),
@@ -239,17 +231,10 @@ def _written(
     changed = []
     for number, (before, after) in written.changed.items():
         name, unit = called(number)
-        changed.append(
-            NumberChange(
-                number=number,
-                name=name,
-                unit=unit,
-                before=before,
-                after=after,
-                said=f"{setting_said(number, after, unit)}, was {number_said(before)}",
-            )
-        )
-    return NumbersAnswer(changed=changed, back=back, kept=Path(kept).name, failure=failure)
+        said = f"{setting_said(number, after, unit)}, was {number_said(before)}"
+        changed.append((name or "a setting", said))
+    said = words.what_was_sent(len(changed), Path(kept).name, back=back)
+    return NumbersAnswer(said=said, changed=changed, kept=Path(kept).name, failure=failure)
 
 
 # The live line: how the machine is, all the time; and Stop and Hold, which wait for no request.

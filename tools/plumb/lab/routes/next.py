@@ -24,7 +24,7 @@ from plumb.lab.rounds import (
 from plumb.lab.routes.project import ProjectAnswer, TheProject, show
 from plumb.lab.routes.verdict import TheBackground, board_and_known
 from plumb.plan.proposal import Next, form_of, program_of, propose
-from plumb.text.answers import like
+from plumb.text.answers import Internal, in_json
 from plumb.text.errors import InputError
 from plumb.text.files import numbered
 from plumb.words.proposals import HEADS, ProposalInWords, headline, in_words, taking_words
@@ -33,17 +33,23 @@ router = APIRouter(tags=["next"])
 MOST_OTHERS = 7
 
 
-class Taking(BaseModel):
+@dataclass(frozen=True)
+class Taking:
     """Files that a proposal writes into the folder; nothing that is there is replaced."""
 
     choose: int  # its number, as plumb next --choose takes it
-    digest: str  # of what would be written
     form: str
     program: str  # empty: nothing is cut, a tape reads marks that are there
-    is_saved: bool  # it is in the folder
+    files: Internal[Mapping[str, bytes]]
+    is_saved: bool  # they are in the folder
     said: str
     act: str  # on the button
     command: str
+
+    @in_json
+    def digest(self) -> str:
+        """Of what would be written."""
+        return digest_of(b"\0".join(self.files.values()))
 
 
 class Offer(BaseModel):
@@ -91,7 +97,7 @@ def take_next(wanted: Wanted, project: TheProject, background: TheBackground) ->
         raise InputError("what to measure next is still worked out: wait a moment")
     if not 1 <= wanted.choose <= len(advice.proposals):
         raise InputError(f"there is no proposal number {wanted.choose}")
-    written = _written(project, advice, wanted.choose)
+    written = _taking(project, inputs, advice, wanted.choose)
     if written is None:
         raise InputError(f"proposal {wanted.choose} has no marks: do what it says, by hand")
     if written.digest != wanted.digest:
@@ -101,7 +107,7 @@ def take_next(wanted: Wanted, project: TheProject, background: TheBackground) ->
         project,
         lambda choices: choices.model_copy(update={"proposed": written.form}),
         files={} if written.is_saved else {**written.files, **kept},
-        read={name: project.digest(name) if written.is_saved else "" for name in written.names},
+        read={name: project.digest(name) if written.is_saved else "" for name in written.files},
     )
     return show(project)
 
@@ -149,35 +155,7 @@ def next_answer(
     )
 
 
-@dataclass(frozen=True)
-class _Written:
-    """The files of a proposal, under names that are free or hold just these."""
-
-    form: str
-    program: str
-    files: Mapping[str, bytes]
-    is_saved: bool
-
-    @property
-    def names(self) -> list[str]:
-        return list(self.files)
-
-    @property
-    def digest(self) -> str:
-        return digest_of(b"\0".join(self.files.values()))
-
-
 def _taking(project: Project, inputs: api.Inputs, advice: Next, place: int) -> Taking | None:
-    written = _written(project, advice, place)
-    if written is None:
-        return None
-    count = len(advice.proposals[place - 1].option.visits)
-    said, act = taking_words(count, written.form, written.program)
-    made_by = _command(project, inputs, advice, written, place)
-    return like(Taking, written, choose=place, said=said, act=act, command=made_by)
-
-
-def _written(project: Project, advice: Next, place: int) -> _Written | None:
     """Return what taking a proposal writes; None for a proposal without marks."""
     option = advice.proposals[place - 1].option
     if not len(option.visits):
@@ -197,17 +175,20 @@ def _written(project: Project, advice: Next, place: int) -> _Written | None:
         if there in ((None, None), (form, program)):
             break
     files = {name: form} if program is None else {name: form, cut_by: program}
-    return _Written(name, cut_by if program else "", files, is_saved=there[0] is not None)
+    cut_by = cut_by if program else ""
+    said, act = taking_words(len(option.visits), name, cut_by)
+    command = _command(project, inputs, advice, place, name, cut_by)
+    return Taking(place, name, cut_by, files, there[0] is not None, said, act, command)
 
 
 def _command(
-    project: Project, inputs: api.Inputs, advice: Next, written: _Written, place: int
+    project: Project, inputs: api.Inputs, advice: Next, place: int, form: str, program: str
 ) -> str:
     """Return the command that writes the same files."""
     choices = project.choices
-    output = ["--output", written.program] if written.program else []
+    output = ["--output", program] if program else []
     # New marks are cut with what is open now, which may be other than what those there were.
     in_force = advice.case and advice.case.settings == opened(project)
     moved_by = [] if in_force else ["--cut-next-with", choices.settings]
     words = [*board_and_known(project, inputs), "--choose", f"{place}", *moved_by]
-    return command("next", *words, "--marks", written.form, *output)
+    return command("next", *words, "--marks", form, *output)

@@ -26,7 +26,9 @@ from plumb.lab.routes.project import TheProject
 from plumb.marks.model import tape_sigma
 from plumb.plan.preview import Preview, SheetReach, as_read, preview, reach_of
 from plumb.settings.machine import MachineSettings
+from plumb.text.answers import in_json
 from plumb.text.errors import InputError
+from plumb.words import Heading
 from plumb.words.proposals import advised, chances, could_tell
 
 router = APIRouter(tags=["plan"])
@@ -80,6 +82,12 @@ class ReachAnswer(SheetReach):
     """Where on the sheet the machine is usable."""
 
     command: str
+
+    @in_json
+    def heading(self) -> Heading:
+        """How a screen begins that shows it."""
+        said = self.conclusion.partition(";")[0]
+        return Heading(f"{said.removesuffix('.')}.", self.normal)
 
 
 @router.get("/layouts")

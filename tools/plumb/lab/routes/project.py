@@ -3,7 +3,7 @@
 import os
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 from tempfile import mkstemp
 from typing import Annotated, TypeVar
@@ -11,7 +11,7 @@ from typing import Annotated, TypeVar
 from fastapi import APIRouter, Depends, Request, UploadFile
 from pydantic import BaseModel
 
-from plumb.diagnosis.readings import Doubted, OthersSay, look_over
+from plumb.diagnosis.readings import Doubted, look_over
 from plumb.fit.compare import compare
 from plumb.fit.inputs import Inputs, settings_in
 from plumb.lab.known import refuse_absurd_known, stated
@@ -25,15 +25,17 @@ from plumb.lab.project import (
     read_choices,
     save_choices,
 )
-from plumb.lab.rounds import changed_since_fit, form_of, opened
+from plumb.lab.rounds import changed_since_fit, command, form_of, opened
 from plumb.marks.read import from_edges
 from plumb.settings.machine import MachineSettings
 from plumb.text.answers import like
 from plumb.text.errors import InputError, on_page
 from plumb.text.values import Unit
-from plumb.vm.practice import Score, score, secret_in
+from plumb.vm.practice import SECRET, Score, score, secret_in
+from plumb.words import Heading
+from plumb.words import machine as words
 from plumb.words.comparison import conclusion, without_doubted
-from plumb.words.machine import size
+from plumb.words.decision import what_is_stale
 
 router = APIRouter(tags=["project"])
 # A settings' file gets a name of ours, whatever its owner calls it.
@@ -59,7 +61,8 @@ class ProjectAnswer(BaseModel):
     choices_digest: str
     machine: Machine | None
     trouble: str  # why the opened settings cannot be read; empty if they can
-    changed_since_fit: str  # a form with other readings than the opened settings were fitted to
+    heading: Heading  # of the screen on which a machine is opened
+    stale: Heading | None  # there are other readings than the opened settings were fitted to
 
 
 class ChoicesChange(BaseModel):
@@ -90,12 +93,14 @@ TheProject = Annotated[Project, Depends(of_lab("project", Project))]
 def show(project: TheProject) -> ProjectAnswer:
     """Return the project as it is on disk now."""
     choices, digest = read_choices(project)
-    machine, trouble, changed = None, "", ""
+    machine, trouble, stale = None, "", None
     if choices.settings:
         try:
             settings = settings_in(project.path(choices.settings))
             machine = machine_of(settings, choices.settings, choices.unit)
-            changed = changed_since_fit(project, choices, settings)
+            if changed := changed_since_fit(project, choices, settings):
+                before = choices.settings_before[-1] if choices.settings_before else ""
+                stale = what_is_stale(choices.settings, changed, before)
         except Exception as error:
             trouble = on_page(error)
     return ProjectAnswer(
@@ -106,7 +111,8 @@ def show(project: TheProject) -> ProjectAnswer:
         choices_digest=digest,
         machine=machine,
         trouble=trouble,
-        changed_since_fit=changed,
+        heading=words.which(is_open=machine is not None),
+        stale=stale,
     )
 
 
@@ -158,7 +164,7 @@ def laid_down(project: Project, file: UploadFile, ending: str) -> Iterator[Path]
 
 def machine_of(settings: MachineSettings, file: str, unit: Unit) -> Machine:
     """Return a machine as the page shows it."""
-    return like(Machine, settings, file=file, said=size(settings, unit))
+    return like(Machine, settings, file=file, said=words.size(settings, unit))
 
 
 # Readings that disagree, asked for after each that is typed.
@@ -168,9 +174,7 @@ class DoubtsAnswer(BaseModel):
     """All doubts about a form."""
 
     file: str
-    digest: str  # of the form as it was read
     doubts: list[Doubted]  # corrected: from the chosen edges
-    others: list[OthersSay]  # the same
     compared: str  # how far off the marks are without these; empty: none is left
 
 
@@ -182,7 +186,6 @@ def show_doubts(project: TheProject, file: str) -> DoubtsAnswer:
     choices = project.choices
     settings = opened(project)
     refuse_absurd_known(settings, choices)
-    digest = project.digest(file)
     form = form_of(project, choices, file)
     in_force = form.measurements.rounds[0].cut_with
     sheet = in_force.sheet if in_force else settings.sheet
@@ -195,16 +198,11 @@ def show_doubts(project: TheProject, file: str) -> DoubtsAnswer:
         checked=known.checked,
         unit=choices.unit,
     )
-    looked = look_over(inputs)
+    doubts = look_over(inputs)
     return DoubtsAnswer(
         file=file,
-        digest=digest,
-        doubts=[_from_edges(doubt, sheet, choices.edges) for doubt in looked.doubts],
-        compared=_compared(inputs, looked.doubts),
-        others=[
-            replace(said, place=from_edges(said.place, sheet=sheet, corner=choices.edges))
-            for said in looked.others
-        ],
+        doubts=[_from_edges(doubt, sheet, choices.edges) for doubt in doubts],
+        compared=_compared(inputs, doubts),
     )
 
 
@@ -237,7 +235,33 @@ def _from_edges(doubt: Doubted, sheet: tuple[float, float], corner: str) -> Doub
 # Practice: what the folder's virtual machine hides, and what the opened settings are worth.
 
 
+class PracticeAnswer(BaseModel):
+    """What can be revealed in this folder."""
+
+    nothing: str  # why nothing can; empty if a machine hides something
+    command: str
+
+
+@dataclass(frozen=True)
+class Revealed(Score):
+    """What was hidden, and the errors before and after in words."""
+
+    fell: tuple[str, str]
+
+
+@router.get("/practice")
+def show_practice(project: TheProject) -> PracticeAnswer:
+    """Return whether a virtual machine of this folder hides something."""
+    if project.read(SECRET) is None:
+        start = command("practice", "start", ".")
+        return PracticeAnswer(nothing=words.NOTHING_HIDDEN, command=start)
+    settings = [project.choices.settings] if project.choices.settings else []
+    return PracticeAnswer(nothing="", command=command("practice", "reveal", ".", *settings))
+
+
 @router.post("/practice/reveal")
-def reveal(project: TheProject) -> Score:
+def reveal(project: TheProject) -> Revealed:
     """Reveal the secret of the folder."""
-    return score(secret_in(project.folder), opened(project))
+    result, unit = score(secret_in(project.folder), opened(project)), project.choices.unit
+    fell = unit.bare(result.before_mm), result.after(unit.worded)
+    return Revealed(**vars(result), fell=fell)

@@ -13,15 +13,22 @@ from plumb.diary.recheck import MeasuredMark, fit_of, recheck
 from plumb.fit.inputs import Inputs
 from plumb.lab.machine_line import TheLine
 from plumb.lab.project import Choices, Project, save_choices
-from plumb.lab.proof_marks import inputs_of_promise, proof_forms, proof_round
-from plumb.lab.rounds import command, form_of, is_proof, unit_words
+from plumb.lab.rounds import (
+    command,
+    form_of,
+    inputs_of_promise,
+    is_proof,
+    proof_forms,
+    proof_round,
+    unit_words,
+)
 from plumb.lab.routes.project import ProjectAnswer, TheProject, show
 from plumb.lab.routes.rounds import RoundAnswer, round_answer
 from plumb.marks.read import from_edges
 from plumb.model.catalogue import effect_names
 from plumb.text.errors import InputError
-from plumb.words import Rows
-from plumb.words.recheck import RecheckAnswer, in_words
+from plumb.words import Heading, Link, Rows
+from plumb.words.recheck import TO_PROMISE, RecheckAnswer, in_words, what_is_proved
 
 router = APIRouter(tags=["proof"])
 
@@ -37,7 +44,8 @@ class RoundError(BaseModel):
 class ProofAnswer(BaseModel):
     """The proof marks: to be cut, to be read, or judged."""
 
-    trouble: str  # why nothing can be checked yet; empty if it can
+    heading: Heading
+    instead: Link | None  # where to go on while nothing can be checked
     round: RoundAnswer | None  # the marks; None: nothing can be checked yet
     earlier: list[tuple[float, float]]  # of the marks that were fitted, machine frame
     meant: list[tuple[float, float]]  # the proof marks from the chosen edges
@@ -53,16 +61,17 @@ class ProofAnswer(BaseModel):
 def show_proof(project: TheProject, line: TheLine) -> ProofAnswer:
     """Return the newest round of proof marks, or a plan for the first."""
     choices, inputs = project.choices, inputs_of_promise(project)
-    trouble = "" if inputs.settings.fitted else "write a correction first: it makes the promise"
-    shown = None if trouble else round_answer(proof_round(project), project, line)
+    is_promised = inputs.settings.fitted is not None
+    shown = round_answer(proof_round(project), project, line) if is_promised else None
     form = shown.form if shown else ""
     checked = _checked(project, inputs, form) if form in proof_forms(project) else None
     corner, sheet = choices.edges, inputs.settings.sheet
     return ProofAnswer(
-        trouble=trouble,
+        heading=what_is_proved(is_promised=is_promised),
+        instead=None if is_promised else TO_PROMISE,
         round=shown,
         earlier=[mark.target for mark in inputs.measurements.marks if mark.measured],
-        meant=[from_edges(mark.place, sheet=sheet, corner=corner) for mark in shown.marks]
+        meant=[from_edges(mark.target, sheet=sheet, corner=corner) for mark in shown.marks]
         if shown
         else [],
         checked=checked,

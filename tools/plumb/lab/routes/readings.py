@@ -1,6 +1,6 @@
 """Readings of the tape: each is saved into a marks.toml as it is typed."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from fastapi import APIRouter, UploadFile
@@ -26,11 +26,12 @@ from plumb.marks.form import (
     with_readings,
     with_tape_sigma,
 )
-from plumb.marks.model import Measurements, tape_sigma
+from plumb.marks.model import Distance, Measurements, tape_sigma
 from plumb.marks.read import from_edges, in_machine, read_marks
 from plumb.model.predict import known_effects
-from plumb.text.answers import like
 from plumb.text.errors import InputError
+from plumb.words import Heading
+from plumb.words import round as words
 
 router = APIRouter(tags=["readings"])
 
@@ -41,16 +42,8 @@ class AskedMark(BaseModel):
     index: int
     name: str
     target: tuple[float, float]  # machine frame
-    meant: tuple[float, float]  # the same, from the chosen edges
     read: tuple[float, float] | None  # from the chosen edges; None: yet to come
     place: tuple[float, float] | None  # the same in the machine frame
-
-
-class AskedDistance(BaseModel):
-    """A measured distance [mm] between two marks."""
-
-    between: tuple[str, str]
-    length: float
 
 
 class FormFile(BaseModel):
@@ -59,19 +52,20 @@ class FormFile(BaseModel):
     name: str
     read: int  # readings that it has
     asked: int  # readings and marks that wait
-    is_used: bool  # whether the verdict goes by it
 
 
 class ReadingsAnswer(BaseModel):
     """A form with its readings."""
 
+    heading: Heading
+    counted: str  # how much is read, in a sentence
     files: list[FormFile]
     file: str  # the form below; empty if there is none
     digest: str
     edges: Edges  # from which the readings count
     sheet: tuple[float, float]
     marks: list[AskedMark]
-    distances: list[AskedDistance]
+    distances: tuple[Distance, ...]
     spans: list[tuple[str, str]]  # names of marks between which a distance is asked, in order
     tape_sigma: float | None  # [mm] as stated in the file
     again: int  # marks that wait and are on the sheet already: they are only to be read again
@@ -105,7 +99,7 @@ class TypedReadings(FormChange):
 class TypedDistances(FormChange):
     """All distances of a form."""
 
-    distances: list[AskedDistance]
+    distances: list[Distance]
 
 
 class Fineness(FormChange):
@@ -130,15 +124,23 @@ def show_readings(project: TheProject, file: str = "") -> ReadingsAnswer:
         raise InputError(f"{name}: there is no such form of marks in the folder")
     sheet = _sheet_of(project, form)
     measurements = form.measurements if form else Measurements(())
+    spans = form.spans if form else []
     return ReadingsAnswer(
-        files=[_form_file(name, forms[name], choices) for name in _by_use(forms, choices)],
+        heading=words.what_is_read(asks_lengths=bool(spans)),
+        counted=words.how_much_is_read(
+            len(measurements.measured_marks),
+            len(measurements.marks),
+            len(spans) - _untaped(spans, measurements),
+            len(spans),
+        ),
+        files=[_form_file(name, forms[name]) for name in _by_use(forms, choices)],
         file=name,
         digest=digest,
         edges=choices.edges,
         sheet=sheet,
         marks=_marks(measurements, sheet, choices.edges),
-        distances=[like(AskedDistance, distance) for distance in measurements.distances],
-        spans=form.spans if form else [],
+        distances=measurements.distances,
+        spans=spans,
         tape_sigma=measurements.tape_sigma,
         again=_waiting(form) if form and is_read_again(project, name) else 0,
         command=_command(choices, name, measurements)
@@ -263,9 +265,14 @@ def _waiting(form: Form) -> int:
     those.
     """
     if spans := _lengths_asked(form):
-        taped = {frozenset(distance.between) for distance in form.measurements.distances}
-        return sum(frozenset(span) not in taped for span in spans)
+        return _untaped(spans, form.measurements)
     return sum(mark.measured is None for mark in form.measurements.marks)
+
+
+def _untaped(spans: Sequence[tuple[str, str]], measurements: Measurements) -> int:
+    """Return how many of these distances wait for a reading."""
+    taped = {frozenset(distance.between) for distance in measurements.distances}
+    return sum(frozenset(span) not in taped for span in spans)
 
 
 def _lengths_asked(form: Form) -> list[tuple[str, str]]:
@@ -273,7 +280,7 @@ def _lengths_asked(form: Form) -> list[tuple[str, str]]:
     return [] if form.measurements.measured_marks else form.spans
 
 
-def _form_file(name: str, form: Form, choices: Choices) -> FormFile:
+def _form_file(name: str, form: Form) -> FormFile:
     measurements = form.measurements
     read = len(measurements.measured_marks) + len(measurements.distances)
     asked = len(measurements.marks) + len(measurements.distances)
@@ -281,7 +288,6 @@ def _form_file(name: str, form: Form, choices: Choices) -> FormFile:
         name=name,
         read=read,
         asked=read + _waiting(form) if _lengths_asked(form) else asked,
-        is_used=name in choices.marks,
     )
 
 
@@ -297,7 +303,6 @@ def _marks(measurements: Measurements, sheet: tuple[float, float], corner: str) 
             index=index,
             name=mark.name,
             target=mark.target,
-            meant=_shown(mark.target, sheet, corner),
             read=mark.measured and _shown(mark.measured, sheet, corner),
             place=mark.measured,
         )

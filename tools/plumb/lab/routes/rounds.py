@@ -4,17 +4,23 @@ The marks of the chosen layout, those that the verdict proposed and two proof ma
 """
 
 from collections.abc import Callable
+from dataclasses import dataclass, replace
 from typing import Annotated, Literal
 
 from fastapi import APIRouter, Body
-from pydantic import BaseModel
 
 from plumb.job.dry_run import timetable
 from plumb.lab.broken_cut import HowFar, OnSheet, begin, how_far, plunges_in
 from plumb.lab.machine_line import MachineLine, TheLine, refuse_other_machine, refuse_unknown_place
 from plumb.lab.project import Choices, Project, save_choices, with_marks
-from plumb.lab.proof_marks import proof_round
-from plumb.lab.rounds import Origin, Round, chosen_round, is_proof, is_read_again, opened
+from plumb.lab.rounds import (
+    RoundToCut,
+    chosen_round,
+    is_proof,
+    is_read_again,
+    opened,
+    proof_round,
+)
 from plumb.lab.routes.machine import MachineAnswer, machine
 from plumb.lab.routes.project import ProjectAnswer, TheProject, show
 from plumb.line.sender import Wait, cleaned, waits_in
@@ -22,36 +28,25 @@ from plumb.marks.form import BLANK
 from plumb.settings.machine import MachineSettings
 from plumb.text.errors import InputError
 from plumb.vm.garage import VirtualOwner
+from plumb.words import Heading
 from plumb.words import round as words
 
 router = APIRouter(tags=["rounds"])
 Which = Literal["marks", "proof"]
 
 
-class RoundMark(BaseModel):
-    """A mark of a program [mm, machine frame]; cut when the machine took that many lines."""
-
-    name: str
-    place: tuple[float, float]
-    lines: int
-
-
-class RoundAnswer(HowFar):
+@dataclass(frozen=True, kw_only=True)
+class RoundAnswer(RoundToCut, HowFar):
     """A round of marks, the program that cuts it, and whether that broke off."""
 
-    origin: Origin  # other than chosen marks go onto the sheet before
-    title: str
-    say: str
+    heading: Heading
     begins: str  # how the button begins that cuts it from the first mark
-    form: str  # the file that waits for readings
-    program: str  # the file of the G-code
-    is_saved: bool  # both are in the folder as they would be written now
-    marks: list[RoundMark]  # in the order of the program
-    text: str  # the G-code
-    trouble: str  # why the sled cannot take this way; empty if it can
+    ended: str  # how the last cut ended, in a sentence or two; empty: none did
+    is_saved: bool  # its files are in the folder as they would be written now
+    files_said: str
+    lines: tuple[int, ...]  # of the program that the machine has taken when each mark is cut
     waits: int  # marks of the form that wait for a reading
     last_form: str  # the newest with readings; empty if there is none
-    command: str
     next_sheet: str  # how the next sheet lies, as the fit says
     pauses: tuple[Wait, ...]  # where the program waits for somebody
     # [min] from the start until so many lines are done; empty without a machine's numbers
@@ -66,61 +61,58 @@ def show_round(which: Which, project: TheProject, line: TheLine) -> RoundAnswer:
     return round_answer(_round(which, project), project, line)
 
 
-def _round(which: Which, project: Project, *, anew: bool = False) -> Round:
+def _round(which: Which, project: Project, *, anew: bool = False) -> RoundToCut:
     return proof_round(project, anew=anew) if which == "proof" else chosen_round(project)
 
 
-def round_answer(this: Round, project: Project, line: MachineLine) -> RoundAnswer:
+def round_answer(this: RoundToCut, project: Project, line: MachineLine) -> RoundAnswer:
     """Return a round as the page shows it."""
     choices, blank = project.choices, project.read(this.form)
     lines = _lines_of_marks(this)
     pauses = tuple(waits_in(this.text.splitlines()))
-    names = [mark.name for mark in this.marks]
-    far = how_far(project, line, this.program, this.text, names)
+    far = how_far(project, line, this.program, this.text)
     # What is to be done in a pause is asked again: nothing goes on where one is between two marks.
     is_between = any(lines[0] <= wait.lines < lines[-1] for wait in pauses)
-    far = far.model_copy(update={"goes_on": far.goes_on and not is_between})
-    title, say = words.what_is_cut(len(this.marks), this.origin)
+    far = replace(far, goes_on=far.goes_on and not is_between)
+    is_saved = this.is_in(project)
     rise = _sheet_rise(opened(project), choices)
     return RoundAnswer(
-        **{**vars(far), "broke_said": _broke_said(this, far, line)},
-        origin=this.origin,
-        title=title,
-        say=say,
+        **vars(this),
+        **vars(far),
+        heading=words.what_is_cut(len(this.marks), this.origin),
         begins=_begins(this, far, line),
-        form=this.form,
-        program=this.program,
-        is_saved=this.is_saved(project),
-        marks=[
-            RoundMark(name=mark.name, place=mark.target, lines=count)
-            for mark, count in zip(this.marks, lines, strict=True)
-        ],
-        text=this.text,
-        trouble=this.trouble,
+        ended=_ended(this, far, line),
+        is_saved=is_saved,
+        files_said=words.of_files(this.program, this.form, is_saved=is_saved),
+        lines=tuple(lines),
         waits=blank.decode(errors="replace").count(BLANK) if blank else 0,
         last_form=choices.marks[-1] if choices.marks else "",
-        command=this.command,
         next_sheet=words.next_sheet(rise, choices.unit, is_virtual=bool(line.virtual)),
         pauses=pauses,
         done_at=_done_at(line, this.text),
     )
 
 
-def _broke_said(this: Round, far: HowFar, line: MachineLine) -> str:
-    """Return how far a cut came that broke off, and what can be done; empty if it did not."""
-    if far.broke_off in (None, len(this.marks)):
-        return far.broke_said
+def _ended(this: RoundToCut, far: HowFar, line: MachineLine) -> str:
+    """Return how the last cut ended, and what can be done if it broke off; empty if none ended."""
+    ran, cut, names = line.state.program, far.broke_off, [mark.name for mark in this.marks]
+    outcome = ran.outcome if ran and ran.title == this.program else ""
+    if cut is None:
+        return words.ended(outcome, "")
+    broken = words.how_far(cut, cut + far.perhaps, names)
+    if cut == len(names):
+        return broken
     then = words.begin_or_go_on(
         this.origin,
         is_virtual=bool(line.virtual),
         is_connected=bool(line.name) and line.state.phase != "lost",
         goes_on=far.goes_on,
-        next_mark="" if far.perhaps else this.marks[far.broke_off or 0].name,
+        next_mark="" if far.perhaps else names[cut],
     )
-    return f"{far.broke_said} {then}"
+    return words.ended(outcome, f"{broken} {then}")
 
 
-def _begins(this: Round, far: HowFar, line: MachineLine) -> str:
+def _begins(this: RoundToCut, far: HowFar, line: MachineLine) -> str:
     if far.broke_off is None:
         return "Move"
     cut = far.broke_off + far.perhaps > 0
@@ -172,7 +164,7 @@ def go_on_with_round(
     return machine(line)
 
 
-def _lines_of_marks(this: Round) -> list[int]:
+def _lines_of_marks(this: RoundToCut) -> list[int]:
     """Return how many lines of the program the machine has taken when each mark is cut: with that
     which lifts the bit; 0 for each mark of a form that has another program.
     """
@@ -181,7 +173,7 @@ def _lines_of_marks(this: Round) -> list[int]:
 
 
 def _weighing(
-    this: Round, owner: VirtualOwner | None, *, on_sheet: int = 0
+    this: RoundToCut, owner: VirtualOwner | None, *, on_sheet: int = 0
 ) -> Callable[[int], None]:
     """Return what hears of pauses, and lets the sled of a virtual machine weigh what the next mark
     asks that is not on the sheet.

@@ -17,7 +17,7 @@ from plumb.lab.rounds import board_words, command, inputs_of, known_words, unit_
 from plumb.lab.routes.project import TheProject, of_lab
 from plumb.model.plain import plainly
 from plumb.text.errors import on_page
-from plumb.words import Part
+from plumb.words import Link, Part
 from plumb.words import decision as of_decision
 from plumb.words import verdict as words
 
@@ -38,7 +38,7 @@ class Verdict(Readings):
     sureness: list[tuple[str, str]]  # what tells how sure the answer is, each with its size
     unseen: list[Part]
     why: list[str]
-    step: of_decision.Step
+    step: Link
 
 
 class VerdictAnswer(BaseModel):

@@ -1,38 +1,22 @@
 // Why there is no verdict on the marks, and how to go back if readings changed after a fit.
-import type { ComponentChildren } from "preact";
+import { useChoosing } from "../../shell/kept";
 import { useProject } from "../../shell/project";
 import { Screen } from "../../shell/Screen";
-import { GoBack } from "./GoBack";
-import type { Writing } from "./useWriting";
+import { useKnown, type Writing } from "./useWriting";
 
 interface RefusedParts {
   title: string;
   refused: string;
   writing: Writing;
-  children?: ComponentChildren;
 }
 
-export function Refused({ title, refused, writing, children }: RefusedParts) {
-  const { changed_since_fit, choices } = useProject().project;
-  if (!changed_since_fit)
-    return (
-      <Screen title={title} say={refused}>
-        {children}
-      </Screen>
-    );
-  const before = choices.settings_before?.at(-1);
+export function Refused({ title, refused, writing }: RefusedParts) {
+  const { stale, choices } = useProject().project;
+  if (!stale) return <Screen title={title} say={refused} />;
   return (
-    <Screen
-      title="Your readings have changed"
-      say={`The numbers in ${choices.settings} are stale: they were fitted to ${changed_since_fit} as it was before. ${
-        before
-          ? `Go back to ${before}, and they are fitted again to what you read now. ${choices.settings} stays in the folder.`
-          : "Open the settings that were in force when the marks were cut."
-      }`}
-      why={<p>{refused}</p>}
-    >
+    <Screen {...stale} why={<p>{refused}</p>}>
       <p class="row">
-        {before ? (
+        {choices.settings_before?.length ? (
           <GoBack writing={writing} then=" and fit again" />
         ) : (
           <a class="button primary" href="#/open">
@@ -44,7 +28,31 @@ export function Refused({ title, refused, writing, children }: RefusedParts) {
         </a>
         {writing.notWritten}
       </p>
-      {children}
     </Screen>
+  );
+}
+
+/** Reopens the settings from before the latest correction; no file is lost. */
+interface GoBackParts {
+  writing: Writing;
+  /** What follows, if this is the next thing to do. */
+  then?: string;
+}
+
+export function GoBack({ writing, then }: GoBackParts) {
+  const before = useProject().project.choices.settings_before ?? [];
+  const known = useKnown();
+  const choosing = useChoosing();
+  if (before.length === 0) return null;
+  return (
+    <button
+      type="button"
+      class={then ? "primary" : ""}
+      disabled={choosing || writing.busy}
+      onClick={() => void writing.undo(known)}
+    >
+      Go back to {before.at(-1)}
+      {then}
+    </button>
   );
 }

@@ -47,17 +47,12 @@ export function ToMachine({ writing, isNext, isHeld, last }: ToMachineParts) {
       {sent && (
         <>
           <p role="status">
-            {sent.changed.length === 0
-              ? "The machine held these numbers already; each was read back."
-              : `The machine holds ${sent.changed.length} ${sent.back ? "old" : "new"} numbers; each was read back. Those before are in ${sent.kept}.`}{" "}
-            {sent.failure}
+            {sent.said} {sent.failure}
           </p>
           {sent.changed.length > 0 && (
             <p>The sled stands where it stood; its place reads otherwise with other numbers.</p>
           )}
-          <Table
-            rows={sent.changed.slice(0, SHOWN).map(({ name, said }) => [name || "a setting", said])}
-          />
+          <Table rows={sent.changed.slice(0, SHOWN)} />
           {sent.changed.length > SHOWN && <p>and {sent.changed.length - SHOWN} more.</p>}
         </>
       )}

@@ -1,26 +1,14 @@
-// The sheet while it is cut: marks that are done, marks to come, the way between them, and where the sled is; below it,
-// when each mark comes.
-import { useMemo, useState } from "preact/hooks";
-import type { Schemas } from "../../api/client";
-import { Segments } from "../../controls/Segments";
+// The sheet while it is cut: marks that are done, marks to come, and where the sled is.
+import { useMemo } from "preact/hooks";
 import { Sheet } from "../../sheet/Sheet";
 import { useScale } from "../../sheet/scale";
 import type { Pair } from "../../sheet/view";
 import { useMachine } from "../../shell/machine";
-import { useNewest } from "../../shell/newest";
 import { useProject } from "../../shell/project";
-import { Places } from "../Reach";
-import { outcomeOf, type Round } from "./round";
-import { TimeLine } from "./TimeLine";
+import { marksBefore, outcomeOf, type Round } from "./round";
 
 const DEEP = -0.2; // [mm] the bit is in the wood
 const SLED = 230; // [mm] its radius
-const VIEWS = [
-  ["plan", "Plan"],
-  ["path", "Path"],
-  ["reach", "Reach"],
-] as const;
-type View = (typeof VIEWS)[number][0];
 
 interface CutMapParts {
   round: Round;
@@ -31,43 +19,29 @@ interface CutMapParts {
 export function CutMap({ round, earlier = [] }: CutMapParts) {
   const machine = useMachine();
   const { program, place, knows_place, kind, unseen } = machine;
-  const { project } = useProject();
-  const [view, look] = useState<View>("plan");
-  const reach = useNewest<Schemas["ReachAnswer"]>(view === "reach" ? "reach" : "", round.text);
   const outcome = outcomeOf(round, machine);
   const taken = (outcome && program?.done) ?? 0;
-  const isCut = (lines: number, index: number) => taken >= lines || index < (round.broke_off ?? 0);
-  const done = round.marks.filter((mark, index) => isCut(mark.lines, index)).length;
+  const done = Math.max(marksBefore(round, taken), round.broke_off ?? 0);
   const marks = useMemo(
     () =>
-      round.marks.map((mark, index) => ({
-        name: mark.name,
-        target: mark.place,
-        look: isCut(mark.lines, index) ? ("done" as const) : ("planned" as const),
+      round.marks.map(({ name, target }, index) => ({
+        name,
+        target,
+        look: index < done ? ("done" as const) : ("planned" as const),
       })),
     [round, done],
   );
   const faint = earlier.map((target) => ({ name: "", target, look: "faint" as const }));
-  const way = marks.map(({ target }) => target);
   const next = outcome === "running" ? marks[done] : undefined;
   const sled = place && knows_place && kind !== "none" ? place : undefined;
   return (
     <>
-      <div class="row only-wide">
-        <Segments legend="What is drawn" options={VIEWS} chosen={view} choose={look} />
-        <span class="soft">
-          {view === "reach" ? reach?.conclusion : "Filled: cut. Open: to come."}
-        </span>
-      </div>
+      <p class="soft only-wide">Filled: cut. Open: to come.</p>
       <Sheet label={`${done} of ${round.marks.length} marks are cut`} marks={[...marks, ...faint]}>
-        {view === "reach" && reach && project.machine && (
-          <Places reach={reach} sheet={project.machine.sheet} />
-        )}
-        <Way places={view === "path" ? way : way.slice(0, done)} />
+        <Way places={marks.slice(0, done).map(({ target }) => target)} />
         {sled && next && <Way places={[[sled[0], sled[1]], next.target]} isNext />}
         {sled && <Sled place={sled} old={unseen > 0} next={next?.name} />}
       </Sheet>
-      <TimeLine round={round} taken={taken} />
     </>
   );
 }

@@ -7,29 +7,15 @@ import { isCut, outcomeOf, type Round, type RoundParts } from "./round";
 /** isNext: the button of the screen reads the marks. */
 export function Outcome({ round, isNext }: RoundParts) {
   const machine = useMachine();
-  const outcome = outcomeOf(round, machine);
-  if (outcome === "running") return null;
-  const ended = outcome && ENDED[outcome];
-  const broke = outcome === "done" ? "" : round.broke_said;
-  if (!ended && !broke) return null;
+  if (!round.ended || outcomeOf(round, machine) === "running") return null;
+  const isDone = isCut(round, machine);
   return (
-    <section class={`outcome box edge ${outcome ?? "lost"}`} role="status">
-      <p>
-        {ended} {broke}
-      </p>
-      {isCut(round, machine) && !(isNext && !hasTape(round, machine)) && (
-        <ToReadings round={round} />
-      )}
+    <section class={isDone ? "box edge" : "box edge warned"} role="status">
+      <p>{round.ended}</p>
+      {isDone && !(isNext && !hasTape(round, machine)) && <ToReadings round={round} />}
     </section>
   );
 }
-
-const ENDED = {
-  done: "All marks are cut.",
-  stopped: "Stopped. The machine knows where it is.",
-  refused: "The machine refused a line; read what it says below.",
-  lost: "The line was lost. Nothing that you typed is lost. Connect it again in the bar below, and set its chains.",
-};
 
 /** Reads the marks that are cut: a virtual machine has its tape. */
 export function Read({ round }: { round: Round }) {

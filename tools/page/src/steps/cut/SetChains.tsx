@@ -2,6 +2,7 @@
 import type { ComponentChild } from "preact";
 import { useState } from "preact/hooks";
 import { send } from "../../api/client";
+import { Field } from "../../controls/Field";
 import { shownLength, typedLength, useUnits } from "../../controls/lengths";
 import { useDo } from "../../shell/doing";
 import { useMachine } from "../../shell/machine";
@@ -40,16 +41,13 @@ export function useSetChains(): [form: ComponentChild, act: ComponentChild] {
         long each is then, and how high the bit is.
       </p>
       {FIELDS.map((name, i) => (
-        <label key={name}>
-          {name}, {unit}{" "}
-          <input
-            inputMode="decimal"
-            value={typed[i]}
-            onInput={({ currentTarget }) =>
-              setTyped(typed.map((text, j) => (i === j ? currentTarget.value : text)))
-            }
-          />
-        </label>
+        <Field
+          key={name}
+          label={`${name}, ${unit}`}
+          inputMode="decimal"
+          value={typed[i] ?? ""}
+          hear={(text) => setTyped(typed.with(i, text))}
+        />
       ))}
       {kept && (
         <p>

@@ -25,6 +25,6 @@ export function minutesAt({ done_at }: Round, lines: number): number {
 }
 
 /** How many marks are cut once so many lines are done. */
-export function marksBefore({ marks }: Round, lines: number): number {
-  return marks.filter((mark) => mark.lines <= lines).length;
+export function marksBefore(round: Round, lines: number): number {
+  return round.lines.filter((each) => each <= lines).length;
 }

@@ -8,12 +8,9 @@ import { isConnected, isReady, type Machine, useMachine } from "../../shell/mach
 import { useNewest } from "../../shell/newest";
 import { useProject, useTell } from "../../shell/project";
 import { useGoOn } from "./GoOn";
-import { NewSheet } from "./NewSheet";
 import { Outcome, Read, ToReadings } from "./Outcome";
-import { Pauses, Running } from "./Running";
-import { isCut, outcomeOf, type Round, type RoundParts } from "./round";
+import { isCut, marksBefore, minutesAt, outcomeOf, type Round, type RoundParts } from "./round";
 import { useSetChains } from "./SetChains";
-import "./cut.css";
 
 /** An answer with a round, as it would be written now; asked again when a file, a choice or the machine changes. */
 export function useRoundOf<Answer>(path: string): Answer | undefined {
@@ -79,25 +76,36 @@ function nextOf(round: Round, machine: Machine): Next {
   return round.goes_on ? "go on" : "cut";
 }
 
-function whileRunning({ waits_for, unseen }: Machine): { title: string; say: string } {
-  const [title, say] =
-    unseen > 0
-      ? ["Nobody sees the machine", "It may cut on. Look at it, with a hand on its power switch."]
-      : waits_for
-        ? ["The machine waits for you", `${capital(waits_for)}. Then press Go on.`]
-        : ["The machine is cutting", "Stay beside it. Hold pauses; Stop gives up."];
-  return { title, say };
+/** What the screen says while the machine is at work; the lab may be silent too. */
+function whileRunning({ at_work, unseen }: Machine) {
+  if (unseen === 0) return at_work;
+  const say = "It may cut on. Look at it, with a hand on its power switch.";
+  return { title: "Nobody sees the machine", say };
 }
 
 /** What else can be done. */
 function Choice({ round, next }: RoundParts & { next: Next }) {
   const tell = useTell();
+  const { project, choose } = useProject();
+  const isNew = project.choices.new_sheet ?? false;
   const choosing = useChoosing();
   const connected = isConnected(useMachine());
-  const { origin, last_form, is_saved, program, form } = round;
+  const { origin, last_form } = round;
   return (
     <div class="row">
-      {last_form && origin === "chosen" && <NewSheet round={round} />}
+      {last_form && origin === "chosen" && (
+        <label class="tick">
+          <input
+            type="checkbox"
+            checked={isNew}
+            onChange={({ currentTarget: { checked } }) => choose({ new_sheet: checked })}
+          />
+          <span>
+            On another sheet than {last_form}
+            {isNew && <small>{round.next_sheet}</small>}
+          </span>
+        </label>
+      )}
       {connected && next !== "cut" && <MoveAndCut round={round} />}
       {origin !== "proposed" && next !== "save" && next !== "type" && <Save round={round} />}
       {origin === "proposed" && next !== "read" && (
@@ -106,9 +114,7 @@ function Choice({ round, next }: RoundParts & { next: Next }) {
         </Do>
       )}
       <p class="soft">
-        {is_saved
-          ? `${program} and ${form} are in your folder.`
-          : `${program} is the G-code, ${form} the form for your readings.`}{" "}
+        {round.files_said}{" "}
         {!connected && (
           <>
             Or <a href="#/open">connect a machine</a> and cut from here.
@@ -138,5 +144,41 @@ function Save({ round, isNext }: RoundParts) {
     <Do isNext={isNext} disabled={blocked} work={() => tell(pathOf(round))}>
       {round.is_saved ? `Saved: ${round.program}` : `Save ${round.program}; nothing moves`}
     </Do>
+  );
+}
+
+/** How far a cut is that runs, and where it waits for you next. */
+function Running({ round, machine }: { round: Round; machine: Machine }) {
+  const { program, kind } = machine;
+  const [lines, total] = [program?.done ?? 0, program?.total ?? 1];
+  const left = Math.ceil(minutesAt(round, total) - minutesAt(round, lines));
+  const pause = round.pauses.find((each) => each.lines > lines);
+  return (
+    <>
+      <p class="soft">
+        <output class="large">{marksBefore(round, lines)}</output> of {round.marks.length} marks
+        {/* A virtual machine is as fast as it was asked to be. */}
+        {kind === "board" && left > 0 && `, ${left} min left`}
+      </p>
+      {pause && (
+        <p>
+          The next pause comes after mark {marksBefore(round, pause.lines)}: {pause.do}.
+        </p>
+      )}
+    </>
+  );
+}
+
+function Pauses({ round }: { round: Round }) {
+  if (round.pauses.length === 0) return null;
+  return (
+    <div class="pauses">
+      <p>The program waits until you press Go on:</p>
+      <ol>
+        {round.pauses.map((pause) => (
+          <li key={pause.lines}>{capital(pause.do)}.</li>
+        ))}
+      </ol>
+    </div>
   );
 }

@@ -52,11 +52,7 @@ export function KnownNumber({ number, here, wanted, look }: NumberParts) {
   return (
     <li ref={place} class={here ? "box here" : "box"} onFocusCapture={look}>
       <b>{number.title}</b>
-      <small>
-        {number.believed === null
-          ? "the settings leave it out"
-          : `the settings say ${show(number.believed)} ${name}`}
-      </small>
+      <small>{number.believed_said}</small>
       {here && <small>{number.steps}</small>}
       <span class="row">
         <input

@@ -1,5 +1,6 @@
 // The planned marks on the sheet: add marks by their place, or remove the chosen one.
 import { useState } from "preact/hooks";
+import { Field } from "../../controls/Field";
 import { typedLength, useUnits } from "../../controls/lengths";
 import { Sheet } from "../../sheet/Sheet";
 
@@ -37,16 +38,13 @@ export function MarksMap({ places, keep }: MapParts) {
         <summary>Other marks: by their place, or without one</summary>
         <form class="row" onSubmit={add}>
           {AXES.map((axis, i) => (
-            <label key={axis}>
-              {axis} from the middle, {units}{" "}
-              <input
-                inputMode={units === "mm" ? "decimal" : "text"}
-                value={typed[i]}
-                onInput={({ currentTarget: { value } }) =>
-                  setTyped(typed.map((text, j) => (i === j ? value : text)))
-                }
-              />
-            </label>
+            <Field
+              key={axis}
+              label={`${axis} from the middle, ${units}`}
+              inputMode={units === "mm" ? "decimal" : "text"}
+              value={typed[i] ?? ""}
+              hear={(text) => setTyped(typed.with(i, text))}
+            />
           ))}
           <button type="submit" disabled={x === undefined || y === undefined}>
             Add a mark

@@ -36,10 +36,7 @@ export function Judged({ answer: { rounds, is_used }, checked }: JudgedParts) {
   const most = Math.max(...rounds.map(({ off_target }) => off_target), 0.1);
   return (
     <>
-      <p
-        class={checked.state === "as_fitted" ? "judged box edge" : "judged trouble edge"}
-        role="status"
-      >
+      <p class={checked.holds ? "judged box edge" : "judged trouble edge"} role="status">
         {checked.sentence}
       </p>
       <Table
@@ -63,17 +60,6 @@ export function Judged({ answer: { rounds, is_used }, checked }: JudgedParts) {
         )}
         {!is_used && <Do work={() => tell("proof/use")}>Let the verdict go by these marks too</Do>}
       </p>
-    </>
-  );
-}
-
-/** Each proof mark against the promise, and what may have changed. */
-export function Promised({ answer: { tables } }: { answer: ProofAnswer }) {
-  return (
-    <>
-      {tables.map(({ header, rows }) => (
-        <Table key={header[0]} class="checked" names={header} rows={rows} />
-      ))}
     </>
   );
 }

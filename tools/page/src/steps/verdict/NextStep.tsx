@@ -1,11 +1,14 @@
 // The best next measurement: where on the sheet, how long, and how likely it settles the question.
+import type { Schemas } from "../../api/client";
 import { Progress } from "../../controls/Progress";
 import { Table } from "../../controls/Table";
 import type { Mark } from "../../sheet/marks";
 import { Sheet } from "../../sheet/Sheet";
+import { Do } from "../../shell/doing";
 import { useMachine } from "../../shell/machine";
-import { TakeMarks } from "./TakeMarks";
-import type { NextAnswer, VerdictParts } from "./words";
+import { useTell } from "../../shell/project";
+
+export type NextAnswer = Schemas["NextAnswer"];
 
 /** The proposal as far as it is worked out, or why there is none. */
 interface Asked {
@@ -14,7 +17,7 @@ interface Asked {
 }
 
 interface NextParts {
-  marks: VerdictParts["marks"];
+  marks: Schemas["Verdict"]["marks"];
   next: Asked;
 }
 
@@ -84,5 +87,32 @@ function Others({ offers: [, ...others], ordinary, promises }: NextAnswer) {
         ...(canTake ? [taking && <TakeMarks taking={taking} title={title} />] : []),
       ])}
     />
+  );
+}
+
+/** Adds a proposal to the folder: a form for its readings, and the program that cuts its marks. Nothing moves. */
+interface TakeParts {
+  taking: Schemas["Taking"];
+  /** What is measured, if it is not the best proposal. */
+  title?: string;
+}
+
+function TakeMarks({ taking, title }: TakeParts) {
+  const tell = useTell();
+  const { choose, digest, program, act } = taking;
+  const work = async () => {
+    await tell("next", { choose, digest });
+    location.hash = program ? "#/cut" : "#/readings";
+  };
+  if (title !== undefined)
+    return (
+      <Do label={`Take: ${title}`} work={work}>
+        Take
+      </Do>
+    );
+  return (
+    <Do isNext work={work}>
+      {act}
+    </Do>
   );
 }

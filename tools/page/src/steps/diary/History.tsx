@@ -1,8 +1,40 @@
-// How a number changed from fit to fit, with its 95 % interval.
+// The history of a machine: the error of each fit, and how each number went.
 import type { Schemas } from "../../api/client";
+import { Bar } from "../../controls/Bar";
+import { namedLength, useUnits } from "../../controls/lengths";
+import { Table } from "../../controls/Table";
+
+export function Errors({ fits }: { fits: Schemas["DiaryFit"][] }) {
+  const units = useUnits();
+  const most = Math.max(...fits.map((fit) => fit.before_mm ?? 0), 0.1);
+  const shown = (mm: number | null) => (mm === null ? "–" : namedLength(mm, units, 2));
+  return (
+    <Table
+      class="rounds"
+      names={["fit", "error before and after", "marks left out"]}
+      rows={fits.map((fit) => [
+        <>
+          {new Date(fit.at).toLocaleDateString(undefined, { dateStyle: "medium" })}
+          <br />
+          {fit.machine}, {fit.readings} readings
+          <br />
+          {fit.said}
+        </>,
+        <div key={fit.at} class="bars">
+          <Bar share={(fit.before_mm ?? 0) / most} colour="var(--before)" />
+          {shown(fit.before_mm)}
+          <Bar share={(fit.rms_mm ?? 0) / most} colour="var(--after)" />
+          {shown(fit.rms_mm)}
+        </div>,
+        shown(fit.left_out_mm),
+      ])}
+    />
+  );
+}
 
 const LINE = { stroke: "var(--act)", "vector-effect": "non-scaling-stroke" } as const;
 
+/** How a number changed from fit to fit, with its 95 % interval. */
 export function Course({ course }: { course: Schemas["Course"] }) {
   const { points } = course;
   const ends = points.flatMap(({ low, high }) => [low, high]);
