@@ -9,7 +9,7 @@
 
 namespace {
 
-std::string nameOf(int tenths) {
+std::string codeNamed(int tenths) {
   std::string name = "G" + std::to_string(tenths / 10);
   if (tenths % 10 != 0) name += "." + std::to_string(tenths % 10);
   return name;
@@ -86,8 +86,8 @@ TEST(EveryGCode, OutsideTheTableIsRefusedAndMovesNothing) {
   // Beyond G99 no tenths are in use anywhere.
   for (int tenths = 0; tenths < 9999; tenths += tenths < 1000 ? 1 : 10) {
     if (done.count(tenths) != 0) continue;
-    push(steps, Step::kSend, nameOf(tenths) + " X100 Y50");
-    push(steps, Step::kExpect, "error: this machine does no " + nameOf(tenths));
+    push(steps, Step::kSend, codeNamed(tenths) + " X100 Y50");
+    push(steps, Step::kExpect, "error: this machine does no " + codeNamed(tenths));
   }
   push(steps, Step::kAsk, "wait 0.5");
   push(steps, Step::kAsk, "sled X0 Y0 within 0.05");
@@ -106,7 +106,7 @@ TEST(EveryGCode, OfTheTableIsDone) {
     push(steps, Step::kExpect, "ok");
     push(steps, Step::kAsk, "probe " + probeFor(tenths));
     push(steps, Step::kAsk, "answers from now");
-    push(steps, Step::kSend, nameOf(tenths) + (tenths == 800 ? "" : wordsFor(tenths)));
+    push(steps, Step::kSend, codeNamed(tenths) + (tenths == 800 ? "" : wordsFor(tenths)));
     push(steps, Step::kSkipTo, "ok");
     push(steps, Step::kAsk, "answers 1");
   }
@@ -129,7 +129,7 @@ TEST(EveryModeCode, LeavesCoordinatesOnItsLineToTheCurrentMotion) {
     const std::string place = "X" + std::to_string(x);
     push(steps, Step::kSend, kTidyUp);
     push(steps, Step::kSkipTo, "ok");
-    push(steps, Step::kSend, nameOf(tenths) + " " + place);
+    push(steps, Step::kSend, codeNamed(tenths) + " " + place);
     push(steps, Step::kSkipTo, "ok");
     push(steps, Step::kSend, "G4 P0");
     push(steps, Step::kSkipTo, "ok");

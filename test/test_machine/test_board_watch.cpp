@@ -1,6 +1,7 @@
 // The watch over supply, drivers and EEPROM: what it says, when, and how often.
 #include <gtest/gtest.h>
 
+#include "board_at_rest.h"
 #include "machine/board_watch.h"
 
 using namespace machine;
@@ -8,11 +9,7 @@ using namespace machine;
 namespace {
 
 /// A board with a supply and a driver that may report an error.
-struct Board : Aux {
-  void set(Output, bool) override {}
-  void pulse(Output, uint8_t) override {}
-  void turnServo(uint8_t) override {}
-  bool probeTouches() override { return false; }
+struct Board : BoardAtRest {
   bool driverFails(Axis axis) override { return complains && axis == kRightAxis; }
   uint16_t bandGap() override { return supply == 0 ? uint16_t(0) : uint16_t(1.1 * 1024 / supply); }
 

@@ -1,6 +1,7 @@
 // Levels of spindle and laser, and what switches them off.
 #include <gtest/gtest.h>
 
+#include "board_at_rest.h"
 #include "machine/cutter.h"
 #include "settings_flash.h"
 
@@ -8,11 +9,9 @@ using namespace machine;
 
 namespace {
 
-struct Pins : Aux {
+struct Pins : BoardAtRest {
   void set(Output output, bool high) override { level[int(output)] = high ? 255 : 0; }
   void pulse(Output output, uint8_t now) override { level[int(output)] = now; }
-  void turnServo(uint8_t) override {}
-  bool probeTouches() override { return false; }
   int level[2] = {-1, -1};
 };
 

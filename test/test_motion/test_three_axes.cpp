@@ -1,8 +1,8 @@
-// Moves over three axes, alone and mixed: every set-point is on its move, and its leg has the right
-// way.
+// Moves over three axes, alone and mixed; the lifting of z; a laser's strength along them.
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <random>
 
 #include "plain.h"
@@ -180,4 +180,192 @@ TEST(ThreeAxes, AForgottenPathLeavesZWhereItStands) {
   const double x0 = toMm<double>(stood.left), z0 = toMm<double>(stood.z);
   for (const Asked& place : plain.asked)
     EXPECT_NEAR(place.z, z0 * (1 - (place.x - x0) / 8), 0.003) << place.x;
+}
+
+namespace {
+
+const int32_t kTop = 432, kGain = 66;  // [counts/tick] z at 40 mm/min, 10 mm/s^2, 100 Hz
+
+/// Ticks until z rests; speeds and their changes stay within the limits.
+int run(Lift& lift, int32_t top = kTop, int32_t gain = kGain) {
+  int ticks = 0;
+  for (; !lift.isAtRest() && ticks < 1000000; ++ticks) {
+    const int32_t before = lift.speed(), at = lift.at();
+    lift.advance();
+    EXPECT_EQ(lift.at() - at, lift.speed());
+    EXPECT_LE(std::abs(lift.speed()), top);
+    // The last step, onto the goal, may be up to two gains.
+    EXPECT_LE(std::abs(lift.speed() - before), lift.at() == lift.goal() ? 2 * gain : gain);
+  }
+  return ticks;
+}
+
+}  // namespace
+
+TEST(Lift, GoesToItsGoalAndBackInTheTimeOfATrapezoid) {
+  Lift lift;
+  for (const int32_t goal : {327680, -3000, 40, -1, 100000}) {
+    lift.goTo(goal, kTop, kGain);
+    const int32_t way = std::abs(goal - lift.at());
+    const double most = double(way) / kTop + double(kTop) / kGain + 3;
+    EXPECT_LE(run(lift), way > kTop * 10 ? most : 2 * std::sqrt(double(way) / kGain) + 4) << goal;
+    EXPECT_EQ(goal, lift.at());
+  }
+  lift.goTo(0, kTop, kGain);
+  run(lift);
+  EXPECT_EQ(0, lift.at());
+}
+
+TEST(Lift, TakesANewGoalAtAnyMoment) {
+  std::mt19937 random(5);
+  Lift lift;
+  for (int round = 0; round < 3000; ++round) {
+    lift.goTo(int32_t(random() % 20000) - 10000, kTop, kGain);
+    for (int i = int(random() % 60); i > 0 && !lift.isAtRest(); --i) {
+      const int32_t before = lift.speed();
+      lift.advance();
+      EXPECT_LE(std::abs(lift.speed()), kTop);
+      EXPECT_LE(std::abs(lift.speed() - before), 2 * kGain);
+    }
+  }
+  run(lift);
+  EXPECT_EQ(lift.goal(), lift.at());
+}
+
+TEST(Lift, StaysAtADeclaredHeight) {
+  Lift lift;
+  EXPECT_TRUE(lift.isAtRest());
+  EXPECT_EQ(0, lift.at());
+  EXPECT_EQ(0, lift.goal());
+  lift.goTo(10000, kTop, kGain);
+  for (int i = 0; i < 5; ++i) lift.advance();
+  EXPECT_GT(lift.speed(), 0);
+  lift.standAt(500);
+  EXPECT_TRUE(lift.isAtRest());
+  EXPECT_EQ(500, lift.at());
+  lift.absorb();
+  EXPECT_EQ(0, lift.at());
+  EXPECT_TRUE(lift.isAtRest());
+}
+
+TEST(Lift, DoesNotOverflowWithAHugeGain) {
+  Lift lift;
+  lift.goTo(1000000000, 2000000000, 1);
+  for (int i = 0; i < 2000; ++i) {
+    lift.advance();
+    EXPECT_GT(lift.speed(), 0);
+    EXPECT_LE(lift.speed(), 1 << 17);
+    // Braking takes at most a thousand ticks, whatever the commanded gain.
+    EXPECT_EQ(std::min((i + 1) * ((1 << 17) / 1000 + 1), 1 << 17), lift.speed()) << i;
+  }
+  EXPECT_EQ(1 << 17, lift.speed());
+}
+
+TEST(Lift, BrakesAsSoonAsItCanAndStays) {
+  std::mt19937 random(7);
+  for (int round = 0; round < 300; ++round) {
+    Lift lift;
+    lift.goTo(round % 2 ? 20000 : -20000, kTop, kGain);
+    for (unsigned i = random() % 60; i > 0; --i) lift.advance();
+    const int32_t from = lift.at(), speed = lift.speed();
+    lift.brake();
+    const int32_t first = lift.goal();
+    lift.advance();
+    lift.brake();
+    EXPECT_EQ(first, lift.goal()) << "a second hold changes nothing";
+    run(lift);
+    EXPECT_EQ(first, lift.at());
+    EXPECT_LE(std::abs(lift.at() - from), speed * double(speed) / (2 * kGain));
+    EXPECT_GE((lift.at() - from) * (speed < 0 ? -1 : 1), 0);
+  }
+}
+
+namespace {
+
+/// A plain machine whose moves along x have a beam each.
+class Engraver : public Plain {
+ public:
+  void burnTo(float x, uint8_t beam, float feed = 10) {
+    while (!mover.hasRoom()) step();
+    mover.add(line(at, {x, 0}), 0, feed, Space::kSheet, beam);
+    at = {x, 0};
+  }
+
+  bool step() {
+    const bool took = tick();
+    const double now_x = asked.back().x;
+    beams.push_back({x_, now_x, playback.beam()});
+    x_ = now_x;
+    return took;
+  }
+
+  void finish() {
+    while (step()) {
+    }
+  }
+
+  struct Lit {
+    double from, to;  // [mm]
+    uint8_t beam;
+  };
+  std::vector<Lit> beams;
+
+ private:
+  double x_ = 0;
+};
+
+}  // namespace
+
+TEST(Beam, IsOffOnMovesWithoutPower) {
+  for (const float length : {0.05f, 0.3f, 7.0f}) {
+    Engraver engraver;
+    for (int i = 1; i <= 60; ++i) engraver.burnTo(float(i) * length, i % 2 ? 0 : 200);
+    engraver.finish();
+    int lit = 0;
+    for (const Engraver::Lit& each : engraver.beams) {
+      if (each.beam == 0) continue;
+      ++lit;
+      // A tick within a rounding of an end belongs to the move in which most of it lies.
+      const int move = int((each.from + each.to) / 2 / double(length));
+      EXPECT_EQ(1, move % 2) << each.from;
+      EXPECT_GE(each.from, move * double(length) - 1e-3);
+      EXPECT_LE(each.to, (move + 1) * double(length) + 1e-3);
+    }
+    if (length > 0.1f) {
+      EXPECT_GT(lit, 30);
+    }
+    EXPECT_EQ(0, engraver.beams.back().beam);
+  }
+}
+
+TEST(Beam, IsProportionalToTheSpeedAtAnyOverride) {
+  Engraver engraver;
+  engraver.burnTo(60, 200);
+  for (int i = 0; i < 900 && engraver.step(); ++i) {
+    if (i == 100) engraver.playback.goAt(128);
+    if (i == 200) engraver.playback.goAt(256);
+    if (i == 300) engraver.playback.hold();
+    if (i == 400) engraver.playback.resume();
+  }
+  for (const Engraver::Lit& each : engraver.beams)
+    EXPECT_NEAR(200 * (each.to - each.from) / 0.1, each.beam, 1.3) << each.from;
+  EXPECT_EQ(0, engraver.beams[399].beam);
+}
+
+TEST(Beam, IsOffWhileSetPointsAreMissing) {
+  Engraver engraver;
+  engraver.burnTo(500, 255);
+  for (int i = 0; i < 100; ++i) engraver.step();
+  EXPECT_EQ(255, engraver.playback.beam());
+  for (int i = 0; i < 12; ++i) engraver.tickAlone();
+  EXPECT_EQ(0, engraver.playback.beam());
+}
+
+TEST(Beam, IsNotStrongerWhenTheFeedIsBoosted) {
+  Engraver engraver;
+  engraver.mover.boost(2, 20);
+  engraver.burnTo(60, 100, 8);
+  for (int i = 0; i < 150; ++i) engraver.step();
+  EXPECT_NEAR(16, engraver.speeds().back(), 0.1);
+  EXPECT_EQ(100, engraver.playback.beam());
 }

@@ -24,14 +24,10 @@ from plumb.bench.report import shape_error
 from plumb.cli.main import main
 from plumb.cure.add import Chosen, LiveBoard, add
 from plumb.cure.decision import decide
-from plumb.diagnosis import diagnose
-from plumb.diagnosis.diagnosis import sizes_of
-from plumb.diagnosis.evidence import KNOWN, Noise
-from plumb.diagnosis.explanation import explain, measured_board
 from plumb.fit.compare import PATCH, compare
 from plumb.fit.fit import PRIORS, priors_with
 from plumb.fit.inputs import Inputs, read_inputs
-from plumb.marks.read import Mark, Measurements, read_marks, without_marks
+from plumb.marks.read import Mark, Measurements, read_marks
 from plumb.model.catalogue import effect_names, parameter_names, parameter_words
 from plumb.model.plain import noun_of
 from plumb.settings.files import read_settings
@@ -40,14 +36,10 @@ from plumb.text.errors import InputError
 from plumb.words.decision import headline, reason, settled_by
 from plumb.words.verdict import sentence
 from published_marks import MARKS, SETTINGS
-from synthetic import BELIEVED, EFFECTS, TRUE, csv_of, grid, marks_on, read_elsewhere
+from synthetic import BELIEVED, EFFECTS, TRUE, csv_of, grid, marks_on
 
 BOARD = Measurements(marks_on(TRUE, BELIEVED, grid(5, 3), noise=0.3), source="marks.csv")
 STRETCHED = replace(BELIEVED, motor_gap=2980.0, effects={"chain_stretch": EFFECTS["chain_stretch"]})
-
-
-def warned(result, *words):
-    return any(all(word in line for word in words) for line in result.warnings)
 
 
 def test_the_new_settings_are_ours_and_hold_what_was_fitted():
@@ -60,16 +52,6 @@ def test_the_new_settings_are_ours_and_hold_what_was_fitted():
     gap = next(estimate for estimate in result.parameters if estimate.name == "motor_gap")
     assert result.settings.motor_gap == gap.value
     assert (gap.before, gap.prior_sigma, gap.unit) == (2978.4, PRIORS["motor_gap"], "mm")
-
-
-def test_a_true_effect_pays_and_is_plausible():
-    result = add(Inputs(BELIEVED, BOARD), effects=["chain_pitch", "chain_sag"])
-    assert result.pays and result.after.left_out_rms < 0.5 * result.before.left_out_rms
-    assert all(
-        parameter.plausible and parameter.low < parameter.value < parameter.high
-        for parameter in result.parameters
-    )
-    assert not warned(result, "impossible")
 
 
 def test_effects_that_the_machine_has_stay_unless_they_are_named():
@@ -143,66 +125,8 @@ def test_distances_alone_say_nothing_of_where_the_sheet_lies(run, ask, tmp_path)
     assert "fitted to these marks" in said and "turned" not in said
 
 
-SIGMA = 0.5
-PLACES = grid(5, 5)
-SIZED = ("chain_pitch.left", "chain_plane.gap_squared", "frame_flex.inward")
-
-
-def board_with(name, share):
-    """Marks of a machine on which a parameter has a share of the largest plausible size."""
-    effect, _, parameter = name.partition(".")
-    size = share * parameter_words()[name]["high"]
-    true = replace(BELIEVED, effects={effect: {parameter: size}})
-    return Measurements(marks_on(true, BELIEVED, PLACES, noise=SIGMA, seed=3), source="made up")
-
-
-def judged(measurements, effect):
-    """Of each parameter: whether it is plausible and possible by the diagnosis, and by the fit."""
-    inputs = Inputs(BELIEVED, measurements, sigma=SIGMA)
-    fitted = explain(measured_board(inputs), (effect,))
-    sizes = sizes_of(fitted, effect, Noise(SIGMA, KNOWN, "stated"))
-    estimates = {each.name: each for each in add(inputs, effects=(effect,)).parameters}
-    return {
-        size.name: (
-            (size.plausible, estimates[f"{effect}.{size.name}"].plausible),
-            (size.possible, estimates[f"{effect}.{size.name}"].possible),
-        )
-        for size in sizes
-        if size.low is not None
-    }
-
-
-def test_the_fit_and_the_diagnosis_agree_on_every_effect():
-    for number, name in enumerate(SIZED):
-        measurements = board_with(name, 1.6)
-        # Some of them: all on each board would take a minute.
-        for effect in {name.partition(".")[0], *effect_names()[number::5]} - {"sled_friction"}:
-            for by_both in judged(measurements, effect).values():
-                assert all(ours == theirs for ours, theirs in by_both), (name, effect)
-
-
-@pytest.mark.parametrize("name", SIZED)
-def test_add_and_diagnose_both_doubt_a_size_far_beyond_plausible(name):
-    effect, _, parameter = name.partition(".")
-    doubted = judged(board_with(name, 3.0), effect)
-    assert doubted[parameter] == ((False, False), (False, False))
-
-
 WIDE = plan(5, 5)
 NEGATIVE_STRETCH = Path(__file__).with_name("negative_stretch.toml")
-
-
-def test_one_hidden_effect_is_added_and_the_error_falls_to_the_noise():
-    size = size_for("chain_plane", WIDE, 3.0)
-    result = decide(Inputs(MAKER, board({"chain_plane": size}, WIDE, seed=4)))
-    assert result.chosen == ("chain_plane",) and result.done
-    addition = result.addition
-    gap_squared = addition.settings.effect("chain_plane", "gap_squared")
-    assert gap_squared == pytest.approx(1600 * size, rel=0.2)
-    assert addition.before.left_out_rms > 1.2 * addition.after.left_out_rms
-    assert (
-        addition.after.fit_rms < 0.85
-    )  # 0.5 mm in each of two coordinates, less what the fit took
 
 
 def test_two_hidden_effects_are_added_step_by_step():
@@ -214,18 +138,6 @@ def test_two_hidden_effects_are_added_step_by_step():
     for earlier, later in pairwise(steps):
         assert later.left_out_rms < earlier.left_out_rms
         assert later.corrected_rms < earlier.corrected_rms
-
-
-def test_the_new_machine_leaves_nothing_to_prove_and_a_second_round_changes_nothing():
-    sizes = {name: size_for(name, WIDE, 6.0) for name in ("chain_pitch", "chain_plane")}
-    measured = board(sizes, WIDE, seed=5)
-    first = decide(Inputs(MAKER, measured))
-    assert (
-        diagnose(Inputs(first.addition.settings, measured, cut_with=MAKER)).verdict
-        == "nothing_provable"
-    )
-    again = decide(Inputs(first.addition.settings, measured, cut_with=MAKER))
-    assert again.state == "good" and again.done and again.addition is None
 
 
 def test_a_choice_between_effects_is_named_with_a_measurement_that_settles_it():
@@ -265,32 +177,12 @@ def test_adding_ends_with_a_reason_on_any_board(seed):
                 assert words["low"] < 0 or size > -0.02 * abs(words["typical"])
 
 
-def test_nothing_is_fitted_to_a_slip_until_it_is_left_out():
-    clean = board({}, WIDE, seed=7)
-    slipped = read_elsewhere(clean, 11, (0.0, 7.0))
-    result = decide(Inputs(MAKER, slipped))
-    assert result.addition is None and not result.done
-    assert clean.marks[11].name in reason(result) and "--without" in reason(result)
-    assert set(result.slips) == {clean.marks[11].name}
-    again = decide(Inputs(MAKER, without_marks(slipped, [clean.marks[11].name])))
-    assert again.done and len(again.addition.after_fit.errors) == 24
-
-
 def test_a_known_effect_is_not_left_out_because_another_is_unknown():
     size = size_for("chain_plane", WIDE, 6.0)
     result = decide(Inputs(MAKER, board({"chain_plane": size}, WIDE, seed=12, bump=2.0)))
     assert result.diagnosis.verdict == "not_in_library" and result.done
     assert "chain_plane" in result.chosen
     assert result.addition.after.left_out_rms < 0.7 * result.addition.before.left_out_rms
-
-
-def test_a_tape_that_reads_long_is_fitted_and_its_remedy_named():
-    measured = board({"tape_scale": 8.0}, WIDE, seed=9, noise=0.2, tape_sigma=0.2)
-    result = decide(Inputs(MAKER, measured))
-    assert "tape_scale" in {*result.chosen, *(name for rival in result.rivals for name in rival)}
-    if "tape_scale" in result.chosen:
-        assert "tape_scale" not in result.addition.settings.effects
-        assert any("no firmware can cure" in cure for cure in result.addition.cures)
 
 
 def test_published_marks_that_no_machine_explains_ask_for_no_size_that_none_has():

@@ -107,11 +107,21 @@ def board_of(**options):
     return Board.of(BELIEVED, rows_of(**options), sigma=0.5)
 
 
+BENT = replace(BELIEVED, effects={"chain_plane": {"gap_squared": 60000.0}})  # beyond belief
+
+
 @pytest.mark.parametrize(
-    "effects", [(), ("chain_pitch",), ("chain_sag", "chain_stretch"), ("tape_scale",)]
+    ("effects", "true", "believable"),
+    [
+        ((), TRUE, True),
+        (("chain_pitch",), TRUE, True),
+        (("chain_sag", "chain_stretch"), TRUE, True),
+        (("tape_scale",), TRUE, True),
+        (("chain_plane",), BENT, False),
+    ],
 )
-def test_an_explanation_is_the_fit_of_plumb_add(effects):
-    rows = rows_of()
+def test_an_explanation_is_the_fit_of_plumb_add(effects, true, believable):
+    rows = rows_of(true=true)
     ours = explain(Board.of(BELIEVED, rows, sigma=0.5), effects)
     theirs = fit(BELIEVED, rows, effects=effects, sigma=0.5)
     assert ours.settled and ours.rms == pytest.approx(theirs.rms, abs=1e-4)
@@ -122,8 +132,12 @@ def test_an_explanation_is_the_fit_of_plumb_add(effects):
         assert size.value == pytest.approx(estimate.value, abs=1e-3 * width)
         assert size.high == pytest.approx(estimate.high, abs=1e-3 * width)
         # An interval ends where no machine can be, unless the size lies beyond.
-        least = 0.0 if min(plausible_range(estimate.name).low, size.value) >= 0 else -np.inf
+        real = plausible_range(estimate.name)
+        least = 0.0 if min(real.low, size.value) >= 0 else -np.inf
         assert size.low == pytest.approx(max(estimate.low, least), abs=1e-3 * width)
+        assert size.plausible == real.holds(estimate.value)
+        assert size.possible == real.is_near(estimate.low, estimate.high)
+    assert believable == all(size.possible for size in sizes)
 
 
 def test_the_frame_swallows_what_it_can():

@@ -13,13 +13,11 @@ from plumb.diagnosis.evidence import (
     ONE_IN,
     SURPRISING,
     Clean,
-    Metric,
     Noise,
     Noises,
     accounts_of,
     asked_for,
     clean_of,
-    fitted,
     left_by_noise,
     misfit_chance,
     noise_by,
@@ -33,10 +31,8 @@ from plumb.fit.observations import observe
 from plumb.marks.read import Measurements
 from plumb.model.catalogue import EVERY_MACHINE
 from plumb.text.values import MM
-from scipy import integrate, special, stats
+from scipy import integrate, stats
 from synthetic import BELIEVED, TRUE, grid, marks_on
-
-SIGMAS = np.array([0.3, 0.5, 1.1])
 
 
 def constant(board):
@@ -51,34 +47,6 @@ def variant(accounts, *names):
             if accounts.effects[number] == names:
                 return part, a
     raise AssertionError(names)
-
-
-@pytest.mark.parametrize("pull", [2.0, 0.3, -0.3, -1.0, -3.0, -8.0])
-def test_what_cannot_be_negative_counts_over_its_possible_sizes_alone(pull):
-    board = made_up(seed=2, least=(-np.inf, 0.0, -np.inf, -np.inf))
-    board = replace(board, read=pull * board.effects[:, [1]])
-    accounts = accounts_of(board)
-    part, first = variant(accounts, "chain_plane")
-    fit = fitted(part, Metric.of(board, SIGMAS[1:2]))
-    place = list(part.index[first]).index(1)
-    for a in (first, first + 1):  # of typical and of large sizes
-        without = replace(part, variance=part.variance * (np.arange(part.index.shape[1]) != place))
-        covariance = in_full(board, without, a, covariance_of(board, SIGMAS[1]))
-        wanted = log_density_of_half_normal(board, covariance, np.sqrt(part.variance[a, place]))
-        ours = fit.evidence[0, a] - part.log_prior[a] - constant(board)
-        assert ours == pytest.approx(wanted, abs=1e-4)
-
-
-def log_density_of_half_normal(board, covariance, spread):
-    """Of the readings, over all sizes of the second effect that are not negative."""
-    density = stats.multivariate_normal(cov=covariance)
-
-    def log_at(size):
-        return density.logpdf(board.read[:, 0] - size * board.effects[:, 1])
-
-    sizes = np.linspace(0.0, 8 * spread, 200001)[:, np.newaxis]
-    logs = log_at(sizes) + stats.halfnorm.logpdf(sizes[:, 0], scale=spread)
-    return special.logsumexp(logs, b=np.r_[0.5, np.ones(len(logs) - 1)]) + np.log(sizes[1, 0])
 
 
 def test_accounts_are_all_sets_of_a_few_effects_with_small_and_large_sizes():

@@ -71,27 +71,6 @@ def test_positive_tolerance_means_a_longer_chain():
     assert board.effect(*sag) == pytest.approx(lab.effect(*sag), rel=0.02)
 
 
-def test_elasticity_and_sled_weight_of_webcontrol_are_ours():
-    machine = machine_of({45: 5.1685e-06, 46: 113.68}, sheet=SHEET)
-    assert machine.effect("chain_stretch", "compliance") == pytest.approx(5.1685e-06)
-    assert machine.sled_weight == pytest.approx(113.68)
-
-
-@pytest.mark.parametrize(
-    ("numbers", "said"),
-    [
-        ({38: 1.5}, r"\$38 must be from 1 to 2, a whole number"),
-        ({43: 0.3}, r"\$43 is set by B codes only"),
-        ({14: 1}, r"\$14 is no setting"),
-        ({300: 1}, r"\$300 is no setting"),
-        ({180: 0.5}, r"\$180 must be from -0.008 to 0.013"),
-    ],
-)
-def test_refusals_of_the_firmware_keep_its_words(numbers, said):
-    with pytest.raises(ValueError, match=said):
-        machine_of(numbers, sheet=SHEET)
-
-
 @pytest.mark.parametrize(
     ("numbers", "twice"),
     [

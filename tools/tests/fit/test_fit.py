@@ -15,7 +15,6 @@ from plumb.fit.fit import PRIORS, Checked, Linearized, Problem, fit, solve
 from plumb.fit.inputs import Inputs
 from plumb.fit.observations import SHEET_ROTATION, model_and_observations, observe, sighted
 from plumb.marks.read import Measurements, Round, join_measurements
-from plumb.model.catalogue import LAB_EFFECTS
 from plumb.model.predict import FOUND, known_effects, values_of
 from plumb.settings.files import read_settings
 from plumb.settings.machine import write_machine_toml
@@ -428,15 +427,6 @@ def test_no_settings_ever_hold_a_lab_effect(tmp_path):
     path = tmp_path / "machine.toml"
     write_machine_toml(path, result.settings)
     assert read_settings(path, known=known_effects()) == result.settings
-
-
-@pytest.mark.parametrize("effect", LAB_EFFECTS, ids=lambda effect: effect.name)
-def test_settings_with_a_lab_effect_are_refused(effect, tmp_path):
-    path = tmp_path / "machine.toml"
-    sizes = {effect.name: {effect.parameter.partition(".")[2]: 0.001}}
-    write_machine_toml(path, replace(BELIEVED, effects=sizes))
-    with pytest.raises(InputError, match=effect.name):
-        read_settings(path, known=known_effects())
 
 
 def test_one_side_only_hides_friction_behind_sag_and_two_sides_show_it():

@@ -6,7 +6,6 @@ from pathlib import Path
 import numpy as np
 import pytest
 from chain_views import chain_view
-from plumb.diagnosis import diagnose
 from plumb.fit.compare import (
     COLUMNS,
     MARGIN,
@@ -27,7 +26,7 @@ from plumb.marks.form import marks_toml
 from plumb.marks.read import Distance, Mark, Measurements, Round, join_measurements, read_marks
 from plumb.model.catalogue import parameter_words
 from plumb.model.predict import FOUND, NAMES, lengths, places, values_of
-from plumb.settings.files import changed_ini, groundcontrol_changes, read_settings
+from plumb.settings.files import read_settings
 from plumb.settings.machine import PublishedSettings, machine_toml
 from plumb.text.errors import InputError
 from published_marks import MARKS, SETTINGS
@@ -234,15 +233,6 @@ def test_beside_marks_distances_have_their_own_rms():
     assert comparison.distance_rms == compare(Inputs(BELIEVED, distances_between(marks))).rms
 
 
-def test_new_published_settings_are_compared_with_old_marks(tmp_path):
-    path = tmp_path / "groundcontrol.ini"
-    values = groundcontrol_changes(replace(BELIEVED, motor_gap=2985.0)).values
-    path.write_bytes(changed_ini(SETTINGS, values))
-    comparison = compare(Inputs(read_settings(path), PUBLISHED_MARKS, cut_with=STOCK))
-    alone = compare(Inputs(STOCK, PUBLISHED_MARKS))
-    assert comparison.rms < alone.rms - 2
-
-
 def test_our_settings_with_marks_of_another_controller_are_warned_of():
     stock = replace(PUBLISHED_MARKS, controller="stock")
     assert "--cut-with" in compare(Inputs(BELIEVED, stock)).warnings[0]
@@ -415,17 +405,6 @@ def test_another_sheet_has_its_own_place():
     assert values["sheet2.x"] == pytest.approx(4.0, abs=0.1)
     assert values["sheet2.y"] == pytest.approx(-7.0, abs=0.1)
     assert values["sheet2.rotation"] == pytest.approx(0.003, abs=1e-4)
-
-
-def test_a_round_of_its_own_zeros_does_not_hide_the_effect():
-    pitch = replace(BELIEVED, effects={"chain_pitch": {"left": 0.002, "right": 0.0005}})
-    later = marks_on(zeroed(pitch, 6.35, 0.0), BELIEVED, grid(5, 3), noise=0.3, seed=7)
-    first = board(marks_on(pitch, BELIEVED, grid(5, 3), noise=0.3, seed=6), source="a.toml")
-    both = join_measurements([first, board(later, source="b.toml", chains_rezeroed=True)])
-    diagnosis = diagnose(Inputs(BELIEVED, both, sigma=0.3))
-    assert "chain_pitch" in diagnosis.suspects
-    assert diagnosis.verdict in ("one_suspect", "cannot_tell")
-    assert diagnosis.explanations[0].rms_after < 0.6
 
 
 def test_add_explains_the_numbers_of_a_round(run, file):

@@ -26,10 +26,8 @@ from plumb.job.resume import JobMachine, cycles_after, resume_at_line, resume_at
 from plumb.job.wood import Tools
 from plumb.settings.machine import machine_toml, write_machine_toml
 from plumb.text.errors import InputError
-from plumb.vm.garage import hide, random_garage
 from scipy.spatial import cKDTree
 from scipy.spatial.transform import Rotation
-from usual_machine import switched_on
 from workshop import NAMES, PROGRAMS, Workshop, lines_of, run_dry
 
 APART = 0.35  # [mm] between the cut and the way of the dry run; steps of 0.1 mm and following error
@@ -589,7 +587,6 @@ def test_a_fixed_program_cuts_the_same_wood(name, habit):
         assert after.removed == pytest.approx(piece_of(lines).removed)
 
 
-WEAK = 2  # the seed of a machine whose gears hold little
 LOW, HIGH = 200, 500  # [mm] y of rests that hold, and that may not
 
 
@@ -615,35 +612,6 @@ def test_a_caution_is_not_an_error(tmp_path, capsys):
     assert "Nothing is wrong with job.nc, but look at line 4." in said
     assert "line 4: the program ends at X5.00 Y500.00, where the sled may sink" in said
     assert "a chain pulls with 137 N, and some gears hold no more than 104 N" in said
-
-
-def test_a_machine_with_weak_gears_slides_only_where_the_check_says_so():
-    garage = random_garage(hide([], millimetres=3, seed=WEAK), WEAK, feed="top")
-    machine = garage.machine(elf=None)
-    said: list[str] = []
-    sender = switched_on(machine, garage.settings, said=said.append)
-    slid = {}
-    for y in (LOW, 300):
-        sender.stream([f"G0 X0 Y{y}", "G4 P0"])
-        machine.advance(500)
-        sender.listen()
-        machine.advance(6000)
-        sender.listen()
-        # The machine watches motors that it let go, and holds the sled again.
-        slid[y] = any(line.startswith("The sled slid with its motors off") for line in said)
-        assert sender.status.place[1] == pytest.approx(y, abs=1.5)
-        assert slid[y] == bool(rests(["G0 Z5", f"G0 X0 Y{y}"], garage.settings))
-    # In a pause the motors keep their power.
-    machine.send(b"G0 X0 Y300\nM0\n")
-    machine.advance(5000)
-    sender.listen()
-    before = sender.status.place[1]
-    machine.advance(20_000)
-    sender.listen()
-    assert sender.status.state == "Pause" and before == pytest.approx(300, abs=0.1)
-    assert sender.status.place[1] == pytest.approx(before, abs=0.1)
-    machine.stop()
-    assert slid == {LOW: False, 300: True}
 
 
 POCKET_LINES = lines_of("fusion_pocket.nc")

@@ -27,21 +27,6 @@ def test_entries_are_those_that_configparser_finds():
     assert entries == expected
 
 
-@pytest.mark.parametrize(
-    ("text", "hint"),
-    [
-        ("[a]\nb = 1\nB = 2\n", "line 3, .a. B: the same key is already on line 2"),
-        ("[a]\nb = 1\n[A]\nb = 2\n", "already on line 2"),
-        ("b = 1\n", "before the first .section."),
-        ("[a]\nnonsense\n", "line 2: is not key = value"),
-        ("[a]\n= 5\n", "line 2: is not key = value"),
-    ],
-)
-def test_broken_lines_are_refused(text, hint):
-    with pytest.raises(InputError, match=hint):
-        parse_ini(text, source="x.ini")
-
-
 def test_a_key_in_two_other_sections_is_refused():
     ini = parse_ini("[a]\nk = 1\n[b]\nk = 2\n", source="x.ini")
     with pytest.raises(InputError, match="appears in"):

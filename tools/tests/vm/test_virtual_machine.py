@@ -7,11 +7,9 @@ import numpy as np
 import pytest
 from plumb import _judge, _vm
 from plumb.bench.boards import MAKER, Hidden
-from plumb.line.memory import read_numbers, write_numbers
-from plumb.line.sender import Sender
 from plumb.model.predict import judged
 from plumb.vm import garage as garage_room
-from plumb.vm.garage import Garage, InProcessPort, VirtualMachine
+from plumb.vm.garage import Garage, VirtualMachine
 from scipy.spatial import cKDTree
 from usual_machine import declaration, switched_on, usual_machine
 
@@ -92,20 +90,6 @@ def test_friction_leaves_the_sled_behind_on_the_side_it_came_from():
     free = started()
     said_by(free, "G0 X100", 30_000)
     assert places[0] < free.sled[0] < places[1]
-
-
-def test_numbers_that_are_said_to_be_held_outlive_a_reset():
-    """Whoever opens the line next resets the board, and a new board stores for three seconds."""
-    machine = _vm.VirtualMachine(NUMBERS)
-    machine.start()
-    sender = Sender(InProcessPort(machine))
-    sender.await_start()
-    write_numbers(sender, ["$62=101"])
-    machine.stop()
-    machine.start()
-    again = Sender(InProcessPort(machine))
-    again.await_start()
-    assert read_numbers(again)[62] == 101
 
 
 def test_a_sled_of_twenty_kilograms_travels_without_an_alarm():
