@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Write the G-code for a grid of calibration marks on the usual machine: an 8 x 4 ft sheet.
 
-It needs Python 3.9 and nothing else, only the folders plumb/grid and plumb/text next to this file.
+It needs Python 3.9, plumb/grid.py and the folder plumb/text next to this file, and nothing else.
 `plumb grid` does the same for the settings of a machine, and writes a form for the readings too.
 """
 

@@ -100,8 +100,8 @@ def imports(path: Path) -> Iterator[tuple[int, str]]:
 def in_package(path: Path, name: Path) -> Iterator[tuple[int, str]]:
     """Line number and reason for each import that a file of the package may not make."""
     floor_of = {room: floor for floor, rooms in enumerate(FLOORS) for room in rooms}
-    room = name.relative_to(PACKAGE).parts[0]
-    if room not in (*floor_of, "__init__.py"):
+    room = name.relative_to(PACKAGE).parts[0].removesuffix(".py")
+    if room not in (*floor_of, "__init__"):
         yield 1, f"{room} is on no floor: add it to FLOORS in tools/checks/arrows.py"
     for line, module in imports(path):
         top, _, rest = module.partition(".")

@@ -11,15 +11,19 @@ from plumb.cli.screen import in_text, next_step, print_json
 from plumb.fit.fit import USUAL_SIGMA
 from plumb.fit.inputs import settings_in
 from plumb.grid import (
+    APPROACH,
+    NUMBERS,
     PRESETS,
+    UNITS,
     Grid,
     GridError,
     PlainMachine,
+    demand,
     marks_list,
+    pairs,
     program,
     touches_of,
 )
-from plumb.grid.options import APPROACH, NUMBERS, UNITS, demand, pairs
 from plumb.model.reach import plain_machine, refuse_way, with_soft_chains
 from plumb.plan.preview import Preview, as_read, preview
 from plumb.settings.files import cut_with_lines, with_form

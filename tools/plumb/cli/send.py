@@ -1,4 +1,4 @@
-"""`plumb send`: streams a program to the machine, or writes its numbers."""
+"""The progress of a program that is being sent: its line, its share, and the time left."""
 
 import argparse
 import signal
@@ -8,16 +8,16 @@ from contextlib import nullcontext, redirect_stdout
 from dataclasses import dataclass, field
 from pathlib import Path
 from threading import Event
+from time import monotonic
 from typing import Annotated
 
 from plumb.cli.arguments import add_shared
-from plumb.cli.followed import NOWHERE, Followed, time_left
 from plumb.cli.output import say_failure
-from plumb.cli.screen import Prompt, free_name, next_step, print_json, sentences
+from plumb.cli.screen import Bar, Prompt, bar, free_name, next_step, print_json, sentences
 from plumb.diary.file import PROGRAM, keep, program_entry, write_and_keep
 from plumb.firmware.settings import refuse_other_numbers, refuse_other_origin
 from plumb.firmware.telemetry import telemetry_in, warnings
-from plumb.job.dry_run import program_in, refuse_other_files
+from plumb.job.dry_run import TimeLeft, program_in, refuse_other_files, timetable
 from plumb.line.memory import WrittenNumbers, kept_before, lines_for, read_numbers
 from plumb.line.port import LostError, SerialPort, port_for
 from plumb.line.sender import (
@@ -25,9 +25,11 @@ from plumb.line.sender import (
     SAID_PAUSED,
     RefusedError,
     Sender,
+    Status,
     StoppedError,
     SureLines,
     cleaned,
+    plain,
     waits_in,
 )
 from plumb.marks.form import read_form
@@ -37,6 +39,69 @@ from plumb.settings.machine import MachineSettings
 from plumb.text.answers import meant
 from plumb.text.errors import InputError
 from plumb.text.files import ReadOnce, read_text
+from plumb.text.values import time_text
+
+NOWHERE = Status("", (0.0, 0.0, 0.0))
+RENEWED = 0.5  # [s] between two looks in a terminal
+SAID = 60.0  # [s] between two lines elsewhere
+
+
+class Followed:
+    """Says how far a program is: line, percent and the time that is left.
+
+    In a terminal that is a line that renews itself; elsewhere a line now and then.
+    """
+
+    def __init__(self, text: Sequence[str], left: TimeLeft | None) -> None:
+        """`left` is None for a single line, and where no dry run says how long it takes."""
+        self._left = left
+        self._numbers = [number for number, line in enumerate(text, start=1) if plain(line)]
+        self._total = len(text)
+        self._line = 0
+        self._bar = Bar("sending", patience=0.5)
+        self._shown_at = self._said_at = monotonic()
+
+    def answered(self, done: int) -> None:
+        """Note that the machine took this many lines."""
+        self._line = self._numbers[done - 1]
+
+    def look(self, *, pauses: bool) -> None:
+        """Note the time, and show how far the program is; called again and again."""
+        now = monotonic()
+        if self._left is None:
+            return
+        self._left.note(now, self._line, pauses=pauses)
+        if pauses or not self._line:
+            return
+        if now - self._shown_at >= RENEWED:
+            self._shown_at = now
+            self._bar.show(self._left.share, self._words())
+        if now - self._said_at >= SAID and not sys.stderr.isatty():
+            self._said_at = now
+            print(f"{self._words()}, {100 * self._left.share:.0f} % done", file=sys.stderr)
+
+    def _words(self) -> str:
+        left = time_text(self._left.seconds) if self._left else ""
+        return f"line {self._line} of {self._total}, {left} left"
+
+    def clear(self) -> None:
+        """Leave nothing behind."""
+        self._bar.clear()
+
+
+def time_left(sender: Sender, numbers: dict[int, float], text: Sequence[str]) -> TimeLeft | None:
+    """Return what is left of a program, by a dry run with the machine's numbers; None for a single
+    line, and where there is no dry run.
+    """
+    if sum(1 for _ in cleaned(text)) < 2:
+        return None
+    place = (sender.status or NOWHERE).place
+    times = timetable(numbers, text, place, progress=bar("working out how long it takes"))
+    return TimeLeft(times, ahead=sender.ahead) if times else None
+
+
+# `plumb send`: streams a program to the machine, or writes its numbers.
+
 
 SETTINGS = (
     "machine.toml",

@@ -14,7 +14,7 @@ from typing import Annotated
 import numpy as np
 from pydantic import BeforeValidator
 
-from plumb.grid.options import APPROACH, PLUNGE_FEED, Grid
+from plumb.grid import APPROACH, PLUNGE_FEED, Grid
 from plumb.model.predict import FOUND, Array, believed_lengths, places
 from plumb.settings.machine import MachineSettings
 from plumb.text.answers import in_json, key

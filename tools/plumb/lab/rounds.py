@@ -14,8 +14,7 @@ import numpy as np
 from plumb import api
 from plumb.fit.fit import PRIORS, Checked
 from plumb.fit.inputs import Inputs, settings_in
-from plumb.grid import PRESETS, Grid, PlainMachine, marks_list, program, touches_of
-from plumb.grid.pattern import Touch
+from plumb.grid import PRESETS, Grid, PlainMachine, Touch, marks_list, program, touches_of
 from plumb.lab.known import refuse_absurd_known, stated
 from plumb.lab.project import FILE, Choices, Layout, Project, read_choices
 from plumb.marks.form import Form, read_form

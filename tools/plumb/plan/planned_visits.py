@@ -11,8 +11,7 @@ from typing import Annotated
 import numpy as np
 
 from plumb.fit.observations import Observations, loaded
-from plumb.grid.options import APPROACH, PLUNGE_FEED, Grid
-from plumb.grid.pattern import WAY_STEP
+from plumb.grid import APPROACH, PLUNGE_FEED, WAY_STEP, Grid
 from plumb.marks.model import Mark, Point
 from plumb.model.plain import greatest
 from plumb.model.predict import USABLE, believed_lengths, reach, settings_of, values_of

@@ -15,8 +15,7 @@ from plumb.diagnosis.priors import chance_of, largest_met
 from plumb.fit.compare import Expected, expected_anywhere, expected_priors, expected_sentence
 from plumb.fit.fit import PRIORS
 from plumb.fit.observations import different_numbers, model_and_observations
-from plumb.grid.options import APPROACH
-from plumb.grid.pattern import Touch
+from plumb.grid import APPROACH, Touch
 from plumb.marks.read import Mark, Measurements
 from plumb.model.catalogue import effect_names, parameter_words
 from plumb.model.plain import noun_of, ranked

@@ -10,7 +10,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 from example_machine import EXAMPLE, INI, MARKS, TOML
-from plumb.cli import followed, screen
+from plumb.cli import screen
+from plumb.cli import send as sending
 from plumb.cli.arguments import length, place
 from plumb.cli.recover import touch
 from plumb.cli.screen import Bar, table
@@ -220,13 +221,13 @@ WHOLE = 2.0 * len(TEXT)
 @pytest.fixture
 def clock(monkeypatch):
     now = [1000.0]
-    monkeypatch.setattr(followed, "monotonic", lambda: now[0])
+    monkeypatch.setattr(sending, "monotonic", lambda: now[0])
     return now
 
 
 def follow(clock, *, seconds, step=0.25, pauses=False):
     """A job whose lines take 2 s each, followed for a while."""
-    job = followed.Followed(TEXT, TimeLeft(Timetable(np.arange(len(TEXT) + 1) * 2.0), ahead=1.0))
+    job = sending.Followed(TEXT, TimeLeft(Timetable(np.arange(len(TEXT) + 1) * 2.0), ahead=1.0))
     every = int(2 / step)
     for tick in range(int(seconds / step)):
         clock[0] += step
@@ -238,7 +239,7 @@ def follow(clock, *, seconds, step=0.25, pauses=False):
 
 def test_without_a_terminal_a_line_is_printed_each_minute(clock, monkeypatch):
     screen = Terminal(watched=False)
-    monkeypatch.setattr(followed.sys, "stderr", screen)
+    monkeypatch.setattr(sending.sys, "stderr", screen)
     follow(clock, seconds=185)
     lines = screen.said.splitlines()
     assert len(lines) == 3
@@ -247,8 +248,8 @@ def test_without_a_terminal_a_line_is_printed_each_minute(clock, monkeypatch):
 
 def test_a_terminal_has_a_line_that_fits(clock, monkeypatch):
     shown = []
-    monkeypatch.setattr(followed.sys, "stderr", Terminal(watched=True))
-    monkeypatch.setattr(followed.Bar, "show", lambda self, share, what: shown.append((share, what)))
+    monkeypatch.setattr(sending.sys, "stderr", Terminal(watched=True))
+    monkeypatch.setattr(sending.Bar, "show", lambda self, share, what: shown.append((share, what)))
     follow(clock, seconds=4000, step=0.5)
     assert len(shown) > 7000
     shares = [share for share, _ in shown]

@@ -126,7 +126,7 @@ def test_the_program_starts_by_raising_the_bit_and_ends_raised_where_the_sled_hi
 
 def test_the_sled_rests_near_the_middle_and_never_on_a_mark_though_marks_are_dense():
     def rest(*places):
-        return grids.pattern.rest_after([grids.pattern.Touch("", *place, 0) for place in places])
+        return grids.rest_after([grids.Touch("", *place, 0) for place in places])
 
     assert rest((900, 400), (-900, -400)) == (0, 0)
     assert rest((0, 0), (-900, -400)) == (-250, -100)

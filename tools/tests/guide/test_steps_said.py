@@ -4,18 +4,19 @@ from types import SimpleNamespace
 
 import pytest
 from plumb.fit.compare import expected_anywhere, expected_priors, expected_sentence
-from plumb.guide import steps
-from plumb.guide.steps import (
+from plumb.guide import (
+    GuideProgress,
     GuideVisit,
     _judge_mark,
     check_wires,
     first_mark,
     keep_other,
+    progress_in,
     set_chains,
     show_reach,
+    steps,
     tell_numbers,
 )
-from plumb.guide.talk import GuideProgress, progress_in
 from plumb.settings.machine import machine_toml
 from plumb.text.errors import InputError
 from plumb.text.values import MM

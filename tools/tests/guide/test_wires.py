@@ -2,8 +2,7 @@
 
 import pytest
 from plumb.bench.boards import Hidden
-from plumb.guide.steps import GuideVisit, check_wires
-from plumb.guide.talk import GuideProgress, chain_jog, ran_away, remedy
+from plumb.guide import GuideProgress, GuideVisit, chain_jog, check_wires, ran_away, remedy
 from plumb.line.memory import read_numbers
 from plumb.line.sender import Sender
 from plumb.text.values import MM

@@ -8,8 +8,7 @@ from first_day import OWNER
 from folder import PATIENCE, asked, awaited, got, until
 from playwright.sync_api import expect
 from plumb.diary.file import read_diary
-from plumb.guide.steps import STEPS
-from plumb.guide.talk import progress_in
+from plumb.guide import STEPS, progress_in
 from plumb.line.memory import kept_before
 from screens import at_rest, await_question
 

@@ -26,7 +26,7 @@ GOOD = {
     "tools/judge/reference/frame.h": "#include <vector>\n",
     "test/test_vm/main.cpp": '#include <Kinematics.h>\n#include "reference/hang.h"\n',
     "test/test_control/a.cpp": "const float kTick = 1;\n",
-    "tools/plumb/grid/pattern.py": "import math\nfrom plumb.grid import other\n",
+    "tools/plumb/grid.py": "import math\nfrom plumb.grid import other\n",
     "tools/plumb/__init__.py": '"""The lab."""\n',
     "tools/plumb/model/__init__.py": '"""The model."""\n',
     "tools/plumb/model/predict.py": "from plumb import _core\nimport plumb.text.errors\n",

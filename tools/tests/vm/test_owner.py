@@ -10,8 +10,7 @@ import pytest
 from plumb.bench.boards import MAKER, Hidden, causes_of, plan, size_for
 from plumb.cli.main import main
 from plumb.cli.practice import _Reader
-from plumb.grid.options import Grid
-from plumb.grid.program import marks_list, program
+from plumb.grid import Grid, marks_list, program
 from plumb.line.sender import Sender
 from plumb.marks.form import read_form
 from plumb.marks.read import read_marks

@@ -17,8 +17,18 @@ from pydantic import BaseModel
 
 from plumb.firmware.settings import machine_of_numbers
 from plumb.fit.inputs import settings_in
-from plumb.guide.steps import SETTINGS, STEPS, GuideVisit, Step, open_step, take
-from plumb.guide.talk import LeftError, Question, Talk, progress_in
+from plumb.guide import (
+    SETTINGS,
+    STEPS,
+    GuideVisit,
+    LeftError,
+    Question,
+    Step,
+    Talk,
+    open_step,
+    progress_in,
+    take,
+)
 from plumb.lab.machine_line import MachineLine, TheLine
 from plumb.lab.project import Choices, Number, Project, save_choices
 from plumb.lab.routes.project import TheProject, of_lab
