@@ -69,6 +69,7 @@ def _project(inputs: Inputs) -> ProjectAnswer:
         machine=machine_of(inputs.settings, settings, inputs.unit),
         trouble="",
         heading=Heading("", ""),
+        lacks=("", ""),
         stale=None,
     )
 

@@ -53,6 +53,12 @@ def which(*, is_open: bool) -> Heading:
     )
 
 
+def what_is_missing(*, is_open: bool, is_read: bool) -> tuple[str, str]:
+    """Return what is to be done before a screen opens that needs a machine, or readings of it."""
+    machine = "" if is_open else "open a machine first"
+    return machine, machine or ("" if is_read else "type readings first")
+
+
 def size(settings: MachineSettings, unit: Unit) -> str:
     """Return how large a machine and its sheet are, and how many effects its settings know."""
     gap, width, height = (unit.worded(mm, 1) for mm in (settings.motor_gap, *settings.sheet))

@@ -3,6 +3,7 @@
 from types import SimpleNamespace
 
 import pytest
+from plumb import guide
 from plumb.fit.compare import expected_anywhere, expected_priors, expected_sentence
 from plumb.guide import (
     GuideProgress,
@@ -14,7 +15,6 @@ from plumb.guide import (
     progress_in,
     set_chains,
     show_reach,
-    steps,
     tell_numbers,
 )
 from plumb.settings.machine import machine_toml
@@ -47,7 +47,7 @@ class Sent(GuideVisit):
 def numbers(monkeypatch):
     """The numbers that the machine holds."""
     held = {11: 1651.0, 16: 1.0, 29: 1300.0}
-    monkeypatch.setattr(steps, "read_numbers", lambda _sender: held)
+    monkeypatch.setattr(guide, "read_numbers", lambda _sender: held)
     return held
 
 

@@ -30,9 +30,8 @@ export interface Step {
 }
 
 const nothing = () => "";
-const settings = (project: Project) => (project.machine ? "" : "open a machine first");
-const marks = (project: Project) =>
-  settings(project) || (project.choices.marks?.length ? "" : "type readings first");
+const settings = ({ lacks }: Project) => lacks[0];
+const marks = ({ lacks }: Project) => lacks[1];
 
 const known = ({ choices }: Project) => counted(Object.keys(choices.known ?? {}).length);
 const accepted = ({ choices }: Project) => counted(choices.accepted?.length ?? 0);

@@ -62,6 +62,7 @@ class ProjectAnswer(BaseModel):
     machine: Machine | None
     trouble: str  # why the opened settings cannot be read; empty if they can
     heading: Heading  # of the screen on which a machine is opened
+    lacks: tuple[str, str]  # before screens of a machine open, and of its readings; empty: nothing
     stale: Heading | None  # there are other readings than the opened settings were fitted to
 
 
@@ -112,6 +113,7 @@ def show(project: TheProject) -> ProjectAnswer:
         machine=machine,
         trouble=trouble,
         heading=words.which(is_open=machine is not None),
+        lacks=words.what_is_missing(is_open=machine is not None, is_read=bool(choices.marks)),
         stale=stale,
     )
 
