@@ -1,11 +1,16 @@
 """Slips of whole links are named; a moved sheet and noise are none; which hole to touch next."""
 
 from dataclasses import replace
+from functools import cache
 from itertools import product
 
 import numpy as np
 import pytest
+from plumb.bench.boards import cut, plan
 from plumb.bench.causes import MAKER
+from plumb.bench.hiding import as_bought, usual_machine
+from plumb.fit.fit import fit
+from plumb.fit.inputs import Inputs
 from plumb.job.home import HomeTouch, sigma_of
 from plumb.job.slip import (
     CANNOT_TELL,
@@ -21,29 +26,61 @@ from plumb.job.slip import (
     next_hole,
 )
 from plumb.model.predict import lengths, places
-from slipped_machine import fitted_machine, record_of, touched
+from plumb.settings.toml import FitRecord
 
-FIRST = (-900.0, 250.0)
+HOLES = np.array([(-900.0, 250.0), (900.0, -250.0)])  # [mm] that the machine made
+HAND = 0.3  # [mm] of a coordinate: how well a bit sits in its hole
 
 
-def touch_of(hole, *, links=(0, 0), moved=(0.0, 0.0, 0.0)):
-    """A touch without noise; moved: the sheet's x, y [mm] and rotation."""
-    x, y, turn = moved
-    sled = np.array([[hole[0] - turn * hole[1] + x, hole[1] + turn * hole[0] + y]])
-    shown = places(MAKER, lengths(MAKER, sled)[0] - LINK * np.array(links))[0][0]
-    return HomeTouch("1", tuple(hole), (float(shown[0]), float(shown[1])))
+def record_of(left_out, turn=0.0):
+    """The record of a fit, of which the error of marks that were left out [mm] and the sheet's
+    turn [rad] matter."""
+    return FitRecord(
+        start_rms=5.0, rms=1.0, priced_rms=1.1, left_out_rms=left_out, sheet_rotation=turn
+    )
+
+
+@cache
+def fitted_machine(number):
+    """The judge's machine of this number and its settings, after a calibration on 15 marks."""
+    sites, source = plan(5, 3), np.random.default_rng(number)
+    board = cut(as_bought(usual_machine(source, number, sites), source), sites, seed=source)
+    model, rows = Inputs(MAKER, board.measurements).model_and_observations()
+    done = fit(model, rows, effects=("chain_pitch", "chain_stretch"), sigma=0.5)
+    record = record_of(done.left_out_rms, done.sheet_rotation)
+    return board.machine, replace(done.settings, fitted=record)
+
+
+def touched(number, *, links=NO_LINKS, moved=(0.0, 0.0), seed, holes=HOLES):
+    """The touches that the owner of a machine writes down; moved: one sigma of the
+    sheet's shift [mm] and turn [rad].
+    """
+    (true, settings), source = fitted_machine(number), np.random.default_rng(seed)
+    made = true.sleds(lengths(settings, holes)[0])
+    shift, turn = moved[0] * source.standard_normal(2), moved[1] * source.standard_normal()
+    turned = made @ np.array([[np.cos(turn), np.sin(turn)], [-np.sin(turn), np.cos(turn)]])
+    sleds = turned + shift + HAND * source.standard_normal(holes.shape)
+    chains = aimed = lengths(settings, sleds)[0]
+    for _ in range(6):  # until the judge's sled hangs there
+        chains = chains + aimed - lengths(settings, true.sleds(chains))[0]
+    assert np.abs(true.sleds(chains) - sleds).max() < 1e-3
+    shown = places(settings, chains - LINK * np.array(links))[0]
+    return [
+        HomeTouch("1", tuple(h), tuple(s))
+        for h, s in zip(holes.tolist(), shown.tolist(), strict=True)
+    ]
 
 
 @pytest.mark.parametrize("links", [(1, 0), (0, -2), (-1, 2)])
-@pytest.mark.parametrize("first", [FIRST, (900.0, -250.0), (0.0, 0.0)])
+@pytest.mark.parametrize("first", [(-900.0, 250.0), (900.0, -250.0), (0.0, 0.0)])
 def test_the_next_hole_is_nearly_the_best(links, first):
-    single = touch_of(first, links=links)
-    finding = find_slip(MAKER, [single])
+    single = touches(np.array([first]), links=links)
+    finding = find_slip(MAKER, single)
     assert finding.verdict == CANNOT_TELL
 
     def rest(hole):
         """The odds of the sheet after a touch that fits the likeliest account."""
-        again = find_slip(MAKER, [single, touch_of(hole, links=finding.best.links)])
+        again = find_slip(MAKER, single + touches(np.array([hole]), links=finding.best.links))
         return sum(each.odds for each in again.accounts if each.kind == SHEET)
 
     place = next_hole(MAKER, finding)
@@ -66,7 +103,6 @@ def test_the_worst_pair_of_slips_is_found_after_the_next_hole():
         assert (settled.verdict, settled.best.links) == (SLIP, pair)
 
 
-HOLES = np.array([(-900.0, 250.0), (900.0, -250.0)])
 THIRD = np.array([(0.0, -400.0)])
 
 
