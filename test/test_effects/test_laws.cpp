@@ -138,14 +138,6 @@ TEST(Registry, EffectsAddUpWithoutDisturbingEachOther) {
     }
 }
 
-TEST(Registry, EveryEffectHasASummaryAPatternAndARemedy) {
-  for (const EffectInfo& info : collect().effects) {
-    EXPECT_GT(strlen(info.summary), 20u) << info.name;
-    EXPECT_GT(strlen(info.pattern), 20u) << info.name;
-    EXPECT_GT(strlen(info.remedy), 20u) << info.name;
-  }
-}
-
 namespace {
 
 /// Counts the numbers that an effect sets on the judge.

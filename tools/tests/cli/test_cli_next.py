@@ -3,10 +3,11 @@
 import dataclasses
 import re
 import shutil
-from pathlib import Path
 
 import numpy as np
 import pytest
+from example_machine import INI
+from example_machine import MARKS as TAPED
 from plumb.model.catalogue import effect_names
 from plumb.settings.files import digest_of
 from plumb.settings.machine import write_machine_toml
@@ -14,15 +15,11 @@ from published_marks import MARKS, SETTINGS
 from synthetic import BELIEVED, TRUE, csv_of, grid, marks_on
 from systems import widest
 
-EXAMPLE = [
-    Path(__file__).resolve().parents[3] / "docs/example" / name
-    for name in ("groundcontrol.ini", "marks.toml")
-]
 FILL = "# measured = [ , ]"
 
 
 def test_the_preparation_is_printed_first(run):
-    code, said, complaint = run("next", *EXAMPLE)
+    code, said, complaint = run("next", INI, TAPED)
     assert code == 0 and complaint == ""
     assert "\nNext: " in said and "about" in said and "minutes" in said
     assert "--checked" in said and "VALUE" in said
@@ -86,31 +83,15 @@ def test_marks_that_are_only_read_again_are_not_cut(run, ask, file, maker, tmp_p
 
 def test_a_number_that_was_checked_is_not_proposed_again(ask):
     gap = "the gap between the motors"
-    code, answer = ask("next", *EXAMPLE)
+    code, answer = ask("next", INI, TAPED)
     assert code == 0 and gap in [each["title"] for each in answer["next"]]
     # What is known of the account that holds comes with each proposal, in bits.
     assert all(each["bits"] > 0 and 0 <= each["chance"] <= 1 for each in answer["next"][:3])
     assert answer["next"][0]["chance"] > 0
-    code, answer = ask("next", *EXAMPLE, "--checked", "motor_gap=2980.4±0.5")
+    code, answer = ask("next", INI, TAPED, "--checked", "motor_gap=2980.4±0.5")
     titles = [each["title"] for each in answer["next"]]
     assert code == 0 and gap not in titles
     assert "100 links of each chain" in titles
-
-
-@pytest.mark.parametrize(
-    ("options", "complaint"),
-    [
-        (["--checked", "motor_gap=2981"], "motor_gap=2978.4+-1"),
-        (["--checked", "motor_gap=1+-0"], "above zero"),
-        (["--choose", "1"], "--choose"),
-        (["--marks", "x.toml", "--choose", "99"], "--choose 99"),
-        (["--marks", "x.nc", "--output", "x.nc"], "two results"),
-    ],
-)
-def test_next_refuses_in_one_line(run, here, options, complaint):
-    code, said, refused = run("next", SETTINGS, MARKS, *options)
-    assert code == 2 and said == "" and complaint in refused and refused.count("\n") == 1
-    assert list(here.iterdir()) == []
 
 
 def test_marks_that_were_read_are_never_overwritten(run, file, maker):

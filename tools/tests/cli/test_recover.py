@@ -116,6 +116,16 @@ def test_impossible_values_are_refused(run, folder, words, why):
     assert not (folder / "home.toml").exists()
 
 
+@pytest.mark.parametrize(
+    "text",
+    ["[mark.left]\nplace = [1, 2]\n", "[mark.left]\nplace = [1]\nchains = [1, 2]\n", "mark = 5\n"],
+)
+def test_a_spoilt_file_of_home_marks_is_refused(run, folder, text):
+    (folder / "home.toml").write_text(text)
+    code, _, error = run("recover", "machine.toml")
+    assert code == 2 and re.search(r"home\.toml, (\[mark\.left\]|mark)", error)
+
+
 CUT_OFF = (
     "ALARM: Position Lost. Power was lost before the position was kept. Last known chain lengths: "
     "1650.12, 1651.98 mm. Set them (B06 L R), or set the chains to their marks (B08)."

@@ -68,7 +68,18 @@ BAD = [
         ["grid", "--places=0,0", "--margin", "3"],
         "--margin is of marks in columns",
     ),
-    ("grid of text", ["grid", "--margin", "wide"], "--margin"),
+    (
+        "a check without error",
+        ["next", *BOARD, "--checked", "motor_gap=2981"],
+        "motor_gap=2978.4+-1",
+    ),
+    ("a number of no value", ["check", POCKET, SETTINGS, "--set", "15"], "is not N=VALUE"),
+    ("a number below zero", ["check", POCKET, SETTINGS, "--set", "15=-4"], "refuses '$15=-4'"),
+    ("a sheet's form", ["check", POCKET, SETTINGS, "--picture", "j.gif"], "end the name with"),
+    ("a check to nothing", ["next", *BOARD, "--checked", "motor_gap=1+-0"], "above zero"),
+    ("a choice of no file", ["next", *BOARD, "--choose", "1"], "--choose"),
+    ("no such choice", ["next", *BOARD, "--marks", "x.toml", "--choose", "99"], "--choose 99"),
+    ("one file twice", ["next", *BOARD, "--marks", "x.nc", "--output", "x.nc"], "two results"),
 ]
 
 
@@ -186,6 +197,35 @@ def test_a_file_that_is_not_a_program_is_named_for_what_it_is(run, tmp_path, com
     path.write_bytes(begin)
     code, out, complaint = run(command, path, INI, *(["--line", 1] * (command == "resume")))
     assert code == 2 and out == "" and says in complaint and complaint.count("\n") == 1
+
+
+REACHED = "USB: cannot be opened; check the cable"
+BEGUN = ["%\nG21\n", "G5 X1\n", "G1 X1\n", "B05\n", "$$\n", "; nothing\n"]  # the machine's matter
+
+
+@pytest.mark.parametrize(
+    ("what", "says"),
+    [
+        (INI, "not a program; numbers are sent from a machine.toml"),
+        (FORM, "holds marks, not a program; give a program of G-code"),
+        (EXAMPLE, "is a folder; name the file inside it"),
+        ("nothing.nc", "there is no such file; check the name"),
+        ("hello", REACHED),
+        (POCKET, REACHED),
+    ],
+)
+def test_what_is_no_program_is_refused_before_the_port_is_opened(run, what, says):
+    code, _, complaint = run("send", "--port", "USB", what)
+    assert code == 2 and says in complaint and complaint.count("\n") == 1
+
+
+def test_other_faults_are_left_to_the_machine(run, here):
+    numbers = (EXAMPLE / "machine.toml").read_text()
+    (here / "machine.toml").write_text(f"# Säge\n{numbers}")  # which is not sent as it is
+    for i, text in enumerate(BEGUN):
+        (here / f"{i}.nc").write_text(text)
+    for path in here.iterdir():
+        assert REACHED in run("send", "--port", "USB", path)[2], path.read_text()
 
 
 @pytest.mark.parametrize(

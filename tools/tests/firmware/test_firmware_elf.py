@@ -2,6 +2,7 @@
 
 import subprocess
 import sys
+from concurrent.futures import Future, ThreadPoolExecutor
 from pathlib import Path
 
 import numpy as np
@@ -173,3 +174,30 @@ def test_the_player_notices_what_is_wrong(player, tmp_path):
         (tmp_path / f"{i}.nc").write_text(text)
         assert play(player, tmp_path, f"{i}.nc").returncode == 1
     assert play(player, tmp_path, "absent.nc").returncode == 2
+
+
+sys.path.insert(0, str(ROOT / "tools/bench"))
+
+SPOKEN = ROOT / "test/dialogues"
+NAMES = sorted(path.name for path in SPOKEN.glob("*.nc"))
+# Played whenever anything changed: motion, a halt, the memory, the probe.
+ALWAYS = {"arcs.nc", "halts.nc", "power_cut.nc", "probe.nc"}
+
+
+@pytest.fixture(scope="module")
+def ends(request) -> dict[str, Future]:
+    """The end of each dialogue that was asked for; two at a time, as each takes seconds."""
+    calls = [item.callspec for item in request.session.items if hasattr(item, "callspec")]
+    asked = {call.params["name"] for call in calls if call.params.get("name") in NAMES}
+    player = plays.player()
+    pool = ThreadPoolExecutor(2)
+    yield {name: pool.submit(played, player, SPOKEN, name) for name in sorted(asked)}
+    pool.shutdown(cancel_futures=True)
+
+
+@pytest.mark.parametrize(
+    "name", [pytest.param(name, marks=() if name in ALWAYS else pytest.mark.slow) for name in NAMES]
+)
+def test_the_flashed_program_answers_as_written(ends, name):
+    done = ends[name].result()
+    assert done.returncode == 0, done.stderr

@@ -80,31 +80,15 @@ def test_each_mark_is_touched_once_and_each_extreme_mark_once_more_per_repeat(op
 
 
 @pytest.mark.parametrize("options", CHOICES)
-def test_each_plunge_goes_straight_down_to_the_depth_at_the_plunge_feed(options):
-    grid = grids.Grid(**options)
-    for move in plunges(gcode(**options)):
-        assert move.code == "G1"
-        assert move.start[:2] == move.end[:2]
-        assert (move.start[2], move.end[2]) == (grid.safe_height, -grid.depth)
-        assert move.feed == 40
-
-
-@pytest.mark.parametrize("options", CHOICES)
-def test_sideways_moves_happen_only_at_the_safe_height(options):
-    grid = grids.Grid(**options)
-    made = moves(gcode(**options))
-    sideways = [move for move in made if move.start[:2] != move.end[:2]]
-    assert sideways
-    for move in sideways:
-        assert move.start[2] == move.end[2] == grid.safe_height
-
-
-@pytest.mark.parametrize("options", CHOICES)
-def test_every_mark_is_entered_along_the_approach(options):
+def test_marks_are_entered_along_the_approach_and_plunged_straight_down(options):
     grid = grids.Grid(**options)
     made = moves(gcode(**options))
     for before, move in pairwise(made):
+        if move.start[:2] != move.end[:2]:
+            assert move.start[2] == move.end[2] == grid.safe_height
         if move.end[2] < 0:
+            assert (move.code, move.feed) == ("G1", 40) and move.start[:2] == move.end[:2]
+            assert (move.start[2], move.end[2]) == (grid.safe_height, -grid.depth)
             way = (before.end[0] - before.start[0], before.end[1] - before.start[1])
             assert way == pytest.approx((0, 40), abs=0.002)
             assert before.code == "G1" and before.feed == grid.feed
@@ -177,8 +161,6 @@ REFUSALS = [
     ("--feed 0", "--feed is 0"),
     ("--depth 25", "--depth is 25"),
     ("--safe-height -5", "--safe-height is -5"),
-    ("--settings nowhere.ini", "nowhere.ini"),
-    ("--unheard-of 3", "--unheard-of"),
     *((f"--{name} 3", f"--{name}") for name in ("columns", "repeats", "approach", "mode")),
 ]
 MACHINES = [

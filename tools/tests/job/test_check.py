@@ -29,7 +29,7 @@ from plumb.job.wood import Tools
 from plumb.marks.read import read_marks
 from plumb.model.predict import judged, lengths
 from plumb.settings.files import read_settings
-from workshop import NAMES, PROGRAMS, lines_of
+from workshop import NAMES, lines_of
 
 SETTINGS, POCKET, MARKS = (
     EXAMPLE / name for name in ("groundcontrol.ini", "pocket.nc", "marks.toml")
@@ -252,19 +252,6 @@ def test_the_command_ends_with_1_where_something_is_wrong(ask, run, tmp_path):
     assert "- line 2: the machine halts: this machine does no G41" in said
 
 
-@pytest.mark.parametrize(
-    ("words", "says"),
-    [
-        (["--start", "5"], "is not X,Y"),
-        (["--set", "15"], "is not N=VALUE"),
-        (["--set", "15=-4"], "refuses '$15=-4'"),
-    ],
-)
-def test_bad_words_are_refused(run, words, says):
-    code, _, complaint = run("check", PROGRAMS / "easel_tabs.nc", SETTINGS, *words)
-    assert code == 2 and says in complaint
-
-
 SLOT = ("G0 Z3", "G0 X100 Y50", "G1 Z-1 F60", "G1 X140 F600", "G0 Z3")
 
 
@@ -295,13 +282,13 @@ def piece(*lines, **tools):
     return check_job(MAKER, lines, tools=Tools.of(lines, **tools)).piece
 
 
-def adaptive(depths=(-3.0, -6.0), *, link=None):
+def adaptive():
     """A pocket as FreeCAD's adaptive clearing cuts it: a helix down, then arcs that grow by a
     fifth of the bit. Behind each the bit goes back through what is cut, as a rapid at
     the full depth.
     """
     lines = ["(Exported by FreeCAD)", "(TC: 6mm endmill)", "G21 G90", "M3 S18000", "G0 Z5"]
-    for depth in depths:
+    for depth in (-3.0, -6.0):
         lines += ["G0 X2 Y0", f"G0 Z{depth + 3.2:.3f}"]
         lines += [f"G2 X-2 Y0 Z{depth + 1.5:.3f} I-2 J0 F600", f"G2 X2 Y0 Z{depth:.3f} I2 J0"]
         lines += [f"G2 X-2 Y0 Z{depth:.3f} I-2 J0", f"G2 X2 Y0 Z{depth:.3f} I2 J0"]
@@ -311,7 +298,6 @@ def adaptive(depths=(-3.0, -6.0), *, link=None):
             begin = places[0] * (1 - 1.2 / radius)
             lines += [f"G0 X{begin[0]:.3f} Y{begin[1]:.3f}"]
             lines += [f"G1 X{x:.3f} Y{y:.3f} F900" for x, y in places]
-            lines += [link] if link else []
         lines += ["G0 Z5"]
     return [*lines, "M5", "M30"]
 

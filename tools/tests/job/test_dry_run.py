@@ -178,7 +178,6 @@ def test_a_full_circle_returns_and_a_limit_of_z_cuts_it_flat():
 
 MACHINE = JobMachine(MAKER, (0.0, 0.0, 0.0), {})
 TRIED = 8  # of each program that are tried
-AFTER_HALT = 0.5  # [mm] at most between the cut after a halt and the cut without
 NUMBERS = ("from_x", "from_y", "to_x", "to_y", "z_from", "z_to", "length", "sweep")
 
 
@@ -230,30 +229,6 @@ def test_from_any_place_of_a_cut_on_the_same_moves_follow(name):
         assert rest["length"][0] == pytest.approx((1 - entry.share) * whole["length"][0], abs=0.05)
         assert (rest["sweep"][0] > 0) == (whole["sweep"][0] > 0)
         assert not {each.kind for each in checked.findings} & {GOUGES, HALTS}
-
-
-@pytest.mark.parametrize("name", NAMES)
-def test_the_cut_after_a_halt_is_the_cut_without(name):
-    """The virtual machine is stopped in the middle of a line drawn by chance, then goes on."""
-    lines = lines_of(name)
-    way = run_dry(lines).moves
-    source = np.random.default_rng(NAMES.index(name) + 7)
-    line = int(source.choice(np.unique(way["line"][way.cut])))
-    workshop = Workshop()
-    workshop.cut(lines[: line - 1])
-    workshop.machine.send(lines[line - 1].encode() + b"\n")
-    workshop.machine.advance(int(source.integers(100, 900)))
-    workshop.stop()
-    workshop.cut(list(resume_at_line(MACHINE, lines, line).lines))
-    cut = np.array(workshop.machine.cuts())[:, 2:] * (1, 1, -1)
-    samples = way.sampled(0.1)
-    places = np.column_stack([samples.places, samples.z])
-    off, _ = cKDTree(places).query(cut)
-    assert off.max() < AFTER_HALT
-    rises = way["z_to"] > way["z_from"]
-    deep = (samples.z < -0.1) & ~rises[samples.move]
-    off, _ = cKDTree(cut).query(places[deep])
-    assert off.max() < AFTER_HALT
 
 
 def test_a_cycle_is_drilled_from_its_beginning():
@@ -527,64 +502,11 @@ def test_chip_breaking_cycles_become_cycles_of_this_machine(line, meant):
     assert [change.line for change in mended.changes] == [2]
 
 
-FREE = "G0 Z{up}"
-HOLE = "G17 G98 G81 X{x:.4f} Y{y:.4f} Z-{deep} R{up} F{feed}"
-# Foreign lines, and what each says to this machine. All end with the bit free, in G0.
-HABITS = {
-    "G53": ([FREE, "G53 G0 Z-{up}"], [FREE, FREE]),
-    "G28": ([FREE, "G28 G91 Z0", "G90"], [FREE, FREE, "G90"]),
-    "G80": (
-        [FREE, HOLE, "G80", "X{beside:.4f}", "X{x:.4f}"],
-        [FREE, HOLE, "G80", "G0 X{beside:.4f}", "X{x:.4f}"],
-    ),
-}
-MILLIMETRES = {"up": 9, "deep": 2, "feed": 200}
-INCHES = {"up": 0.36, "deep": 0.08, "feed": 8}
-CODED = re.compile(r"(?:N\d+ *)?G0?[01](?!\d)", re.IGNORECASE)
-
-
-def with_lines_put_in(lines, put_in):
-    """The program with some lines put in wherever the bit is free and the next line, with a code of
-    its own, moves freely or straight down; and at how many places.
-    """
-    moves = run_dry(lines).moves
-    in_inches = any("G20" in line for line in lines)
-    numbers, unit = (INCHES, 25.4) if in_inches else (MILLIMETRES, 1.0)
-    result, count = [], 0
-    for number, line in enumerate(lines, start=1):
-        before, here = moves.only(moves["line"] < number), moves.only(moves["line"] == number)
-        slanting = here.cut & (here["length"] > 0)
-        if len(before) and before["z_to"][-1] > 0 and CODED.match(line) and not slanting.any():
-            place = {axis: before[f"to_{axis}"][-1] / unit for axis in "xy"}
-            x_beside = place["x"] + 1
-            result += [each.format(**numbers, **place, beside=x_beside) for each in put_in]
-            count += 1
-        result.append(line)
-    return result, count
-
-
-def piece_of(lines):
-    """The wood that the dry run cuts, and the deepest cut [mm]."""
-    checked = check_job(MAKER, lines, tools=Tools.of(lines))
-    assert checked.done.halted_at is None
-    return checked.piece
-
-
-@pytest.mark.parametrize("habit", HABITS)
-@pytest.mark.parametrize("name", NAMES)
-def test_a_fixed_program_cuts_the_same_wood(name, habit):
-    foreign, plain = HABITS[habit]
-    lines = lines_of(name)
-    spoilt, count = with_lines_put_in(lines, foreign)
-    meant, _ = with_lines_put_in(lines, plain)
-    findings = check_job(MAKER, spoilt, tools=Tools.of(spoilt)).findings
-    mended = fixed(JobMachine(MAKER, (0.0, 0.0, 0.0), {}), spoilt, findings, source=name)
-    assert count and len(mended.changes) == count
-    after, wanted = piece_of(mended.lines), piece_of(meant)
-    assert after.removed == pytest.approx(wanted.removed, rel=1e-9) and after.removed > 0
-    assert after.deepest == pytest.approx(wanted.deepest, abs=1e-6)
-    if habit != "G80":
-        assert after.removed == pytest.approx(piece_of(lines).removed)
+def test_a_height_near_another_machines_top_becomes_a_free_one_in_the_programs_unit():
+    lines = ["G20", "G0 Z0.5", "G1 Z-0.1 F5", "X1 F20", "G0 Z0.5", "G53 G0 Z-0.5"]
+    mended = fix([*lines, "G0 X0"])
+    assert mended.lines[5] == "G53 G0 Z0.5000"
+    assert_cuts_the_same(mended.lines, [*lines[:5], "G0 X0"])
 
 
 LOW, HIGH = 200, 500  # [mm] y of rests that hold, and that may not

@@ -1,27 +1,15 @@
 """Home marks: kept, read again, and a position that was lost is back with the bit in the hole."""
 
 import numpy as np
-import pytest
 from plumb.bench.boards import MAKER, Hidden, causes_of
-from plumb.job.home import hole_program, home_fit, new_home_mark, read_home_marks, repair_program
+from plumb.job.home import hole_program, home_fit, new_home_mark, repair_program
 from plumb.model.predict import lengths
-from plumb.text.errors import InputError
 from plumb.vm.garage import marks_on, random_garage
 from usual_machine import switched_on
 
 LEFT, RIGHT = (-900.0, 250.0), (900.0, -250.0)
 EVENING = 6000  # [ms] at rest, after which the position is in the memory
 HAND = 0.3  # [mm] of a coordinate: how well a bit sits in its hole
-
-
-@pytest.mark.parametrize(
-    "text",
-    ["[mark.left]\nplace = [1, 2]\n", "[mark.left]\nplace = [1]\nchains = [1, 2]\n", "mark = 5\n"],
-)
-def test_a_spoilt_file_is_refused(text, tmp_path):
-    (tmp_path / "home.toml").write_text(text)
-    with pytest.raises(InputError, match=r"home\.toml, (\[mark\.left\]|mark)"):
-        read_home_marks(tmp_path / "home.toml")
 
 
 class Workshop:

@@ -24,7 +24,7 @@ def test_every_effect_has_a_section_a_picture_and_a_remedy():
             number = parameter["setting"]
             said += [f"`{parameter['name']}`", *([] if number is None else [f"${number}"])]
         missing = [each for each in [*said, f"(pictures/effects/{name}.png)"] if each not in text]
-        assert missing == [], name
+        assert missing == [] and all(said), name
         assert ("no firmware can cure this" in text) == (effect["where"] == "lab"), name
         assert len(re.findall(r"`\w+` -?\d\.\d\d", text)) == 3 or "it has no shape" in text, name
 

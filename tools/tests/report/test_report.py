@@ -1,18 +1,81 @@
 """`plumb report`: a file with the page of the lab and its answers, opened without a server."""
 
+from __future__ import annotations
+
+import io
+import json
 import re
 import shutil
+from contextlib import redirect_stderr, redirect_stdout
 from pathlib import Path
 
 import pytest
 from example_machine import INI, MARKS, checked
 from plumb.cli.main import main
+from plumb.marks.form import marks_toml
+from plumb.marks.read import Measurements
 from plumb.model.plain import plain_change
 from plumb.settings.machine import write_machine_toml
 from plumb.text.values import MM
-from reports import asked, board, nine, reported, spans
-from synthetic import TRUE, grid, marks_on
+from synthetic import BELIEVED, TRUE, distances_between, grid, marks_on
 from systems import ON_POSIX
+
+
+@pytest.fixture
+def opened(browser):
+    """Opens a saved page from its file, offline. It asks nobody and complains of nothing."""
+    context = browser.new_context(viewport={"width": 1280, "height": 800}, offline=True)
+    page, files, asked, complaints = context.new_page(), [], [], []
+    page.on("request", lambda request: asked.append(request.url))
+    page.on("console", lambda message: complaints.append(message.text))
+    page.on("pageerror", lambda error: complaints.append(str(error)))
+    page.on("dialog", lambda dialog: complaints.append(dialog.message))
+
+    def open_file(path):
+        files.append(path.as_uri())
+        page.goto(path.as_uri())
+        page.locator("html[data-rest]").wait_for(state="attached")
+        return page
+
+    yield open_file
+    context.close()
+    assert complaints == [] and asked == files
+
+
+def asked(*words) -> dict:
+    """The object that a command prints with --json."""
+    said = io.StringIO()
+    with redirect_stdout(said), redirect_stderr(io.StringIO()):
+        main([*map(str, words), "--json"])
+    return json.loads(said.getvalue())
+
+
+def reported(*words, folder: Path) -> tuple[dict, Path]:
+    """The object of a report, and its page."""
+    path = folder / "report.html"
+    answer = asked("report", *words, "-o", path, "--force")
+    assert answer.get("written") == [str(path)], answer
+    return answer, path
+
+
+def board(folder: Path, marks, distances=(), *, name="marks.toml", settings=BELIEVED):
+    """Settings and marks as files."""
+    machine, path = folder / "machine.toml", folder / name
+    write_machine_toml(machine, settings)
+    path.write_text(marks_toml(Measurements(tuple(marks), tuple(distances))))
+    return machine, path
+
+
+def nine(**how):
+    """Nine marks of a machine that sags and stretches more than its settings know."""
+    return marks_on(TRUE, BELIEVED, grid(3, 3), **{"noise": 0.3, **how})
+
+
+def spans(folder: Path) -> tuple[Path, Path]:
+    """A board of distances alone."""
+    measured = distances_between(marks_on(TRUE, BELIEVED, grid(4, 3), noise=0.3))
+    return board(folder, measured.marks, measured.distances, name="spans.toml")
+
 
 AXE = Path(__file__).resolve().parents[2] / "page/node_modules/axe-core/axe.min.js"
 HOSTILE = ("</script><script>alert(1)</script>", '"><img src=x onerror=alert(1)>')

@@ -7,8 +7,7 @@ import sys
 import threading
 from pathlib import Path
 
-from grbl_board import until
-from sender_program import Shown
+from grbl_board import Shown, until
 
 ROOT = Path(__file__).resolve().parents[3]
 PACKAGES = ROOT / ".build/senders/python"
@@ -69,9 +68,6 @@ class Bcnc:
 
     def jog(self, way: str, feed: float) -> None:
         self._ask("sendGCode", f"$J=G91 {way} F100000")
-
-    def cancel_jog(self) -> None:
-        raise NotImplementedError
 
     def run(self, lines: list[str]) -> None:
         self._ask("run_lines", lines)

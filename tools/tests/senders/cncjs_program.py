@@ -11,8 +11,7 @@ import urllib.request
 from collections.abc import Sequence
 from pathlib import Path
 
-from grbl_board import until
-from sender_program import Shown
+from grbl_board import Shown, until
 from websockets.exceptions import ConnectionClosed
 from websockets.sync.client import connect
 

@@ -5,8 +5,7 @@ import sys
 import threading
 from pathlib import Path
 
-from grbl_board import until
-from sender_program import Shown
+from grbl_board import Shown, until
 
 ROOT = Path(__file__).resolve().parents[3]
 PACKAGES = ROOT / ".build/senders/python"

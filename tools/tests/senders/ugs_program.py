@@ -12,8 +12,7 @@ from collections import deque
 from pathlib import Path
 
 import serial
-from grbl_board import until
-from sender_program import Shown
+from grbl_board import Shown, until
 
 BAUD = 57_600
 BUFFER = 128  # characters on their way at most, ends of lines counted: as Grbl holds

@@ -252,8 +252,6 @@ def test_the_sled_hangs_at_the_next_start_where_it_hung_at_the_end(served, tmp_p
         (["vm", "--link", "here"], "here: is the name of something else; give another --link"),
         (["vm", "--link", "absent/maslow"], "cannot be the name of the port"),
         (["vm", "--eeprom", "here"], "is not a memory file of 4096 bytes"),
-        (["send", "--port", "absent", "G0 X1"], "absent: cannot be opened; check the cable"),
-        (["send", "absent.nc"], "absent.nc: there is no such file"),
         (["read", "--port", "absent"], "absent: cannot be opened"),
         (["flash", "here"], "here: is not a HEX file with a program"),
     ],

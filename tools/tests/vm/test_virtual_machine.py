@@ -1,7 +1,6 @@
 """The virtual machine: motors, chains and sled under the firmware, on the host and on a Mega."""
 
 import re
-from dataclasses import dataclass, replace
 
 import numpy as np
 import pytest
@@ -10,7 +9,6 @@ from plumb.bench.boards import MAKER, Hidden
 from plumb.model.predict import judged
 from plumb.vm import garage as garage_room
 from plumb.vm.garage import Garage, VirtualMachine
-from scipy.spatial import cKDTree
 from usual_machine import declaration, switched_on, usual_machine
 
 NUMBERS = judged(MAKER)
@@ -178,111 +176,6 @@ def test_no_tick_of_the_simulated_mega_loses_time(elf):
     assert min(np.ptp(drives, axis=0)) > 10  # it went all the time
 
 
-HOLD, GO_ON = b"\x84", b"~"
-FEEDS = [bytes([each]) for each in range(0x90, 0x95)]
-STEP = 20  # [ms] between two looks
-APART = 0.6  # [mm] between two looks the sled goes 0.33 mm
-LONGEST = 600_000  # [ms]
-AHEAD = 126  # characters that clients send ahead
-PROGRAM = """
-G21 G90
-G0 X20 Y10
-G1 Z-2 F300
-G91 G1 X5 Y6 F900
-X4
-G90
-G2 X49 Y16 R10
-G20
-G1 X2.2 Y0.2 F30
-G93 G1 X2 Y0.6 F40
-G94 F33
-G21 G3 X50.8 Y15.24 I-8 J0 Z-3 F700
-G92 X0 Y0
-G1 X4 Y-6
-Y-8
-G0 Z3
-G92.1
-G99 G83 X60 Y5 Z-4 R1 Q2 F200
-X66
-G80
-G0 Z4
-G4 P300
-G0 X70
-"""
-
-
-def machine_at_rest(elf=None):
-    """A machine without errors at the middle of its sheet."""
-    machine = usual_machine(elf=elf)
-    sender = switched_on(machine, MAKER)
-    sender.stream([declaration(machine)])
-    machine.take_said()
-    return machine
-
-
-class Client:
-    """Sends a program as clients do, and counts the answers."""
-
-    def __init__(self, machine):
-        self.machine = machine
-        self.lines = [line.encode() + b"\n" for line in [*PROGRAM.split("\n")[1:-1], "G4 P0"]]
-        self.sent = self.answered = 0
-        self.is_held, self.holds = False, 0
-
-    def press(self, source):
-        """A hold or its end, or another feed, at a moment that is drawn."""
-        draw = source.random()
-        if draw < (0.03 if self.is_held else 0.015):
-            self.machine.send(GO_ON if self.is_held else HOLD)
-            self.holds += not self.is_held
-            self.is_held = not self.is_held
-        elif draw > 0.995:
-            self.machine.send(source.choice(FEEDS))
-
-    def pass_time(self):
-        while self.sent < len(self.lines) and self.is_room():
-            self.machine.send(self.lines[self.sent])
-            self.sent += 1
-        self.machine.advance(STEP)
-        said = [line.strip() for line in self.machine.take_said().split(b"\n")]
-        assert not [line for line in said if line.startswith((b"error", b"ALARM"))], said
-        # A `~` that ends a hold has none.
-        self.answered += said.count(b"ok")
-
-    def is_room(self):
-        waiting = self.lines[self.answered : self.sent + 1]
-        return sum(map(len, waiting)) <= AHEAD
-
-    def run(self, source):
-        """Where the bit was, at every look [mm]."""
-        places = []
-        while len(places) * STEP < LONGEST:
-            if source is not None and self.answered < len(self.lines):
-                self.press(source)
-            elif self.is_held:
-                self.machine.send(GO_ON)
-                self.is_held = False
-            self.pass_time()
-            places.append((*self.machine.sled, self.machine.height))
-            if self.answered >= len(self.lines):
-                return np.array(places)
-        raise AssertionError(f"{self.answered} of {len(self.lines)} lines were answered")
-
-
-MEGA = pytest.param(1, "mega", marks=pytest.mark.slow)
-
-
-@pytest.mark.parametrize(("seed", "brain"), [(0, "host"), (1, "host"), MEGA])
-def test_holds_at_any_moment_leave_the_path_unchanged(seed, brain, elf):
-    usual = Client(machine_at_rest()).run(None)
-    client = Client(machine_at_rest(elf if brain == "mega" else None))
-    held = client.run(np.random.default_rng(seed))
-    assert client.holds > 20 and len(held) > 1.3 * len(usual)
-    assert cKDTree(usual).query(held)[0].max() < APART
-    assert cKDTree(held).query(usual)[0].max() < APART
-    assert held[-1] == pytest.approx(usual[-1], abs=0.1)
-
-
 STAYS = "The motors stay on: so high on the sheet the sled would slide ($77). Park it lower."
 SLIDES = "The sled slid with its motors off: they hold it until after its next move."
 MOST = 1.5  # [mm] the chain gives 0.4 mm, and some more until its motor holds
@@ -333,67 +226,37 @@ MOST_BEYOND = 3.0  # [mm] of a chain, beyond what a power cut lets it run
 ALARM = b"ALARM: The sled is not keeping up"
 
 
-@dataclass(frozen=True)
-class Loss:
-    """A machine whose left encoder is lost, at this feed [mm/min] or at rest."""
-
-    feed: int
-    seed: int = 0  # of its motors
-    way: int = 1  # +1: its left chain pays out, -1: it winds in
-    elf: str | None = None
-    shield: int = 2
-
-    def run(self, *, is_cut: bool) -> float:
-        """How far the chain runs [mm] until it stands; `is_cut`: after a power cut instead."""
-        machine = self.machine()
-        begin = farthest = machine.chains[0]
-        if is_cut:
-            machine.cut_power()
-        else:
-            machine.set_wire("left", "encoder_unplugged", True)
-            self.move_from_rest(machine)
-        said = b""
-        for _ in range(400):
-            machine.advance(20)
-            said += machine.take_said()
-            farthest = max(farthest, machine.chains[0], key=lambda length: abs(length - begin))
-        assert (ALARM in said) != is_cut
-        machine.advance(500)
-        assert machine.chains[0] == pytest.approx(farthest, abs=0.01), "it has to stand"
-        return abs(farthest - begin)
-
-    def machine(self) -> VirtualMachine:
-        """The machine at the moment of the loss."""
-        machine = usual_machine(elf=self.elf, seed=self.seed, shield=self.shield)
-        sender = switched_on(machine, MAKER)
-        # To and fro: the machine learns which duty the motors need either way.
-        ways = [f"G1 X{self.way * x} F800" for x in (-140, -60, -100)]
-        sender.stream([declaration(machine), *ways, "G4 P0"])
-        if self.feed:
-            machine.send(b"G1 X%d F%d\n" % (200 * self.way, self.feed))
-        machine.advance(2000 if self.feed else 1500)
-        return machine
-
-    def move_from_rest(self, machine: VirtualMachine) -> None:
-        """A rest with power, and then a slow move, which shows that an encoder is lost."""
-        if self.feed == 0:
-            machine.send(b"G4 S5\nG1 X%d F60\n" % (200 * self.way))
-            machine.advance(5000)
-
-
-@pytest.mark.parametrize(
-    ("feed", "seed", "way"), [(0, 0, 1), (60, 1, -1), (200, 3, 1), (1000, 4, 1), (1000, 1, -1)]
-)
-def test_a_chain_without_encoder_is_braked(feed, seed, way):
-    loss = Loss(feed, seed, way)
-    assert loss.run(is_cut=False) < loss.run(is_cut=True) + MOST_BEYOND
+def farthest_run(elf: str | None, shield: int, *, is_cut: bool) -> float:
+    """How far the left chain runs [mm] until it stands: after its encoder is lost on the way, or
+    after a power cut.
+    """
+    machine = usual_machine(elf=elf, seed=3, shield=shield)
+    sender = switched_on(machine, MAKER)
+    # To and fro: the machine learns which duty the motors need either way.
+    ways = [f"G1 X{x} F800" for x in (-140, -60, -100)]
+    sender.stream([declaration(machine), *ways, "G4 P0"])
+    machine.send(b"G1 X200 F200\n")
+    machine.advance(2000)
+    begin = farthest = machine.chains[0]
+    if is_cut:
+        machine.cut_power()
+    else:
+        machine.set_wire("left", "encoder_unplugged", True)
+    said = b""
+    for _ in range(400):
+        machine.advance(20)
+        said += machine.take_said()
+        farthest = max(farthest, machine.chains[0], key=lambda length: abs(length - begin))
+    assert (ALARM in said) != is_cut
+    machine.advance(500)
+    assert machine.chains[0] == pytest.approx(farthest, abs=0.01), "it has to stand"
+    return abs(farthest - begin)
 
 
 @pytest.mark.parametrize("shield", [2, 3])
-def test_the_flashed_program_brakes_it_on_either_driver(elf, shield):
-    loss = Loss(200, seed=3, elf=elf, shield=shield)
-    ran = loss.run(is_cut=False)
-    assert 0.3 < ran < replace(loss, elf=None).run(is_cut=True) + MOST_BEYOND
+def test_the_flashed_program_brakes_a_chain_without_encoder_on_either_driver(elf, shield):
+    ran = farthest_run(elf, shield, is_cut=False)
+    assert 0.3 < ran < farthest_run(None, shield, is_cut=True) + MOST_BEYOND
 
 
 LOOSE = {**judged(MAKER), "left.inward": 0.004, "right.inward": 0.006}

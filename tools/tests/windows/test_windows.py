@@ -26,8 +26,7 @@ NOT_UNDER_WINE = (
     "diagnosis/test_evidence_by_force.py",  # asks SciPy for what that of Wine 8 lacks
     *("text/test_compiled.py", "lab/test_built_page.py"),  # of the tree, not of a package
     # They need the simulated Mega.
-    *(f"firmware/test_{name}.py" for name in ("dialogues_on_the_mega", "firmware_elf")),
-    "firmware/test_two_events_on_the_mega.py",
+    *(f"firmware/test_{name}.py" for name in ("firmware_elf", "two_events_on_the_mega")),
     # They open pseudo terminals.
     "lab/test_broken_cut.py",
     *("line/test_line_lock.py", "vm/test_clients.py", "vm/test_flash.py", "vm/test_links.py"),
