@@ -14,8 +14,7 @@ from pydantic import computed_field
 from plumb.diagnosis.evidence import Noise
 from plumb.diagnosis.expected_error import Drawn, drawn_by, left_open
 from plumb.diagnosis.explanation import Board, Explanation, explain
-from plumb.diagnosis.outliers import described
-from plumb.diagnosis.readings import clear_outliers
+from plumb.diagnosis.readings import clear_outliers, described
 from plumb.firmware.settings import Difference, both_values, differences, numbers_in_force
 from plumb.fit.compare import (
     PATCH,

@@ -27,10 +27,9 @@ from plumb.diagnosis.explanation import (
     measured_board,
     span,
 )
-from plumb.diagnosis.outliers import Outlier
 from plumb.diagnosis.posterior import Account, Listed, Posterior, Spot
 from plumb.diagnosis.priors import LIKELIER
-from plumb.diagnosis.readings import CleanReadings, clean_readings, shifts
+from plumb.diagnosis.readings import CleanReadings, Outlier, clean_readings, shifts
 from plumb.fit.compare import plausible_range, range_said
 from plumb.fit.fit import Checked
 from plumb.fit.inputs import Inputs, Stated

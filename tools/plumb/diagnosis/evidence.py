@@ -527,6 +527,35 @@ def add_by_set(total: Array, part: AccountGroup, weight: Array) -> None:
 # Readings that are off.
 
 
+@dataclass(frozen=True)
+class Reading:
+    """A reading: a mark's place or a distance, by its index among its kind."""
+
+    index: int
+    is_mark: bool
+
+    @property
+    def size(self) -> int:
+        """The number of numbers that were read."""
+        return 2 if self.is_mark else 1
+
+    def numbers(self, rows: Observations) -> Array:
+        """Return its entries among all measured numbers."""
+        if self.is_mark:
+            return np.array([2 * self.index, 2 * self.index + 1])
+        return np.array([rows.measured.size + self.index])
+
+    def place(self, rows: Observations) -> int:
+        """Return its place among all readings."""
+        return self.index if self.is_mark else len(rows.measured) + self.index
+
+
+def readings_of(rows: Observations) -> list[Reading]:
+    """Return all readings."""
+    marks = [Reading(i, True) for i in range(len(rows.measured))]
+    return marks + [Reading(i, False) for i in range(len(rows.distances))]
+
+
 def outlier_weights(
     board: LinearBoard, accounts: Accounts, noises: Noises, numbers: Array
 ) -> Array:

@@ -20,6 +20,7 @@ from plumb.diagnosis.evidence import (
     MovedRound,
     Noise,
     Noises,
+    Reading,
     about,
     accounts_of,
     asked_for,
@@ -31,11 +32,11 @@ from plumb.diagnosis.evidence import (
     noises_of,
     outlier_weights,
     pitches,
+    readings_of,
     smooth_fields,
     weights_of,
 )
 from plumb.diagnosis.explanation import Board, Explanation, half_span, measured_columns, places_of
-from plumb.diagnosis.outliers import Reading, readings_of
 from plumb.diagnosis.priors import (
     FIELD,
     FIELD_SPREADS,

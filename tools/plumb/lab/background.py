@@ -14,7 +14,7 @@ from typing import Generic, TypeVar, cast
 from plumb.cure.add import BoardView, LiveBoard
 from plumb.cure.decision import Decision, decide
 from plumb.diagnosis import Diagnosis, diagnose
-from plumb.diagnosis.outliers import Doubts, Outlier, sure_readings
+from plumb.diagnosis.readings import Doubts, Outlier, sure_readings
 from plumb.fit.compare import Comparison, compare
 from plumb.fit.inputs import Inputs
 from plumb.lab.project import Project

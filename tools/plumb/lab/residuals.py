@@ -7,7 +7,7 @@ from typing import Any, TypeVar
 from pydantic import BaseModel, ConfigDict
 
 from plumb.cure.add import BoardView
-from plumb.diagnosis.outliers import NOTHING_DOUBTED, Doubts
+from plumb.diagnosis.readings import NOTHING_DOUBTED, Doubts
 from plumb.fit.compare import ComparedMark, Comparison
 from plumb.fit.fit import Fit
 from plumb.marks.read import Measurements

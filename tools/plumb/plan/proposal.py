@@ -10,7 +10,7 @@ import numpy as np
 from plumb.diagnosis.diagnosis import Diagnosis, Room, Verdict
 from plumb.diagnosis.evidence import Noise
 from plumb.diagnosis.explanation import Board, Explanation, span
-from plumb.diagnosis.outliers import Outlier
+from plumb.diagnosis.readings import Outlier
 from plumb.fit.inputs import Inputs
 from plumb.fit.observations import Observations
 from plumb.model.catalogue import every_effect, is_felt_by_approach

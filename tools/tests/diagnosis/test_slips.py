@@ -9,10 +9,9 @@ from plumb.bench.boards import MAKER, Hidden, causes_of, cut, plan
 from plumb.cure.add import add
 from plumb.cure.decision import decide
 from plumb.diagnosis import diagnose
-from plumb.diagnosis.evidence import moved_rounds
+from plumb.diagnosis.evidence import Reading, moved_rounds
 from plumb.diagnosis.explanation import Board, explain
-from plumb.diagnosis.outliers import MixedPair, Reading, Shift, described, find_mixed_up
-from plumb.diagnosis.readings import look_over
+from plumb.diagnosis.readings import MixedPair, Shift, described, find_mixed_up, look_over
 from plumb.fit.inputs import Inputs
 from plumb.fit.observations import model_and_observations
 from plumb.marks.form import marks_toml

@@ -18,9 +18,9 @@ from plumb.diagnosis.evidence import (
     fitted,
 )
 from plumb.diagnosis.explanation import Board, explain
-from plumb.diagnosis.outliers import Outlier
 from plumb.diagnosis.posterior import listing, posterior_of
 from plumb.diagnosis.priors import turned
+from plumb.diagnosis.readings import Outlier
 from plumb.fit.fit import Checked
 from plumb.fit.inputs import Stated
 from plumb.fit.observations import model_and_observations

@@ -8,7 +8,7 @@ from pydantic import BaseModel
 from plumb import api
 from plumb.cure.add import BoardView, Chosen, LiveBoard
 from plumb.cure.decision import Decision
-from plumb.diagnosis.outliers import Doubts
+from plumb.diagnosis.readings import Doubts
 from plumb.fit.compare import Comparison
 from plumb.lab.background import Background, key_of
 from plumb.lab.project import Project
