@@ -6,8 +6,7 @@ import shutil
 
 import numpy as np
 import pytest
-from example_machine import INI
-from example_machine import MARKS as TAPED
+from example_machine import EXAMPLE, INI
 from plumb.model.catalogue import effect_names
 from plumb.settings.files import digest_of
 from plumb.settings.machine import write_machine_toml
@@ -19,7 +18,7 @@ FILL = "# measured = [ , ]"
 
 
 def test_the_preparation_is_printed_first(run):
-    code, said, complaint = run("next", INI, TAPED)
+    code, said, complaint = run("next", INI, EXAMPLE / "marks.toml")
     assert code == 0 and complaint == ""
     assert "\nNext: " in said and "about" in said and "minutes" in said
     assert "--checked" in said and "VALUE" in said
@@ -83,12 +82,12 @@ def test_marks_that_are_only_read_again_are_not_cut(run, ask, file, maker, tmp_p
 
 def test_a_number_that_was_checked_is_not_proposed_again(ask):
     gap = "the gap between the motors"
-    code, answer = ask("next", INI, TAPED)
+    code, answer = ask("next", INI, EXAMPLE / "marks.toml")
     assert code == 0 and gap in [each["title"] for each in answer["next"]]
     # What is known of the account that holds comes with each proposal, in bits.
     assert all(each["bits"] > 0 and 0 <= each["chance"] <= 1 for each in answer["next"][:3])
     assert answer["next"][0]["chance"] > 0
-    code, answer = ask("next", INI, TAPED, "--checked", "motor_gap=2980.4±0.5")
+    code, answer = ask("next", INI, EXAMPLE / "marks.toml", "--checked", "motor_gap=2980.4±0.5")
     titles = [each["title"] for each in answer["next"]]
     assert code == 0 and gap not in titles
     assert "100 links of each chain" in titles

@@ -1,5 +1,5 @@
-// Stretches of many ticks: they agree with single ticks, they are few, and what holds after every
-// step of random moves.
+// What holds after every step of random moves, and stretches of many ticks: they agree with single
+// ticks, and they are few.
 #include <gtest/gtest.h>
 
 #include <algorithm>
