@@ -1,6 +1,7 @@
 """Readings and distances by the routes: each is saved, none is lost, what disagrees is said."""
 
 import json
+import re
 import shutil
 
 import pytest
@@ -121,6 +122,18 @@ def test_good_readings_raise_no_doubt_however_few_they_are(client, tmp_path):
         (tmp_path / "marks.toml").write_text(example_form(read=count))
         answer = client.get("/api/doubts", params={"file": "marks.toml"}).json()
         assert answer["doubts"] == [], count
+
+
+def test_how_far_off_the_marks_are_is_said_without_what_disagrees(client, tmp_path):
+    form = example_form(read=9)
+    (tmp_path / "marks.toml").write_text(form)
+    whole = client.get("/api/doubts", params={"file": "marks.toml"}).json()
+    first = re.search(r"^measured = \[([\d.]+),", form, re.MULTILINE)
+    wrong = form.replace(first[0], f"measured = [{float(first[1]) + 100:.1f},", 1)
+    (tmp_path / "marks.toml").write_text(wrong)
+    rest = client.get("/api/doubts", params={"file": "marks.toml"}).json()
+    assert len(rest["doubts"]) == 1 and "That is without what disagrees." in rest["compared"]
+    assert whole["compared"] and "without" not in whole["compared"]
 
 
 REAL = sorted(
