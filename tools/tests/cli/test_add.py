@@ -177,8 +177,8 @@ def next_command(said):
 
 def test_auto_uses_checked_numbers(ask, run):
     _, free = ask("add", *OURS, "--effect", "auto")
-    _, taken = ask("add", *OURS, "--effect", "auto", *checked())
-    assert free["auto"]["verdict"] == "cannot_tell" and free["auto"]["rivals"]
+    code, taken = ask("add", *OURS, "--effect", "auto", *checked())
+    assert free["auto"]["verdict"] == "cannot_tell" and free["auto"]["rivals"] and code == 0
     assert taken["auto"]["verdict"] == "one_suspect" and not taken["auto"]["rivals"]
     assert taken["effects_added"] == ["chain_pitch", "chain_stretch"]
 

@@ -480,7 +480,9 @@ def test_the_command_writes_lists_or_refuses_the_changes(here, capsys):
         said = capsys.readouterr().out
         assert said.startswith("out.nc cuts the same, with 4 lines changed:\n- line 4:")
         assert "Nothing is wrong with out.nc." in said
-    assert len((here / "out.nc").read_text().splitlines()) == len(FUSION)
+    mended = (here / "out.nc").read_text()
+    assert mended.startswith("(plumb: job.nc as this machine runs it) ")
+    assert len(mended.splitlines()) == len(FUSION)
     (here / "job.nc").write_text("G0 Z5\nG41 D1\nG1 Z-1 F200\n")
     assert main(["check", "job.nc", "machine.toml", "--fix", "other.nc"]) == 2
     assert not (here / "other.nc").exists()

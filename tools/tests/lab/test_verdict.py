@@ -84,7 +84,9 @@ def posted(client, path, body, status=200):
 
 def test_the_bench_opens_with_phases_in_degrees_and_possible_sizes(client):
     bench = client.get("/api/bench").json()
-    phase = next(each for each in bench["covariates"] if each["name"] == "phase")
+    covariates = {each["name"]: each for each in bench["covariates"]}
+    phase, same = covariates["phase"], [each["same"] for each in covariates.values()]
+    assert [each for each in same if each] == ["last move is 90 ° for all marks"]
     assert phase["unit"] == "°" and 6.3 < max(map(max, phase["values"])) <= 360
     parameters = [each for effect in bench["effects"] for each in effect["parameters"]]
     assert all(each["low"] <= 0 <= each["high"] for each in parameters)

@@ -83,9 +83,10 @@ HOSTILE += ("<!-- <script>", "-->&amp;<b>")
 
 
 def slipped(folder):
-    """The example with a reading that is wrong by 40 mm."""
+    """The example of a day, with a reading that is wrong by 40 mm."""
     path = folder / "slipped.toml"
-    path.write_text(MARKS.read_text().replace("measured = [98, 106]", "measured = [138, 106]"))
+    text = MARKS.read_text().replace("measured = [98, 106]", "measured = [138, 106]")
+    path.write_text(f'date = "2026-05-03"\n{text}')
     return INI, path
 
 
@@ -178,6 +179,7 @@ def test_a_slip_changes_no_number_and_has_its_mark(made, opened):
     page = opened(path)
     assert answer["addition"] is None and answer["diagnosis"]["slips"][0]["sentence"]
     page.get_by_role("heading", name="A reading disagrees: look at it first").wait_for()
+    assert "on a sheet of 2438 mm by 1219 mm, measured 2026-05-03" in page.inner_text("main")
     assert "(read it again)" in page.locator("tr.doubted").inner_text()
     assert page.locator(".slips li").all_inner_texts() == [
         slip["sentence"] for slip in answer["diagnosis"]["slips"]
