@@ -5,7 +5,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
-from plumb.firmware.settings import every_setting, firmware_numbers, gcode
+from plumb.firmware.settings import firmware_numbers, gcode, listed_settings
 from plumb.line.sender import QUESTION, REPORTS, Sender, Watch, are_apart
 from plumb.settings.machine import MachineSettings
 from plumb.text.errors import InputError, to_do
@@ -113,9 +113,9 @@ def refuse_while_moving(sender: Sender) -> None:
 
 def as_lines(numbers: Mapping[int, float]) -> str:
     """Return numbers as lines that can be sent again; those that no line may set are left out."""
-    settable = {row.number for row in every_setting() if row.access == "listed"}
+    rows = listed_settings()
     return "".join(
-        f"${number}={value:.9g}\n" for number, value in numbers.items() if number in settable
+        f"${number}={value:.9g}\n" for number, value in numbers.items() if number in rows
     )
 
 
