@@ -4,7 +4,7 @@ import math
 from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
-from plumb.text.errors import to_do
+from plumb.text.errors import InputError, to_do
 from plumb.text.values import typed_length
 
 # Options of a grid of marks, and the machine that cuts it.
@@ -21,6 +21,7 @@ MAX_TENSION = 200.0  # [N]
 # Below a slack-side bungee's pull the gears change sides, and the far chain is too soft.
 MIN_TENSION = 18.0  # [N]
 MIN_FREE_CHAIN = 100.0  # [mm] between ring and sprocket, so that the carriage stays clear
+BLANK = "# measured = [ , ]"  # what a form has where a reading is yet to come
 # [mm] of each unit of a form, and the decimals that its targets have.
 UNITS = {"mm": (1.0, 2), "inch": (25.4, 4)}
 
@@ -42,7 +43,7 @@ NUMBERS = {
 }
 
 
-class GridError(ValueError):
+class GridError(InputError):
     """A fault, its place and its remedy, in one line."""
 
 
@@ -350,6 +351,6 @@ def marks_list(
         lines += [
             f'\n[[mark]]\nname = "{mark.name}"\ntarget = {target}',
             f"approach = [{APPROACH[0]:.1f}, {0.0 - APPROACH[1]:.1f}]",
-            "# measured = [ , ]",
+            BLANK,
         ]
     return "\n".join([*lines, ""])

@@ -14,10 +14,10 @@ import numpy as np
 from pydantic.dataclasses import dataclass as pydantic_dataclass
 
 from plumb.diary.file import write_and_keep
-from plumb.firmware.settings import CLIENT_NUMBERS, firmware_numbers, gcode, machine_of_numbers
+from plumb.firmware.settings import CLIENT_NUMBERS, machine_of_numbers
 from plumb.fit.compare import expected_anywhere, expected_error, expected_priors, expected_sentence
 from plumb.fit.inputs import settings_in
-from plumb.line.memory import read_numbers
+from plumb.line.memory import lines_for, read_numbers
 from plumb.line.sender import RefusedError, Sender
 from plumb.model.reach import percent, survey_sheet
 from plumb.settings.machine import GRAVITY, MachineSettings, frame_of, machine_toml
@@ -431,7 +431,7 @@ def tell_numbers(visit: GuideVisit) -> bool:
     )
     visit.progress.sigmas["sled_weight"] = GRAVITY * WEIGHT_SIGMA
     changed = replace(settings, **frame_of(frame))
-    lines = gcode(firmware_numbers(changed)).decode().splitlines()
+    lines = lines_for(changed, visit.path.name)
     written, _, failure = write_and_keep(visit.sender, visit.path, lines)
     visit.write(machine_toml(changed))
     rows = [f"  ${number}: {old:g} -> {new:g}" for number, (old, new) in written.changed.items()]

@@ -8,49 +8,33 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 
-from plumb.cure.add import Addition
+from plumb.cure.add import Addition as Addition
 from plumb.cure.add import add as add_effects
 from plumb.cure.decision import decide as decided
 from plumb.diagnosis import Checked
 from plumb.diagnosis import diagnose as diagnosed
-from plumb.fit.compare import Comparison, compare, refuse_absurd
+from plumb.fit.compare import Comparison as Comparison
+from plumb.fit.compare import compare as compare
+from plumb.fit.compare import refuse_absurd
 from plumb.fit.fit import priors_with
 from plumb.fit.inputs import Inputs, read_inputs
 from plumb.plan import propose
 from plumb.settings.machine import write_machine_toml
 from plumb.text.compiled import refuse_stale
-from plumb.text.errors import InputError, Source
+from plumb.text.errors import InputError as InputError
+from plumb.text.errors import Source
 from plumb.words import decision, proposals, verdict
 from plumb.words.decision import DecisionInWords as Decision
 from plumb.words.proposals import NextInWords as Next
 from plumb.words.verdict import DiagnosisInWords as Diagnosis
 
-__all__ = [
-    "Addition",
-    "Comparison",
-    "Decision",
-    "Diagnosis",
-    "InputError",
-    "Inputs",
-    "Next",
-    "add",
-    "compare",
-    "decide",
-    "diagnose",
-    "next",
-    "read",
-    "write",
-]
-
-AnyPath = Source
-
 refuse_stale()
 
 
 def read(
-    settings: AnyPath,
-    *marks: AnyPath,
-    cut_with: AnyPath | None = None,
+    settings: Source,
+    *marks: Source,
+    cut_with: Source | None = None,
     controller: str | None = None,
     sigma: float | None = None,
     priors: Mapping[str, float] | None = None,
@@ -89,7 +73,7 @@ def add(inputs: Inputs, effects: Sequence[str] = (), *, patch: bool = False) -> 
     return add_effects(inputs, effects=effects, patch=patch)
 
 
-def write(addition: Addition, path: AnyPath) -> Path:
+def write(addition: Addition, path: Source) -> Path:
     """Write the new machine as a machine.toml; an old file of that name is replaced."""
     write_machine_toml(path, addition.settings)
     return Path(path)

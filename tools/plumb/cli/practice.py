@@ -11,13 +11,14 @@ import numpy as np
 from plumb.cli.arguments import add_shared, unit_of
 from plumb.cli.screen import headline, print_json, sentences, table
 from plumb.cli.vm import add_brain, serve
+from plumb.grid import BLANK
 from plumb.model.predict import known_effects
 from plumb.settings.files import read_settings
 from plumb.settings.machine import machine_toml
 from plumb.text.errors import InputError
 from plumb.text.files import write_all, write_whole
 from plumb.text.values import Unit
-from plumb.vm.garage import BLANK, Tape, VirtualMachine
+from plumb.vm.garage import Tape, VirtualMachine
 from plumb.vm.practice import MACHINES, SECRET, Score, Secret, score, secret_in
 
 SETTINGS, PORT = "machine.toml", "port"

@@ -19,8 +19,8 @@ from plumb.settings.files import (
     number_for_firmware,
     parse_client_file,
 )
-from plumb.settings.machine import MachineSettings, frame_of
-from plumb.text.errors import InputError, Source, to_do
+from plumb.settings.machine import TUNED, MachineSettings, frame_of
+from plumb.text.errors import InputError, Source, naming, to_do
 from plumb.text.files import IniText
 
 
@@ -46,6 +46,11 @@ class Setting:
 def every_setting() -> list[Setting]:
     """Return all settings in the order of the firmware's dump."""
     return [Setting(**row) for row in _core.settings_table()]
+
+
+def listed_settings() -> dict[int, Setting]:
+    """Return those of the dump, by their $-number."""
+    return {row.number: row for row in every_setting() if row.access == "listed"}
 
 
 def machine_of(numbers: Mapping[int, float], *, sheet: tuple[float, float]) -> MachineSettings:
@@ -114,7 +119,13 @@ def firmware_numbers(settings: MachineSettings) -> tuple[SentSetting, ...]:
         SentSetting(number, rows[number].name, format_value(value).strip(), rows[number].unit)
         for number, value in sorted(values.items())
     )
-    _refuse_what_differs(settings, {row.number: float(row.text) for row in numbers})
+    with naming("the firmware refuses these settings"):
+        apart = chains_apart(settings, {row.number: float(row.text) for row in numbers})
+    if apart > WORST:
+        raise InputError(
+            f"the firmware would pay out chain that differs by {apart:.3f} mm from this machine's: "
+            "check its numbers for sizes that no real machine has"
+        )
     return numbers
 
 
@@ -143,18 +154,6 @@ def values_of(settings: MachineSettings) -> dict[int, float]:
     return numbers
 
 
-def _refuse_what_differs(settings: MachineSettings, numbers: dict[int, float]) -> None:
-    try:
-        apart = chains_apart(settings, numbers)
-    except ValueError as error:
-        raise InputError(f"the firmware refuses these settings: {error}") from None
-    if apart > WORST:
-        raise InputError(
-            f"the firmware would pay out chain that differs by {apart:.3f} mm from this machine's: "
-            "check its numbers for sizes that no real machine has"
-        )
-
-
 def chains_apart(settings: MachineSettings, numbers: Mapping[int, float]) -> float:
     """By how much the firmware's chains with these numbers differ from the machine's, over its
     sheet [mm]; infinite where the sled hangs nowhere.
@@ -177,8 +176,8 @@ WIDTH, HEIGHT = 0, 1  # $-numbers of the sheet
 
 def machine_of_numbers(numbers: Mapping[int, float]) -> MachineSettings:
     """Return the machine of all the numbers that a board lists. Raises InputError."""
-    known = {row.number for row in every_setting() if row.access == "listed"}
-    listed = {number: value for number, value in numbers.items() if number in known}
+    rows = listed_settings()
+    listed = {number: value for number, value in numbers.items() if number in rows}
     try:
         return machine_of(listed, sheet=(numbers[WIDTH], numbers[HEIGHT]))
     except (KeyError, ValueError) as error:
@@ -230,16 +229,14 @@ def differences(settings: MachineSettings, held: Mapping[int, float]) -> tuple[D
     """Return the numbers of the file that a machine does not hold; none if its chains are those of
     the file. `held`: all that the machine lists. Raises InputError.
     """
-    rows = {row.number: row for row in every_setting() if row.access == "listed"}
+    rows = listed_settings()
     listed = {number: value for number, value in held.items() if number in rows}
     said = numbers_in_force(settings)
-    try:
+    with naming("the machine's numbers make no machine"):
         ours = machine_of({**listed, **said}, sheet=settings.sheet)
         on_ring = listed.get(KINEMATICS, RING) == RING
         if on_ring and chains_apart(ours, listed) <= WORST:
             return ()
-    except ValueError as error:
-        raise InputError(f"the machine's numbers make no machine: {error}") from None
     return tuple(
         Difference(number, rows[number].name, rows[number].unit, value, listed.get(number, 0.0))
         for number, value in sorted(said.items())
@@ -280,7 +277,12 @@ def refuse_other_numbers(
     """InputError with both values if a machine does not hold the numbers of a file."""
     others = differences(settings, held)
     if others:
-        raise InputError(f"{both_values(others, file, MACHINE)}. Which holds? " + _answers(file))
+        remedy = to_do(
+            f"plumb read writes the machine's numbers into a file; cut with that, or write those "
+            f"of {file} into the machine first",
+            page="answer the question above",
+        )
+        raise InputError(f"{both_values(others, file, MACHINE)}. Which holds? " + remedy)
 
 
 def refuse_other_origin(settings: MachineSettings, held: Mapping[int, float], *, file: str) -> None:
@@ -293,7 +295,12 @@ def refuse_other_origin(settings: MachineSettings, held: Mapping[int, float], *,
     if all(each):
         name = known[1].file.name if known[1].file else "the settings of its marks"
         both = both_values(each[1], name, MACHINE)
-        raise InputError(f"{file} was fitted to marks of another machine: {both}. " + _over())
+        remedy = to_do(
+            "Cut and measure new marks; or, if the file's numbers hold, send it with --force",
+            page="Cut and measure new marks; or, if the file's numbers hold, answer the question "
+            "above",
+        )
+        raise InputError(f"{file} was fitted to marks of another machine: {both}. " + remedy)
 
 
 def both_values(others: tuple[Difference, ...], file: str, machine: str) -> str:
@@ -307,21 +314,6 @@ def both_values(others: tuple[Difference, ...], file: str, machine: str) -> str:
     return f"{said}, and {more} more differ" if more > 0 else said
 
 
-def _answers(file: str) -> str:
-    return to_do(
-        f"plumb read writes the machine's numbers into a file; cut with that, or write those of "
-        f"{file} into the machine first",
-        page="answer the question above",
-    )
-
-
-def _over() -> str:
-    return to_do(
-        "Cut and measure new marks; or, if the file's numbers hold, send it with --force",
-        page="Cut and measure new marks; or, if the file's numbers hold, answer the question above",
-    )
-
-
 # The files that belong together: for the machine and its client, with a single carrier for each
 # correction.
 #
@@ -329,12 +321,10 @@ def _over() -> str:
 # corrections. So whoever writes lines for the machine writes the client's numbers with them.
 
 
-# What clients work out before they send it.
-CHAIN_PER_TURN, FEED = 13, 38
+CHAIN_PER_TURN, FEED = 13, 38  # what clients work out before they send it
 # The file in which each client keeps its numbers.
 CLIENT_FILES = {"groundcontrol": "groundcontrol.ini", "webcontrol": "webcontrol.json"}
 TYPE_THEM = "type these numbers into WebControl's settings"
-CORRECTIONS = ("chain_sag_correction", "left_tolerance", "right_tolerance")
 
 
 @dataclass(frozen=True)
@@ -444,7 +434,7 @@ def _kept_by_client(settings: MachineSettings) -> dict[Key, float]:
         "motor_gap": settings.motor_gap,
         "motor_offset": settings.motor_offset,
         "rotation_radius": settings.rotation_radius,
-        **dict.fromkeys(CORRECTIONS, 0.0),
+        **dict.fromkeys(TUNED.values(), 0.0),
     }
     return {SOURCES[name]: round(value, 4) for name, value in said.items()}
 

@@ -9,18 +9,19 @@ itself on machines that have a home, wherever that home is.
 
 import re
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import numpy as np
 
 from plumb.job.dry_run import CLEAR, GOUGES, HALTS, Finding, Moves, findings_of, pieces
-from plumb.job.resume import JobMachine, Place
-from plumb.job.wood import FOREIGN, INCH
+from plumb.job.resume import NO_CYCLE, JobMachine, Modes, Place, Word
+from plumb.job.wood import FOREIGN
 from plumb.model.predict import Array
 from plumb.text.answers import Internal
 from plumb.text.errors import InputError
+from plumb.text.values import INCH
 
-HOME, MACHINE, CANCEL, NO_MOTION = (28.0, 30.0), 53.0, 80.0, 80
+HOME, MACHINE = (28.0, 30.0), 53.0
 NO_PLACE, NO_MODE = "no place is kept for it", "no motion is in force after G80"
 NO_CHIPS, NO_PECK = "this machine does no G73", "G83 needs Q"
 CYCLE, PECK = re.compile(r"(?i)g0*(73|83)(?![\d.])"), re.compile(r"(?i)\s*q\s*[-+.\d]+")
@@ -28,7 +29,6 @@ AXES = "XYZ"
 HOMES = ((0.0, 0.0, 0.0), (37.0, -23.0, 7.0))  # [mm] x, y, and z above all the program
 SAME = 2e-3  # [mm] between two cuts that are the same
 REMEDY = "change it where the program was made"
-Word = tuple[str, float, dict[str, float]]
 
 
 @dataclass(frozen=True)
@@ -101,35 +101,11 @@ def _with(lines: Sequence[str], others: dict[int, str]) -> list[str]:
 # Which lines change, and to what.
 
 
-@dataclass
-class _Modes:
-    """Modes in force between two lines of a program."""
-
-    motion: int = 0
-    before_cycle: int = 0
-    inches: bool = False
-    relative: bool = False
-    _units: dict[float, bool] = field(default_factory=lambda: {20.0: True, 21.0: False})
-
-    def take(self, words: Sequence[Word]) -> None:
-        for letter, code, _ in words:
-            if letter == "M" and code in (2, 30) and self.motion >= NO_MOTION:
-                self.motion = 0
-            if letter != "G":
-                continue
-            self.inches = self._units.get(code, self.inches)
-            self.relative = code == 91 if code in (90, 91) else self.relative
-            if code in (81, 82, 83) and self.motion < NO_MOTION:
-                self.before_cycle = self.motion
-            if code in (0, 1, 2, 3, 80, 81, 82, 83):
-                self.motion = int(code)
-
-
 def _changes(lines: Sequence[str], findings: Sequence[Finding], top: float) -> Iterator[FixedLine]:
     """Yield the lines to change, `top` [mm] the highest z of the program."""
     halting = {line: each.says for each in _halts(findings) for line in each.lines}
     means_top = _means_top(findings)
-    modes = _Modes()
+    modes = Modes()
     for number, line in enumerate(lines, start=1):
         words = pieces(line)
         modes.take(words)
@@ -139,7 +115,7 @@ def _changes(lines: Sequence[str], findings: Sequence[Finding], top: float) -> I
             change = _homeless(number, line, words, modes, top)
         elif means_top and FOREIGN.search(line):
             change = _from_top(number, line, words, modes, top)
-        elif says.startswith(NO_MODE) and modes.motion == NO_MOTION:
+        elif says.startswith(NO_MODE) and modes.motion == NO_CYCLE:
             change = _after_cycle(number, line, words, modes)
         elif says.startswith((NO_CHIPS, NO_PECK)) and CYCLE.search(line):
             change = _drilled(number, line, words)
@@ -157,9 +133,9 @@ def _drilled(number: int, line: str, words: Sequence[Word]) -> FixedLine:
     return FixedLine(number, line.strip(), after, why, drills=True)
 
 
-def _after_cycle(number: int, line: str, words: Sequence[Word], modes: _Modes) -> FixedLine | None:
+def _after_cycle(number: int, line: str, words: Sequence[Word], modes: Modes) -> FixedLine | None:
     """Return the line as a rapid move, if that was in force before the holes."""
-    if modes.before_cycle != 0 or any(code == CANCEL for _, code, _ in words):
+    if modes.before_cycle != 0 or any(code == NO_CYCLE for _, code, _ in words):
         return None
     modes.motion = 0
     why = "behind G80 this machine wants the code of a motion; before the holes it was G0"
@@ -167,39 +143,40 @@ def _after_cycle(number: int, line: str, words: Sequence[Word], modes: _Modes) -
 
 
 def _homeless(
-    number: int, line: str, words: Sequence[Word], modes: _Modes, top: float
+    number: int, line: str, words: Sequence[Word], modes: Modes, top: float
 ) -> FixedLine | None:
     """Return a retract in place of the way home; None where the way there may cut."""
     axes = {axis: value for _, code, each in words for axis, value in each.items() if axis in AXES}
-    if modes.motion > NO_MOTION or (not modes.relative and axes.get("Z", 0.0) < 0):
+    if modes.motion > NO_CYCLE or (not modes.relative and axes.get("Z", 0.0) < 0):
         return None
     homed = "".join(axes) or AXES
-    kept = _codes(words, HOME)
     why = "this machine has no home: "
     if "Z" not in homed:
-        return FixedLine(number, line.strip(), kept, why + "the sled stays", goes_home=True)
-    after = " ".join(filter(None, [kept, _rise(modes, top)]))
+        after = _codes(words, HOME)
+        return FixedLine(number, line.strip(), after, why + "the sled stays", goes_home=True)
+    after = _risen(words, HOME, modes, top)
     return FixedLine(number, line.strip(), after, why + "the bit goes up instead", goes_home=True)
 
 
 def _from_top(
-    number: int, line: str, words: Sequence[Word], modes: _Modes, top: float
+    number: int, line: str, words: Sequence[Word], modes: Modes, top: float
 ) -> FixedLine | None:
     axes = {axis: value for _, _, each in words for axis, value in each.items() if axis in AXES}
     if modes.motion != 0 or set(axes) != {"Z"} or axes["Z"] >= 0:
         return None
-    kept = _codes(words, (MACHINE, 0.0))
     why = "the top of another machine's z; here z is 0 at the face of the sheet"
-    after = " ".join(filter(None, [kept, _rise(modes, top)]))
+    after = _risen(words, (MACHINE, 0.0), modes, top)
     return FixedLine(number, line.strip(), after, why)
 
 
-def _rise(modes: _Modes, top: float) -> str:
-    """Return words that lift the bit, and leave the motion in force as it was."""
+def _risen(words: Sequence[Word], without: Sequence[float], modes: Modes, top: float) -> str:
+    """Return a line without some codes that lifts the bit, and leaves the motion in force as it
+    was.
+    """
     height = f"{top / INCH:.4f}" if modes.inches else f"{top:.3f}"
     # Behind G2 and G3 a place without a centre is a straight way, as in G1.
-    back = {0: "", NO_MOTION: f" G{NO_MOTION}"}.get(modes.motion, " G1")
-    return f"G53 G0 Z{height}{back}"
+    back = {0: "", NO_CYCLE: f" G{NO_CYCLE}"}.get(modes.motion, " G1")
+    return f"{_codes(words, without)} G53 G0 Z{height}{back}".lstrip()
 
 
 def _codes(words: Sequence[Word], without: Sequence[float]) -> str:

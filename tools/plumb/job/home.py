@@ -18,7 +18,7 @@ from plumb.grid import APPROACH, PLUNGE_FEED, Grid
 from plumb.model.predict import FOUND, Array, believed_lengths, places
 from plumb.settings.machine import MachineSettings
 from plumb.text.answers import in_json, key
-from plumb.text.errors import InputError, Source
+from plumb.text.errors import InputError, Source, naming
 from plumb.text.files import parsed, read_text, write_whole
 from plumb.text.tables import Table, part, read_table, toml_text
 from plumb.text.values import pair
@@ -79,10 +79,8 @@ def new_home_mark(
     settings: MachineSettings, name: str, place: Point, *, date: str = ""
 ) -> HomeMark:
     """Return a hole that the machine makes at a place by these settings. Raises InputError."""
-    try:
+    with naming(f"home mark {name}"):
         left, right = believed_lengths(settings, np.array([place], dtype=float))[0].tolist()
-    except ValueError as error:
-        raise InputError(f"home mark {name}: {error}") from None
     file = settings.file.name if settings.file else ""
     return HomeMark.model_construct(
         name=name, place=place, chains=(left, right), date=date, settings=file
@@ -118,10 +116,8 @@ def place_of(settings: MachineSettings, mark: HomeMark) -> Array:
 def home_fit(settings: MachineSettings, mark: HomeMark, shown: Point) -> HomeFit:
     """Return how well a home mark agrees with what the machine shows of the bit in it."""
     x, y = (place_of(settings, mark) - np.array(shown)).tolist()
-    try:
+    with naming("what the machine shows cannot be"):
         believed = believed_lengths(settings, np.array([shown], dtype=float))[0]
-    except ValueError as error:
-        raise InputError(f"what the machine shows cannot be: {error}") from None
     left, right = (np.array(mark.chains) - believed).tolist()
     # Both holes are touched, and each was made with the bit once.
     return HomeFit(mark.name, (x, y), (left, right), limit=SURE * 2**0.5 * TOUCH_SIGMA)

@@ -14,6 +14,7 @@ from plumb.settings.machine import MachineSettings
 from plumb.text.errors import InputError
 
 Place = tuple[float, float, float]
+Word = tuple[str, float, dict[str, float]]
 NO_CYCLE = 80  # modes of motion beyond it are drilling cycles
 MODES = "G21 G90 G91.1 G94 G17 G80"
 
@@ -84,7 +85,8 @@ def _last_free(machine: JobMachine, lines: Sequence[str], moves: Moves, before: 
     # The last move of a line counts.
     z[moves["line"].astype(int)] = moves["z_to"]
     known = np.maximum.accumulate(np.where(np.isnan(z), 0, np.arange(len(z))))
-    in_cycle = cycles_after(lines[:before])
+    modes = Modes()
+    in_cycle = [modes.take(pieces(line)).is_in_cycle for line in lines[:before]]
     for done in range(before, 0, -1):
         if z[known[done]] >= IN_WOOD and not in_cycle[done - 1]:
             return done
@@ -98,9 +100,9 @@ class _Head:
         """Take the run of the lines done, and use it up."""
         self.safe = safe
         self._begin, self._modes = run.origin, run.modes
-        self._tools: ToolsInUse = tools_after(done)
-        self._before: Coordinates = coordinates_of(machine.after([]))
-        self._after: Coordinates = coordinates_of(run)
+        self._tools = modes_after(done)
+        self._before = coordinates_of(machine.after([]))
+        self._after = coordinates_of(run)
 
     def to_place(self, place: Place) -> list[str]:
         """Up, tool and spindle, across, and down to the height of `place` [mm] of the machine."""
@@ -323,7 +325,7 @@ def _is_same(place: Place, other: Place) -> bool:
     return all(abs(each) < SAME for each in _difference(place, other))
 
 
-# What lines of a program switch: spindle and laser, drilling cycles, coordinates.
+# What lines of a program switch: motion and units, spindle and laser, coordinates.
 
 SPINDLE = {3.0: "M3", 4.0: "M4", 5.0: "", 2.0: "", 30.0: "", 6.0: ""}  # by the number of the M
 LASER = {106.0: True, 107.0: False, 2.0: False, 30.0: False}
@@ -331,17 +333,53 @@ DECLARES = (92.0, 92.1, 92.2, 92.3, 43.1)  # G codes that move the program's coo
 CYCLES = (81.0, 82.0, 83.0)
 MOTIONS = (0.0, 1.0, 2.0, 3.0, 80.0)  # each ends a cycle
 SPEED = "S"
+UNITS = {20.0: True, 21.0: False}  # whether a G code makes numbers inches
 STRONGEST = 255.0  # of a laser without an S
 
 
-@dataclass(frozen=True)
-class ToolsInUse:
-    """State of spindle and laser."""
+@dataclass
+class Modes:
+    """Modes in force between two lines of a program, and the state of spindle and laser."""
 
-    spindle: str  # M3, M4 or nothing
-    laser: bool
-    speed: float | None  # the last S
-    declares: bool  # G92, G43.1 or G10: where coordinates begin is the program's choice
+    motion: int = 0
+    before_cycle: int = 0  # the motion before the drilling cycle
+    inches: bool = False
+    relative: bool = False
+    spindle: str = ""  # M3, M4 or nothing
+    laser: bool = False
+    speed: float | None = None  # the last S
+    declares: bool = False  # G92, G43.1 or G10: where coordinates begin is the program's choice
+
+    def take(self, line: Sequence[Word]) -> Modes:
+        """Take over what a line switches; returns itself."""
+        for letter, number, words in line:
+            code = round(number, 1)
+            if SPEED in words and not (letter == "G" and code == 4.0):
+                self.speed = words[SPEED]
+            if letter == "M":
+                self.spindle = SPINDLE.get(code, self.spindle)
+                self.laser = LASER.get(code, self.laser)
+                if code == 106.0 and SPEED not in words:
+                    self.speed = STRONGEST
+                if code in (2, 30) and self.motion >= NO_CYCLE:
+                    self.motion = 0
+            if letter == "G":
+                self._take_code(code, words)
+        return self
+
+    def _take_code(self, code: float, words: Mapping[str, float]) -> None:
+        self.inches = UNITS.get(code, self.inches)
+        self.relative = code == 91 if code in (90, 91) else self.relative
+        if code in CYCLES and self.motion < NO_CYCLE:
+            self.before_cycle = self.motion
+        if code in (*CYCLES, *MOTIONS):
+            self.motion = int(code)
+        self.declares |= code in DECLARES or (code == 10.0 and "L" in words)
+
+    @property
+    def is_in_cycle(self) -> bool:
+        """Whether a drilling cycle is in force."""
+        return self.motion > NO_CYCLE
 
     @property
     def spindle_lines(self) -> list[str]:
@@ -356,31 +394,9 @@ class ToolsInUse:
         return [f"M106 S{STRONGEST if self.speed is None else self.speed:g}"] if self.laser else []
 
 
-def tools_after(lines: Sequence[str]) -> ToolsInUse:
-    """Return what is on after these lines."""
-    spindle, laser, speed, declares = "", False, None, False
+def modes_after(lines: Sequence[str]) -> Modes:
+    """Return the modes after these lines."""
+    modes = Modes()
     for line in lines:
-        for letter, code, words in pieces(line):
-            code = round(code, 1)
-            if SPEED in words and not (letter == "G" and code == 4.0):
-                speed = words[SPEED]
-            if letter == "M":
-                spindle = SPINDLE.get(code, spindle)
-                laser = LASER.get(code, laser)
-            if letter == "M" and code == 106.0 and SPEED not in words:
-                speed = STRONGEST
-            if letter == "G" and (code in DECLARES or (code == 10.0 and "L" in words)):
-                declares = True
-    return ToolsInUse(spindle, laser, speed, declares)
-
-
-def cycles_after(lines: Sequence[str]) -> list[bool]:
-    """Return whether a drilling cycle is in force after each line."""
-    in_force, result = False, []
-    for line in lines:
-        for letter, code, _ in pieces(line):
-            if letter == "G":
-                in_force = code in CYCLES or (in_force and code not in MOTIONS)
-            in_force = in_force and not (letter == "M" and code in (2.0, 30.0))
-        result.append(in_force)
-    return result
+        modes.take(pieces(line))
+    return modes

@@ -25,13 +25,13 @@ from plumb.job.dry_run import (
 )
 from plumb.model.predict import Array
 from plumb.text.answers import key
+from plumb.text.values import INCH
 
 # The bit and the sheet of a job: as the owner says, else as the program's comments, else usual.
 
 
 USUAL_BIT = 6.35  # [mm] 1/4 inch, what most of these machines cut with
 USUAL_SHEET = 19.05  # [mm] 3/4 inch
-INCH = 25.4  # [mm]
 
 
 @dataclass(frozen=True)
@@ -253,7 +253,9 @@ def spoiled(
     into = taken.met > -IN_WOOD
     turns = _turns(moves, lines)
     first = _causes(into & moves.rapid, moves)
-    foreign = np.array([_is_foreign(lines[int(line) - 1]) for line in moves["line"][first]], bool)
+    foreign = np.array(
+        [bool(FOREIGN.search(lines[int(line) - 1])) for line in moves["line"][first]], bool
+    )
     falls = (moves["z_to"] < moves["z_from"])[first]
     for those, says in (
         (foreign, FROM_TOP),
@@ -278,10 +280,6 @@ FROM_TOP = (
     "here z is 0 at the face of the sheet: write G0 Z5 instead of G53 G0 Z-5"
 )
 FOREIGN = re.compile(r"G53(?!\d).*Z\s*-|Z\s*-.*G53(?!\d)", re.IGNORECASE)
-
-
-def _is_foreign(line: str) -> bool:
-    return bool(FOREIGN.search(line))
 
 
 def _causes(wrong: Flags, moves: Moves) -> Rows:

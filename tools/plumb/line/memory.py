@@ -5,8 +5,8 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
-from plumb.firmware.settings import every_setting, firmware_numbers, gcode
-from plumb.line.sender import REPORTS, STANDS, Sender, Watch
+from plumb.firmware.settings import firmware_numbers, gcode, listed_settings
+from plumb.line.sender import QUESTION, REPORTS, Sender, Watch, are_apart
 from plumb.settings.machine import MachineSettings
 from plumb.text.errors import InputError, to_do
 from plumb.text.files import read_text
@@ -39,7 +39,7 @@ def version_of(sender: Sender) -> str:
     """Return what the machine says of its firmware, like `Firmware Version 1.28`; empty if
     nothing.
     """
-    return next((line for line in sender.ask("B05") if line.startswith("Firmware")), "")
+    return next((line for line in sender.ask(QUESTION) if line.startswith("Firmware")), "")
 
 
 def firmware_of(sender: Sender) -> str:
@@ -107,16 +107,15 @@ def refuse_while_moving(sender: Sender) -> None:
     first, watch = sender.status, Watch(sender)
     while not watch.has_lasted(REPORTS):
         sender.listen()
-    second = sender.status
-    if first and second and max(map(abs, map(float.__sub__, first.place, second.place))) > STANDS:
+    if first and sender.status and are_apart(first.place, sender.status.place):
         raise InputError("the machine moves: wait until it stands, then send the numbers")
 
 
 def as_lines(numbers: Mapping[int, float]) -> str:
     """Return numbers as lines that can be sent again; those that no line may set are left out."""
-    settable = {row.number for row in every_setting() if row.access == "listed"}
+    rows = listed_settings()
     return "".join(
-        f"${number}={value:.9g}\n" for number, value in numbers.items() if number in settable
+        f"${number}={value:.9g}\n" for number, value in numbers.items() if number in rows
     )
 
 

@@ -17,7 +17,9 @@ from typing import Literal
 from plumb.line.port import LinePort, LostError
 from plumb.text.answers import Internal
 from plumb.text.errors import InputError
+from plumb.text.values import INCH
 
+Place = tuple[float, float, float]  # [mm] x, y, z
 AHEAD = 126  # characters on their way at most
 SILENCE = 5.0  # [s] the machine reports five times a second, so this long a silence has a reason
 START = 12.0  # [s] a board that was reset by the line takes up to six
@@ -43,7 +45,6 @@ LOST_PLACE = ("Position Lost", "Chain lengths are not known", "Unable to find va
 FOUND_PLACE = "position loaded at:"
 KEPT_LENGTHS = re.compile(r"Last known chain lengths: (-?[\d.]+), (-?[\d.]+)")
 STATUS = re.compile(r"<(\w+),MPos:(-?[\d.]+),(-?[\d.]+),(-?[\d.]+)")
-MM_PER_INCH = 25.4
 IN_INCHES = re.compile(r"<\w+,MPos:-?\d+\.\d{4}")  # after G20; a report in mm has two decimals
 
 
@@ -60,12 +61,17 @@ def lost_place(said: Iterable[str]) -> str:
     return next((line for line in said if any(words in line for words in LOST_PLACE)), "")
 
 
+def are_apart(place: Place, other: Place) -> bool:
+    """Return whether a machine at rest would not report these two places [mm]."""
+    return max(map(abs, map(float.__sub__, place, other))) > STANDS
+
+
 @dataclass(frozen=True)
 class Status:
     """Last report of the machine."""
 
     state: str
-    place: tuple[float, float, float]  # [mm] x, y, z
+    place: Place
 
 
 @dataclass
@@ -86,7 +92,7 @@ class Sender:
     kept_lengths: tuple[float, float] | None = None  # [mm] of the chains when it last stood still
     greeting: tuple[str, ...] = ()  # what the machine said before its first report
     _stirred: Watch | None = None  # since it last may have moved; None: it has not
-    _place: tuple[float, float, float] | None = None  # [mm] where it stands, or last moved to
+    _place: Place | None = None  # [mm] where it stands, or last moved to
     _partial: str = ""
     _heard_at: float = math.inf  # a machine need not speak before it is asked
     _halted_from: int = 0  # reports that had come when it was last seen to do something
@@ -138,7 +144,7 @@ class Sender:
         self._halted_from = self.reports
         for line in cleaned(lines):
             self._note_line(line)
-            while self._characters() + len(line) + 1 > AHEAD:
+            while sum(length for _, length in self._on_the_way) + len(line) + 1 > AHEAD:
                 done = self._hear(done, answered)
             self.port.write(line.encode("ascii") + b"\n")
             self._on_the_way.append((line, len(line) + 1))
@@ -222,9 +228,6 @@ class Sender:
         self._spare += 1
         self._has_held = False
         self._left = 0  # what the machine has not begun it forgets
-
-    def _characters(self) -> int:
-        return sum(length for _, length in self._on_the_way)
 
     def _hear(self, done: int, answered: Callable[[int], None] | None) -> int:
         """Take what came; the count of answers."""
@@ -335,7 +338,7 @@ class Sender:
         """Return whether a line is a report."""
         match = STATUS.match(line)
         if match:
-            scale = MM_PER_INCH if IN_INCHES.match(line) else 1.0
+            scale = INCH if IN_INCHES.match(line) else 1.0
             x, y, z = (scale * float(number) for number in match.groups()[1:])
             self.status = Status(match[1], (x, y, z))
             self._note_motion(self.status)
@@ -347,7 +350,7 @@ class Sender:
     def _note_motion(self, status: Status) -> None:
         """Note a place that is not the last, and a hold, in which the motors keep their power."""
         place = self._place or status.place
-        moved = max(map(abs, map(float.__sub__, status.place, place))) > STANDS
+        moved = are_apart(status.place, place)
         if moved or status.state == PAUSED:
             self._stirred = Watch(self)
         self._place = status.place if moved else place

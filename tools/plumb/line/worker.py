@@ -18,9 +18,9 @@ from plumb.line.memory import firmware_of, read_numbers
 from plumb.line.port import LinePort, LostError
 from plumb.line.sender import (
     HALTED,
+    PAUSED,
     REPORTS,
     SAID_PAUSED,
-    STANDS,
     Came,
     LineCourse,
     Progress,
@@ -28,6 +28,7 @@ from plumb.line.sender import (
     Status,
     StoppedError,
     Watch,
+    are_apart,
     cleaned,
     waits_in,
 )
@@ -342,11 +343,8 @@ class LineWorker:
         # Two at least: this program may have stood still since the report before.
         while len(self._places) > 2 and now - self._places[0][0] > REPORTS:
             self._places.popleft()
-        moves = any(
-            max(map(abs, map(float.__sub__, status.place, old.place))) > STANDS
-            for _, old in self._places
-        )
-        holds = status.state == "Pause" or sender.reports - self._held_at < SURE
+        moves = any(are_apart(status.place, old.place) for _, old in self._places)
+        holds = status.state == PAUSED or sender.reports - self._held_at < SURE
         self._note(place=status.place, holds=holds, moves=moves)
         if status.state == HALTED and not self._state.trouble:
             self._note(trouble=HAS_HALTED)

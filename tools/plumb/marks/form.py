@@ -10,6 +10,7 @@ from typing import Any
 
 import tomlkit
 
+from plumb.grid import BLANK
 from plumb.marks.model import Mark, Measurements, Point
 from plumb.marks.read import Sheet, read_marks_toml
 from plumb.settings.machine import Known
@@ -18,7 +19,6 @@ from plumb.text.files import read_text
 from plumb.text.values import UNITS, with_quoted_fractions
 
 ASKED = "# Lay the tape between these marks, in this order: "  # then 1 - 3, 3 - 9 and so on
-BLANK = "# measured = [ , ]"  # what a form has where a reading is yet to come
 DIGITS = {"mm": 4, "inch": 5}  # a 1/128 inch stays what it is
 
 

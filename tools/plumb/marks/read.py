@@ -69,16 +69,15 @@ def checked(measurements: Measurements, *, sheet: Sheet) -> Measurements:
     height.
     """
     source = measurements.source
-    with naming(source, ""):
-        if not measurements.measured_marks and not measurements.distances:
-            raise ValueError("has no measured mark; add measured positions")
+    if not measurements.measured_marks and not measurements.distances:
+        raise InputError(source, "has no measured mark", remedy="add measured positions")
     for distance in measurements.distances:
         with naming(source, f"distance {'-'.join(distance.between)}"):
             _refuse_unnamed(measurements, distance)
     for mark in measurements.marks:
         with naming(source, f"mark {mark.name}"):
             _refuse_useless(measurements, mark)
-    with naming(source, ""):
+    with naming(source):
         _refuse_inches(measurements, sheet)
     for mark in measurements.marks:
         with naming(source, f"mark {mark.name}"):
@@ -275,13 +274,9 @@ def _is_top(corner: str) -> bool:
 # `marks.toml`: marks and distances by name, with how they were made.
 
 
-SLED_WEIGHT_RANGE = (30.0, 1000.0)  # [N] below it somebody wrote kilograms or pounds
-
-
 def _weight(weight: float) -> float:
     """Return the weight [N], if a sled can weigh that much."""
-    low, high = SLED_WEIGHT_RANGE
-    if not low <= weight <= high:
+    if not 30.0 <= weight <= 1000.0:  # below it somebody wrote kilograms or pounds
         raise ValueError(
             f"a sled of {weight:g} N is not possible; "
             "newtons are needed: 9.81 times kilograms, 4.448 times pounds"
@@ -624,10 +619,12 @@ def read_marks(path: Source, *, sheet: Sheet, known: Known = None) -> Measuremen
     Marks that wait for their reading (`unread = true`) take no part. A file that names the settings
     it was cut with lies on the sheet of these; `known` lists each effect's parameters for them.
     """
-    measurements = _without_unread(_read(path, sheet, known))
+    measurements = _without_unread(READERS[_form_of(path)](path, sheet, known))
     named = replace(measurements.rounds[0], digest=digest_of(measurements))
-    measurements = replace(measurements, rounds=(named, *measurements.rounds[1:]))
-    return checked(measurements, sheet=_sheet_of(measurements, sheet))
+    return checked(
+        replace(measurements, rounds=(named,)),
+        sheet=named.cut_with.sheet if named.cut_with else sheet,
+    )
 
 
 def _without_unread(measurements: Measurements) -> Measurements:
@@ -648,16 +645,6 @@ READERS: Mapping[str, Callable[[Source, Sheet, Known], Measurements]] = {
     "toml": lambda path, sheet, known: read_marks_toml(path, sheet=sheet, known=known),
     "csv": lambda path, *_: read_marks_csv(path),
 }
-
-
-def _read(path: Source, sheet: Sheet, known: Known = None) -> Measurements:
-    return READERS[_form_of(path)](path, sheet, known)
-
-
-def _sheet_of(measurements: Measurements, sheet: Sheet) -> Sheet:
-    """Return the sheet of the settings that a file names, else the usual sheet."""
-    cut_with = measurements.rounds[0].cut_with if measurements.rounds else None
-    return cut_with.sheet if cut_with else sheet
 
 
 def _form_of(path: Source) -> str:
@@ -711,6 +698,8 @@ def join_measurements(parts: Iterable[Measurements]) -> Measurements:
     rounds: list[Round] = []
     known: dict[str, list[MadeBy]] = {}
     joined: list[Measurements] = []
+    weights = {part.sled_weight for part in several}
+    typed = {part.typed for part in several}
     for number, part in enumerate(several):
         rounds.append(_next_round(part, labels[number], rounds))
         _refuse_a_copy(part, several[:number])
@@ -725,9 +714,11 @@ def join_measurements(parts: Iterable[Measurements]) -> Measurements:
         distances=tuple(distance for part in joined for distance in part.distances),
         controller=_agreed([(part, part.controller) for part in several], "controller"),
         tape_sigma=_agreed([(part, part.tape_sigma) for part in several], "tape_sigma_mm"),
-        sled_weight=_shared_weight(several),
+        # Each mark carries its weight.
+        sled_weight=weights.pop() if len(weights) == 1 else None,
         source=" + ".join(part.source for part in several),
-        typed=_typed(several),
+        # Alike in all files, or nothing is known of it.
+        typed=typed.pop() if len(typed) == 1 else Typed(),
         rounds=tuple(rounds),
     )
 
@@ -739,12 +730,6 @@ def _numbered(part: Measurements, number: int) -> Measurements:
         marks=tuple(replace(mark, round=number) for mark in part.marks),
         distances=tuple(replace(distance, round=number) for distance in part.distances),
     )
-
-
-def _typed(parts: tuple[Measurements, ...]) -> Typed:
-    """Return how the places were typed, if it was alike in all files."""
-    first, *others = [part.typed for part in parts]
-    return first if all(other == first for other in others) else Typed()
 
 
 def _refuse_a_copy(part: Measurements, before: tuple[Measurements, ...]) -> None:
@@ -837,14 +822,6 @@ def _agreed(values: list[tuple[Measurements, Value | None]], key: str) -> Value 
                 remedy="make them equal, or use each file alone",
             )
     return said[0][1] if said else None
-
-
-def _shared_weight(parts: tuple[Measurements, ...]) -> float | None:
-    """Return the sled weight [N] of the files if they all share it; each mark carries its
-    weight.
-    """
-    weights = {part.sled_weight for part in parts}
-    return weights.pop() if len(weights) == 1 else None
 
 
 def without_marks(measurements: Measurements, names: Iterable[str]) -> Measurements:

@@ -12,7 +12,6 @@ from contextlib import suppress
 from dataclasses import dataclass, replace
 from decimal import Decimal
 from difflib import get_close_matches
-from hashlib import sha256
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
@@ -26,6 +25,7 @@ from plumb.settings.machine import (
     MachineSettings,
     PublishedSettings,
     SettingsFile,
+    holds_marks,
     is_tuned,
     radius_in_published,
     read_machine_toml,
@@ -111,7 +111,17 @@ NEIGHBOURS = (
 
 def read_settings_ini(path: Source) -> MachineSettings:
     """Return the settings of a groundcontrol.ini; it belongs to the stock controller."""
-    return published_settings(_settings_text(path))
+    ini = read_ini(path)
+    if ini.find("numpositions", section="global"):
+        raise holds_marks(path)
+    sections = {section.lower() for section in ini.sections}
+    if not sections & {MASLOW.lower(), ADVANCED.lower()}:
+        raise InputError(
+            path,
+            f"has no section [{MASLOW}]",
+            remedy="give the groundcontrol.ini from your home folder or a machine.toml",
+        )
+    return published_settings(ini)
 
 
 def published_settings(ini: IniText) -> MachineSettings:
@@ -159,23 +169,6 @@ def _entries(ini: IniText) -> dict[str, IniEntry]:
         if entry or Published.model_fields[name].is_required():
             entries[name] = ini.needed(key, section=section)
     return entries
-
-
-def _settings_text(path: Source) -> IniText:
-    """Return the ini file, if it holds settings."""
-    ini = read_ini(path)
-    if ini.find("numpositions", section="global"):
-        raise InputError(
-            path, "holds marks, not settings", remedy="give SETTINGS first, then MARKS"
-        )
-    sections = {section.lower() for section in ini.sections}
-    if not sections & {MASLOW.lower(), ADVANCED.lower()}:
-        raise InputError(
-            path,
-            f"has no section [{MASLOW}]",
-            remedy="give the groundcontrol.ini from your home folder or a machine.toml",
-        )
-    return ini
 
 
 def _misspelt(ini: IniText, key: str) -> str | None:
@@ -295,12 +288,9 @@ def same_number(old: str, new: float | str) -> bool:
 # Settings whatever the file's form: `groundcontrol.ini`, `webcontrol.json` or `machine.toml`.
 
 
-WEBCONTROL_ENDING = ".json"
-
-
 def read_settings(path: Source, *, known: Known = None) -> MachineSettings:
     """Return the settings in a file of a client or ours; known lists each effect's parameters."""
-    file = SettingsFile(Path(path).name, sha256(read_bytes(path)).hexdigest())
+    file = SettingsFile(Path(path).name, hashlib.sha256(read_bytes(path)).hexdigest())
     return replace(_read(path, known), file=file)
 
 
@@ -327,7 +317,7 @@ def _read(path: Source, known: Known) -> MachineSettings:
 
 def changed_client_file(original_path: Source, changes: Mapping[Key, float | str]) -> bytes:
     """Return the bytes of a client's file with some values replaced and all else as it was."""
-    if Path(original_path).suffix.lower() == WEBCONTROL_ENDING:
+    if Path(original_path).suffix.lower() == ".json":
         return changed_webcontrol(original_path, changes)
     return changed_ini(original_path, changes)
 

@@ -79,14 +79,11 @@ class PublishedSettings:
         if self.holey_sled_weight is not None and self.holey_sled_weight <= 0:
             return None
         if self.holey_sled_weight is None or self.chain_elasticity is None:
-            name, unit = (
-                ("sledWeight", "$46, N")
-                if self.holey_sled_weight is None
-                else ("chainElasticity", "$45, 1/N")
-            )
+            weightless = self.holey_sled_weight is None
+            missing = "sledWeight ($46, N)" if weightless else "chainElasticity ($45, 1/N)"
             raise InputError(
-                f"settings for controller holey: {name} ({unit}) is missing; add it to the "
-                "settings as the machine reports it"
+                f"settings for controller holey: {missing} is missing; add it to the settings as "
+                "the machine reports it"
             )
         return self.holey_sled_weight, self.chain_elasticity
 
@@ -437,10 +434,13 @@ def read_machine_toml(path: Source, *, known: Known = None) -> MachineSettings:
     """Return the settings of a machine.toml; known lists the parameters of each effect."""
     head = parsed(path, read_text(path), tomllib.loads, "TOML")
     if "mark" in head or "distance" in head:
-        raise InputError(
-            path, "holds marks, not settings", remedy="give SETTINGS first, then MARKS"
-        )
+        raise holds_marks(path)
     return machine_in(head, path, known=known)
+
+
+def holds_marks(path: Source) -> InputError:
+    """Return the refusal of a file of marks."""
+    return InputError(path, "holds marks, not settings", remedy="give SETTINGS first, then MARKS")
 
 
 def machine_in(head: Mapping[str, Any], source: Source, *, known: Known = None) -> MachineSettings:
@@ -548,10 +548,7 @@ def _record_tables(record: FitRecord) -> dict[str, Any]:
     boards: list[dict[str, Any]] = [
         {
             **vars(board),
-            "cut_with": {
-                **_file_of(board.cut_with),
-                **_machine_tables(board.cut_with),
-            },
+            "cut_with": {**_file_of(board.cut_with), **_machine_tables(board.cut_with)},
         }
         for board in record.boards
     ]

@@ -34,7 +34,7 @@ def _printable(text: str) -> str:
 
 
 @contextmanager
-def naming(source: Source, place: str) -> Iterator[None]:
+def naming(source: Source, place: str = "") -> Iterator[None]:
     """Turn a ValueError raised inside into an InputError that names the file and the place."""
     try:
         yield

@@ -28,6 +28,7 @@ from plumb.bench.kinds import REAL
 from plumb.bench.report import shape_error
 from plumb.diagnosis import Checked
 from plumb.firmware.settings import CLIENT_NUMBERS, firmware_numbers, gcode
+from plumb.grid import BLANK
 from plumb.line.sender import Sender
 from plumb.model.catalogue import LAB_EFFECTS
 from plumb.model.predict import judged
@@ -66,12 +67,6 @@ class Garage:
         true = {"motor_gap": self.motor_gap, "motor_height": self.motor_height}
         maker = replace(MAKER, feed=self.settings.feed)
         return {**judged(maker), **true, **self.hidden.numbers}
-
-    @property
-    def motors_above_sheet(self) -> float:
-        """[mm] Height of the motors over the middle of the sheet as it lies."""
-        middle = np.array([[0.0, self.numbers["motor_height"]]])
-        return float(self.on_sheet(middle)[0, 1])
 
     def machine(
         self, *, elf: str | None = None, bootloader: bytes = b"", shield: int = SHIELD
@@ -205,7 +200,6 @@ def sled_error(garage: Garage, settings: MachineSettings) -> float:
 
 Cut = tuple[int, float, float, float, float]
 Target = tuple[float, float]  # [mm] from the sheet's corner, as two forms write it alike
-BLANK = "# measured = [ , ]"
 DIMPLE = 3.0  # [mm] a plunge that went farther sideways is a line, not a mark
 
 
@@ -387,7 +381,8 @@ class VirtualOwner:
 def true_value(garage: Garage, name: str) -> float:
     """Return what a perfect measurement of a number of the frame or of an effect would find."""
     if name == "motor_height":
-        return garage.motors_above_sheet
+        # Over the middle of the sheet as it lies.
+        return float(garage.on_sheet(np.array([[0.0, garage.numbers[name]]]))[0, 1])
     if "." not in name:
         return float(garage.numbers[name])
     hidden = {

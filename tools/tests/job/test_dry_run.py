@@ -22,7 +22,7 @@ from plumb.job.dry_run import (
     timetable,
 )
 from plumb.job.fixes import fixed
-from plumb.job.resume import JobMachine, cycles_after, resume_at_line, resume_at_place, tools_after
+from plumb.job.resume import JobMachine, modes_after, resume_at_line, resume_at_place
 from plumb.job.wood import Tools
 from plumb.settings.machine import machine_toml, write_machine_toml
 from plumb.text.errors import InputError
@@ -235,7 +235,8 @@ def test_a_cycle_is_drilled_from_its_beginning():
     lines = ["G0 Z4", "G81 X9 Z-3 R1 F60", "X20", "(c)", "X30", "G80", "G0 X0"]
     begins = [resume_at_line(MACHINE, lines, line).first for line in range(1, 8)]
     assert begins == [1, 2, 2, 2, 2, 2, 7]
-    in_force = cycles_after(["G82 Z-1", "G4 P1", "G1 X4", "G83 X5", "M2"])
+    several = ["G82 Z-1", "G4 P1", "G1 X4", "G83 X5", "M2"]
+    in_force = [modes_after(several[:count]).is_in_cycle for count in range(1, 6)]
     assert in_force == [True, True, False, True, False]
     resumed = resume_at_place(MACHINE, lines, (20, 0))
     assert resumed.first == 2 and resumed.entry is None
@@ -254,13 +255,13 @@ def test_spindle_laser_tool_and_units_are_as_they_were():
     late = resume_at_line(MACHINE, [*lines, "G1 X0"], 9)
     assert late.first == 9 and "M3 S9000" not in late.lines and "T4 M6" in late.lines
     assert late.lines[-2:] == ("G90 G94", "G1 X0")
-    tools = tools_after(["M106 S80", "G4 S3", "M4 S100"])
+    tools = modes_after(["M106 S80", "G4 S3", "M4 S100"])
     assert tools.spindle_lines == ["M4 S100"] and tools.laser_lines == ["M106 S100"]
-    assert tools_after(["M106", "G1 X1"]).laser_lines == ["M106 S255"]
-    assert tools_after(["M3 S5", "M106", "M30"]).spindle_lines == []
-    assert tools_after(["M3"]).spindle_lines == ["M3"]
-    assert tools_after(["M3 S5", "M2"]).spindle_lines == []
-    assert tools_after(["M106 S80", "M107", "M3"]).spindle_lines == ["M3 S80"]
+    assert modes_after(["M106", "G1 X1"]).laser_lines == ["M106 S255"]
+    assert modes_after(["M3 S5", "M106", "M30"]).spindle_lines == []
+    assert modes_after(["M3"]).spindle_lines == ["M3"]
+    assert modes_after(["M3 S5", "M2"]).spindle_lines == []
+    assert modes_after(["M106 S80", "M107", "M3"]).spindle_lines == ["M3 S80"]
 
 
 @pytest.mark.parametrize("code", ["G92 X10 Y20", "G43.1 Z7", "G10 L2 P1 X30 Y-5", "G55"])
