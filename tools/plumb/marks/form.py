@@ -18,7 +18,6 @@ from plumb.text.errors import Source
 from plumb.text.files import read_text
 from plumb.text.values import UNITS, with_quoted_fractions
 
-ASKED = "# Lay the tape between these marks, in this order: "  # then 1 - 3, 3 - 9 and so on
 DIGITS = {"mm": 4, "inch": 5}  # a 1/128 inch stays what it is
 
 
@@ -28,17 +27,6 @@ class Form:
 
     text: str
     measurements: Measurements  # marks that wait are there too
-
-    @property
-    def spans(self) -> list[tuple[str, str]]:
-        """Names of marks between which its comment asks for the distance, in its order."""
-        pairs = [
-            pair.split(" - ")
-            for line in self.text.splitlines()
-            if line.startswith(ASKED)
-            for pair in line[len(ASKED) :].split(", ")
-        ]
-        return [(pair[0], pair[1]) for pair in pairs if len(pair) == 2]
 
 
 def read_form(path: Source, *, sheet: Sheet, known: Known = None) -> Form:

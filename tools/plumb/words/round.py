@@ -93,25 +93,13 @@ def next_sheet(rise: float, unit: Unit, *, is_virtual: bool) -> str:
     return f"{stops}, its right end {unit.worded(abs(rise), 1)} {way}."
 
 
-READ = "What does the tape say?"
-PLACED = (
+TO_READ = Heading(
+    "What does the tape say?",
     "Type each mark from the blue edges, or touch another on the sheet. Enter goes on. Each number "
-    "is saved at once."
-)
-TAPED = (
-    "Lay the tape between the two marks of each line, in this order, and type what it says. Each "
-    "number is saved at once and stays open to change."
+    "is saved at once.",
 )
 
 
-def what_is_read(*, asks_lengths: bool) -> Heading:
-    """Return how a screen begins where marks are read, or lengths between them."""
-    return Heading(READ, TAPED if asks_lengths else PLACED)
-
-
-def how_much_is_read(read: int, marks: int, taped: int, lengths: int) -> str:
-    """Return how many marks are read, and how many of the lengths that are asked, if any are."""
-    said = [f"{taped} of {lengths} distances are read."] if lengths else []
-    if read or not lengths:
-        said.append(f"{read} of {marks} marks are read.")
-    return " ".join(said)
+def how_much_is_read(read: int, marks: int) -> str:
+    """Return how many of the marks are read."""
+    return f"{read} of {marks} marks are read."

@@ -9,7 +9,6 @@ from example_machine import EXAMPLE, ROOT
 from folder import asked, choose, example_form, got
 from plumb.lab.project import Project
 from plumb.lab.routes import readings
-from plumb.marks.form import ASKED
 from plumb.marks.read import read_marks
 from synthetic import SHEET
 
@@ -168,33 +167,13 @@ def test_the_page_opens_what_the_commands_open(folder, tmp_path):
 
 
 FORM = "marks.toml"
-SIDES = [["1", "3"], ["3", "9"], ["9", "7"], ["7", "1"]]
 
 
-def put_into(client, form, path, **body):
-    body = {"file": form["file"], "digest": form["digest"], **body}
-    return got(client.put(f"/api/{path}", json=body))
-
-
-def test_a_form_that_asks_for_distances_asks_for_each_in_order_and_keeps_asking(client, tmp_path):
-    got(client.post("/api/rounds/marks"))
-    asked = ", ".join(map(" - ".join, SIDES))
-    (tmp_path / FORM).write_text(f"{ASKED}{asked}\n{(tmp_path / FORM).read_text()}")
-    form = shown(client)
-    assert form["spans"] == SIDES
-    assert (form["files"][0]["read"], form["files"][0]["asked"]) == (0, 4)
-    lengths = [{"between": SIDES[0][::-1], "length": 2238.0}, {"between": ["2", "9"], "length": 99}]
-    typed = put_into(client, form, "distances", distances=lengths)
-    assert typed["spans"] == form["spans"], "a save keeps what is asked"
-    assert (typed["files"][0]["read"], typed["files"][0]["asked"]) == (2, 5)
-    finer = put_into(client, typed, "fineness", finest=1.0)
-    assert finer["spans"] == form["spans"] and finer["distances"] == typed["distances"]
-    whole = [{"between": span, "length": 900.0} for span in form["spans"]]
-    done = put_into(client, finer, "distances", distances=whole)
-    assert (done["files"][0]["read"], done["files"][0]["asked"]) == (4, 4)
-    place = [{"index": 0, "read": [100, 100]}]
-    placed = put_into(client, done, "readings", edges="top-left", readings=place)
-    assert (placed["files"][0]["read"], placed["files"][0]["asked"]) == (5, 13)
+def test_a_form_counts_its_readings_and_its_distances(client, tmp_path):
+    distance = '\n[[distance]]\nbetween = ["2", "4"]\nmm = 1123.5\n'
+    (tmp_path / FORM).write_text(example_form(read=3) + distance)
+    (counted,) = shown(client)["files"]
+    assert (counted["read"], counted["asked"]) == (4, 24)
 
 
 @pytest.fixture

@@ -1,7 +1,6 @@
 // A reading that disagrees, beside its fields: its likely cause and, if it has a cause, a button that takes the correction.
 import { lengthText, useUnits } from "../controls/lengths";
-import { withInstead } from "./distances";
-import { useSave } from "./saves";
+import { useSaveDistance } from "./saves";
 import type { Doubt } from "./useDoubts";
 import type { Form, TypedForm } from "./useReadings";
 
@@ -13,16 +12,13 @@ interface DoubtParts {
 
 export function DoubtAt({ doubt, form, readings }: DoubtParts) {
   const units = useUnits();
-  const save = useSave(form, readings.take);
+  const save = useSaveDistance(form, readings.take);
   if (!doubt) return null;
   const { is_mark, index, sentence, corrected } = doubt;
   const distance = form.distances[index];
   const correct = ([first = 0, second = 0]: number[]) => {
     if (is_mark) readings.kept.put((typed) => ({ ...typed, [index]: [first, second] }));
-    else if (distance)
-      void save("distances", ({ distances }) => ({
-        distances: withInstead(distances, distance, { ...distance, length: first }),
-      }));
+    else if (distance) void save(distance, first);
   };
   const look = () => {
     if (is_mark) readings.pick(index);

@@ -1,7 +1,7 @@
 // The readings on the sheet: an arrow from where each mark was sent to where it is.
 import { useMemo } from "preact/hooks";
 import { lengthText, useUnits } from "../controls/lengths";
-import { Sheet, Taped } from "../sheet/Sheet";
+import { Sheet } from "../sheet/Sheet";
 import { useScale } from "../sheet/scale";
 import type { Pair } from "../sheet/view";
 import type { Form } from "./useReadings";
@@ -19,13 +19,11 @@ export function ReadingsMap({ form, doubted, open, pick }: MapParts) {
   const units = useUnits();
   const read = form.marks.filter((mark) => mark.place);
   const [width, height] = form.sheet;
-  const fromEdges = form.spans.length === 0 || read.length > 0;
   const [upright, across] = form.edges.split("-");
   const zero = [
     across === "left" ? -width / 2 : width / 2,
     upright === "top" ? height / 2 : -height / 2,
   ] as const;
-  const places = new Map(form.marks.map(({ name, target }) => [name, target]));
   const key = [...doubted].join();
   const [marks, states] = useMemo(() => {
     const all = form.marks.map(({ index, name, target, place, read: typed }) => ({
@@ -46,18 +44,10 @@ export function ReadingsMap({ form, doubted, open, pick }: MapParts) {
       label={`${read.length} readings on the sheet`}
       marks={marks}
       {...(read.length > 0 ? { states } : {})}
-      {...(fromEdges
-        ? {
-            origin: {
-              zero,
-              way: [across === "left" ? 1 : -1, upright === "top" ? -1 : 1] as const,
-            },
-          }
-        : {})}
+      origin={{ zero, way: [across === "left" ? 1 : -1, upright === "top" ? -1 : 1] }}
       press={(mark) => pick(form.marks[mark]?.index ?? mark)}
     >
-      {fromEdges && <Edges size={form.sheet} zero={zero} to={form.marks[open]?.target} />}
-      <Taped lines={form.spans.map((ends) => ends.map((name) => places.get(name)))} />
+      <Edges size={form.sheet} zero={zero} to={form.marks[open]?.target} />
     </Sheet>
   );
 }

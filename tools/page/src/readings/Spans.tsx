@@ -1,10 +1,9 @@
-// Distances between marks: those of the form in measuring order, then all others.
+// Distances between marks that the form has: each can be corrected, or removed.
 import type { ComponentChildren } from "preact";
 import { lengthText, noLength, typedLength, useUnits } from "../controls/lengths";
 import { useTyped } from "../controls/useTyped";
 import { DoubtAt } from "./DoubtAt";
-import { beyond, lengthBetween, withInstead, withLength } from "./distances";
-import { useSave } from "./saves";
+import { useSaveDistance } from "./saves";
 import type { Doubt } from "./useDoubts";
 import type { Form, TypedForm } from "./useReadings";
 
@@ -15,33 +14,21 @@ interface SpansParts {
 }
 
 export function Spans({ form, readings, doubts }: SpansParts) {
-  const save = useSave(form, readings.take);
-  const { file, spans, distances } = form;
-  const others = beyond(distances, spans);
-  if (spans.length + others.length === 0) return null;
+  const save = useSaveDistance(form, readings.take);
+  const { file, distances } = form;
+  if (distances.length === 0) return null;
   return (
-    <ol class="spans" aria-label="Distances to measure">
-      {[
-        ...spans.map((span) => ({ span, measured: lengthBetween(distances, span), isAsked: true })),
-        ...others.map((measured) => ({ span: measured.between, measured, isAsked: false })),
-      ].map(({ span, measured, isAsked }, i) => {
-        const index = measured ? distances.indexOf(measured) : -1;
+    <ol class="spans" aria-label="Distances">
+      {distances.map((distance, index) => {
         const doubt = doubts.find((each) => !each.is_mark && each.index === index);
         return (
           <Span
-            key={`${file}/${i}`}
-            name={span.join(" to ")}
+            key={`${file}/${index}`}
+            name={distance.between.join(" to ")}
             index={index}
-            length={measured?.length}
+            length={distance.length}
             doubt={doubt && <DoubtAt {...{ doubt, form, readings }} />}
-            keep={(length) =>
-              void save("distances", ({ distances: all }) => ({
-                distances:
-                  isAsked || !measured
-                    ? withLength(all, span, length)
-                    : withInstead(all, measured, ...(length ? [{ ...measured, length }] : [])),
-              }))
-            }
+            keep={(length) => void save(distance, length)}
           />
         );
       })}
@@ -51,28 +38,29 @@ export function Spans({ form, readings, doubts }: SpansParts) {
 
 interface SpanParts {
   name: string;
-  /** Its index among the form's distances; -1 if it is not measured. */
+  /** Its index among the form's distances. */
   index: number;
-  length: number | undefined;
+  length: number;
   doubt: ComponentChildren;
+  /** Without a length it is removed. */
   keep: (length: number | undefined) => void;
 }
 
 function Span({ name, index, length, doubt, keep }: SpanParts) {
   const units = useUnits();
-  const saved = length === undefined ? "" : lengthText(length, units);
+  const saved = lengthText(length, units);
   const isWrong = (text: string) => text.trim() !== "" && !((typedLength(text, units) ?? 0) > 0);
   const [text, setText] = useTyped(saved, isWrong);
   const [typed, wrong] = [typedLength(text, units), isWrong(text)];
   const reason = noLength(text, units) || (wrong ? "a distance is above zero" : "");
-  const reasonId = `span-${name.replaceAll(" ", "-")}`;
+  const id = `distance-${index}`;
   const done = () => {
-    if (text === saved) return;
-    const length = wrong || text.trim() === "" ? undefined : typed;
-    if (length !== undefined || saved !== "") keep(length);
+    if (text === saved || wrong) return;
+    keep(typed);
+    if (typed === undefined) setText(saved); // until its row goes
   };
   return (
-    <li id={index < 0 ? undefined : `distance-${index}`} class={doubt ? "doubted" : ""}>
+    <li id={id} class={doubt ? "doubted" : ""}>
       <label class="row">
         <span>{name}</span>
         <input
@@ -81,7 +69,7 @@ function Span({ name, index, length, doubt, keep }: SpanParts) {
           enterKeyHint="next"
           aria-label={`Distance ${name}, ${units}`}
           aria-invalid={wrong}
-          aria-describedby={reason ? reasonId : undefined}
+          aria-describedby={reason ? `${id}-reason` : undefined}
           placeholder={units}
           value={text}
           onInput={(event) => setText(event.currentTarget.value)}
@@ -96,7 +84,7 @@ function Span({ name, index, length, doubt, keep }: SpanParts) {
         />
       </label>
       {reason && (
-        <small id={reasonId} class="wrong">
+        <small id={`${id}-reason`} class="wrong">
           {reason}
         </small>
       )}

@@ -29,19 +29,15 @@ export function Tape({ form, take }: TapeParts) {
   const { project, choose } = useProject();
   const save = useSave(form, take);
   const stated = form.tape_sigma !== null;
-  // If only distances are asked for, edges do not matter.
-  const fromEdges = form.spans.length === 0 || form.marks.some((mark) => mark.read);
   const finest = project.choices.fineness ?? 0.5;
   return (
     <div class="tape tiles">
-      {fromEdges && (
-        <Select
-          label="Measured from"
-          options={EDGES}
-          chosen={project.choices.edges ?? "top-left"}
-          choose={(edges) => choose({ edges })}
-        />
-      )}
+      <Select
+        label="Measured from"
+        options={EDGES}
+        chosen={project.choices.edges ?? "top-left"}
+        choose={(edges) => choose({ edges })}
+      />
       <Select
         label="Finest lines of the tape"
         options={[["", "not said"], ...LINES]}

@@ -3,6 +3,7 @@ import { lineOf, type Schemas, send } from "../api/client";
 import { useProject } from "../shell/project";
 
 export type Form = Schemas["ReadingsAnswer"];
+type Distance = Form["distances"][number];
 const forms = new Map<string, Succession<Form>>(); // of this tab, by file
 
 /** The saves of the form in a file. */
@@ -31,6 +32,23 @@ export function useSave(
       setTrouble(lineOf(error));
     }
   };
+}
+
+/** Saves another length of a distance; without a length it is removed. */
+export function useSaveDistance(
+  form: Form,
+  take: (form: Form) => void,
+): (old: Distance, length: number | undefined) => Promise<void> {
+  const save = useSave(form, take);
+  return (old, length) =>
+    save("distances", ({ distances }) => {
+      const ends = old.between.join("\n");
+      const alike = distances.filter(({ between }) => between.join("\n") === ends);
+      // A save before this may have left it another length.
+      const now = alike.find((each) => each.length === old.length) ?? alike[0];
+      const instead = length === undefined ? [] : [{ ...old, length }];
+      return { distances: distances.flatMap((each) => (each === now ? instead : [each])) };
+    });
 }
 
 // Saves of the same thing from this tab: each waits for the answer to the save before it, and names the state that it

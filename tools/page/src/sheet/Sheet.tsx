@@ -143,15 +143,6 @@ export function Sheet(parts: SheetParts) {
   );
 }
 
-/** The lines along which a tape is laid, from place to place [mm]. */
-export function Taped({ lines }: { lines: readonly (readonly (Pair | undefined)[])[] }) {
-  const { at } = useScale();
-  const drawn = lines.map(
-    ([from, to]) => from && to && `M${at(from).join(" ")}L${at(to).join(" ")}`,
-  );
-  return <path class="taped" d={drawn.join("")} />;
-}
-
 function Wood({ size }: { size: Pair }) {
   const { at, px } = useScale();
   const [x, y] = at([-size[0] / 2, size[1] / 2]);

@@ -44,10 +44,7 @@ const isPlanned = (_: Project, form: Form | undefined) => !!form?.marks.length;
 const isCut = (_: Project, form: Form | undefined) =>
   !!form && (form.marks.some((mark) => mark.read) || form.distances.length > 0);
 const isRead = (_: Project, form: Form | undefined) =>
-  !!form?.marks.length &&
-  (form.spans.length > 0
-    ? form.distances.length >= form.spans.length
-    : form.marks.every((mark) => mark.read));
+  !!form?.marks.length && form.marks.every((mark) => mark.read);
 const isCorrected = ({ choices }: Project) => !!choices.settings_before?.length;
 
 function step(

@@ -19,8 +19,6 @@ export function Readings() {
   if (!form) return <Screen title="What does the tape say?" say="One moment …" busy />;
   const read = form.marks.filter((mark) => mark.read).length;
   const doubted = new Set(doubts.filter((doubt) => doubt.is_mark).map((doubt) => doubt.index));
-  const isTaped = form.spans.length > 0;
-  const grid = <Grid form={form} readings={readings} doubts={doubts} />;
   return (
     <Screen
       {...form.heading}
@@ -46,14 +44,7 @@ export function Readings() {
           </p>
           <Trouble>{refused && `Nothing looks for readings that disagree. ${refused}`}</Trouble>
           <Spans {...{ form, readings, doubts }} />
-          {isTaped ? (
-            <details open={read > 0}>
-              <summary>Where the marks are, if you measure that too</summary>
-              {grid}
-            </details>
-          ) : (
-            grid
-          )}
+          <Grid {...{ form, readings, doubts }} />
         </>
       )}
       <FileOfReadings form={form} choose={readings.chooseFile} />

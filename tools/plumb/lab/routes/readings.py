@@ -1,6 +1,6 @@
 """Readings of the tape: each is saved into a marks.toml as it is typed."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from pathlib import Path
 
 from fastapi import APIRouter, UploadFile
@@ -66,7 +66,6 @@ class ReadingsAnswer(BaseModel):
     sheet: tuple[float, float]
     marks: list[AskedMark]
     distances: tuple[Distance, ...]
-    spans: list[tuple[str, str]]  # names of marks between which a distance is asked, in order
     tape_sigma: float | None  # [mm] as stated in the file
     again: int  # marks that wait and are on the sheet already: they are only to be read again
     command: str
@@ -124,15 +123,9 @@ def show_readings(project: TheProject, file: str = "") -> ReadingsAnswer:
         raise InputError(f"{name}: there is no such form of marks in the folder")
     sheet = _sheet_of(project, form)
     measurements = form.measurements if form else Measurements(())
-    spans = form.spans if form else []
     return ReadingsAnswer(
-        heading=words.what_is_read(asks_lengths=bool(spans)),
-        counted=words.how_much_is_read(
-            len(measurements.measured_marks),
-            len(measurements.marks),
-            len(spans) - _untaped(spans, measurements),
-            len(spans),
-        ),
+        heading=words.TO_READ,
+        counted=words.how_much_is_read(len(measurements.measured_marks), len(measurements.marks)),
         files=[_form_file(name, forms[name]) for name in _by_use(forms, choices)],
         file=name,
         digest=digest,
@@ -140,7 +133,6 @@ def show_readings(project: TheProject, file: str = "") -> ReadingsAnswer:
         sheet=sheet,
         marks=_marks(measurements, sheet, choices.edges),
         distances=measurements.distances,
-        spans=spans,
         tape_sigma=measurements.tape_sigma,
         again=_waiting(form) if form and is_read_again(project, name) else 0,
         command=_command(choices, name, measurements)
@@ -261,33 +253,17 @@ def _by_use(forms: Mapping[str, Form], choices: Choices) -> list[str]:
 
 
 def _waiting(form: Form) -> int:
-    """Return how many marks of a form wait for a reading; where distances are asked, how many of
-    those.
-    """
-    if spans := _lengths_asked(form):
-        return _untaped(spans, form.measurements)
+    """Return how many marks of a form wait for a reading."""
     return sum(mark.measured is None for mark in form.measurements.marks)
-
-
-def _untaped(spans: Sequence[tuple[str, str]], measurements: Measurements) -> int:
-    """Return how many of these distances wait for a reading."""
-    taped = {frozenset(distance.between) for distance in measurements.distances}
-    return sum(frozenset(span) not in taped for span in spans)
-
-
-def _lengths_asked(form: Form) -> list[tuple[str, str]]:
-    """Return the spans of a form that waits for distances and for no places."""
-    return [] if form.measurements.measured_marks else form.spans
 
 
 def _form_file(name: str, form: Form) -> FormFile:
     measurements = form.measurements
-    read = len(measurements.measured_marks) + len(measurements.distances)
-    asked = len(measurements.marks) + len(measurements.distances)
+    lengths = len(measurements.distances)
     return FormFile(
         name=name,
-        read=read,
-        asked=read + _waiting(form) if _lengths_asked(form) else asked,
+        read=len(measurements.measured_marks) + lengths,
+        asked=len(measurements.marks) + lengths,
     )
 
 
