@@ -75,7 +75,7 @@ BAD = [
     ),
     ("a number of no value", ["check", POCKET, SETTINGS, "--set", "15"], "is not N=VALUE"),
     ("a number below zero", ["check", POCKET, SETTINGS, "--set", "15=-4"], "refuses '$15=-4'"),
-    ("a sheet's form", ["check", POCKET, SETTINGS, "--picture", "j.gif"], "end the name with"),
+    ("a picture's form", ["compare", *BOARD, "--picture", "j.gif"], "end the name with"),
     ("a check to nothing", ["next", *BOARD, "--checked", "motor_gap=1+-0"], "above zero"),
     ("a choice of no file", ["next", *BOARD, "--choose", "1"], "--choose"),
     ("no such choice", ["next", *BOARD, "--marks", "x.toml", "--choose", "99"], "--choose 99"),
