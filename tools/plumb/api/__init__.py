@@ -17,7 +17,8 @@ from plumb.fit.compare import Comparison as Comparison
 from plumb.fit.compare import compare as compare
 from plumb.fit.compare import refuse_absurd
 from plumb.fit.fit import priors_with
-from plumb.fit.inputs import Inputs, read_inputs
+from plumb.fit.inputs import Inputs as Inputs
+from plumb.fit.inputs import read_inputs
 from plumb.plan import propose
 from plumb.settings.machine import write_machine_toml
 from plumb.text.compiled import refuse_stale

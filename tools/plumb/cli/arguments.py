@@ -16,6 +16,7 @@ from plumb.fit.by_hand import UNITS, number_read
 from plumb.fit.compare import refuse_absurd
 from plumb.fit.fit import PRIORS, priors_with
 from plumb.fit.inputs import Inputs, read_inputs
+from plumb.grid import pair
 from plumb.marks.read import without_marks
 from plumb.model.catalogue import parameter_words
 from plumb.settings.machine import CONTROLLERS, MachineSettings
@@ -56,18 +57,13 @@ def _numbered(text: str) -> tuple[int, float]:
     return int(name), float(value)
 
 
-def _place(text: str) -> tuple[float, float]:
-    x, y = map(typed_length, text.split(","))
-    return x, y
-
-
 any_length = kind(typed_length, "a length, like 100 or 4in")
 length = kind(typed_length, "a length above zero, like 100 or 4in", lambda size: size > 0)
 positive = kind(float, "a number above zero", lambda number: number > 0)
 count = kind(int, "a whole number from 1 on, like 100", lambda number: number > 0)
 prior = kind(_named, "NAME=SIGMA, like motor_gap=1.5", lambda named: named[1] >= 0)
 held_size = kind(_named, "NAME=SIZE, a name and a number")
-place = kind(_place, "X,Y, like 100,-50")  # [mm]
+place = kind(pair, "X,Y, like 100,-50")  # [mm]
 number = kind(_numbered, "N=VALUE, like 15=800", lambda pair: 0 <= pair[0] <= 255)
 
 

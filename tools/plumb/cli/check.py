@@ -121,14 +121,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         ("--thickness", "how thick the sheet is", "what JOB says, else 19.05"),
     ):
         parser.add_argument(option, metavar="MM", type=length, help=f"{of} [{usual}]")
-    parser.add_argument(
-        "--outline",
-        metavar="FILE",
-        help="write a program that goes round the job, slowly, with the bit above the sheet",
-    )
-    parser.add_argument(
-        "--fix",
-        metavar="FILE",
-        help="write a program that cuts the same on this machine, and list what was changed",
-    )
+    for option, program in (
+        ("--outline", "goes round the job, slowly, with the bit above the sheet"),
+        ("--fix", "cuts the same on this machine, and list what was changed"),
+    ):
+        parser.add_argument(option, metavar="FILE", help=f"write a program that {program}")
     add_shared(parser, "--force", "--units", "--json")

@@ -16,7 +16,6 @@ from plumb.grid import (
     PRESETS,
     UNITS,
     Grid,
-    GridError,
     PlainMachine,
     demand,
     marks_list,
@@ -98,18 +97,15 @@ def run(arguments: argparse.Namespace) -> int:
 
 def _planned(arguments: argparse.Namespace) -> _Planned:
     """Return the grid; InputError for one that cannot be made, or that is out of reach."""
-    try:
-        grid = grid_of(arguments)
-        if arguments.settings:
-            settings = settings_in(arguments.settings).as_plumb_model()
-            machine = plain_machine(settings)
-        else:
-            machine = PlainMachine()
-            settings = _usual(machine)
-        text = program(grid, machine)
-        refuse_way(grid, machine, with_soft_chains(settings)[0])
-    except GridError as error:
-        raise InputError(str(error)) from None
+    grid = grid_of(arguments)
+    if arguments.settings:
+        settings = settings_in(arguments.settings).as_plumb_model()
+        machine = plain_machine(settings)
+    else:
+        machine = PlainMachine()
+        settings = _usual(machine)
+    text = program(grid, machine)
+    refuse_way(grid, machine, with_soft_chains(settings)[0])
     return _Planned(grid, machine, text)
 
 

@@ -104,7 +104,7 @@ def build_parser(arguments: Sequence[str] = tuple(COMMANDS)) -> Parser:
         description=DESCRIPTION,
         epilog=EPILOG,
         allow_abbrev=False,
-        groups={title: list(group) for title, group in GROUPS.items()},
+        groups=GROUPS,
     )
     parser.add_argument("--version", action=Version, help="show the version and exit")
     commands = parser.add_subparsers(metavar="COMMAND", required=True, dest="command")
@@ -137,7 +137,7 @@ class Parser(argparse.ArgumentParser):
     """
 
     def __init__(
-        self, *arguments: Any, groups: Mapping[str, Sequence[str]] | None = None, **named: Any
+        self, *arguments: Any, groups: Mapping[str, Iterable[str]] | None = None, **named: Any
     ) -> None:
         super().__init__(*arguments, **named)
         self.groups = groups or {}
@@ -153,11 +153,9 @@ class Parser(argparse.ArgumentParser):
         formatter.add_text(self.description)
         commands = next(a for a in self._actions if isinstance(a, argparse._SubParsersAction))
         helps = {each.dest: each for each in commands._choices_actions}
-        known = {name for names in self.groups.values() for name in names}
-        others = [name for name in helps if name not in known]
-        for title, names in {**self.groups, "others": others}.items():
+        for title, names in self.groups.items():
             formatter.start_section(title)
-            formatter.add_arguments([helps[name] for name in names if name in helps])
+            formatter.add_arguments([helps[name] for name in names])
             formatter.end_section()
         formatter.start_section("options")
         formatter.add_arguments(action for action in self._actions if action is not commands)

@@ -79,11 +79,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="go on in the middle of the cut that passes here, mm from the middle of the sheet; "
         "of several passes the first, or that of --line",
     )
-    parser.add_argument(
-        "-o",
-        "--output",
-        metavar="FILE",
-        default="-",
-        help="the program [the standard output]",
-    )
+    add_shared(parser, output="the program [the standard output]")
+    parser.set_defaults(output=STDOUT)
     add_shared(parser, "--force", "--units", "--json")

@@ -164,10 +164,12 @@ def _send(arguments: argparse.Namespace, answer: SendAnswer) -> bool:
         if numbers is not None:
             if not (arguments.undo or arguments.force):
                 refuse_other_origin(read_settings(what), read_numbers(sender), file=what)
-            written, kept = _write(sender, what, numbers, back=arguments.undo)
-            answer.lines, answer.kept = len(numbers), kept
+            back = arguments.undo
+            written, kept, failure = write_and_keep(sender, Path(what), numbers, back=back)
+            say_failure(failure)
+            answer.lines, answer.kept = len(numbers), str(kept)
             answer.changed = dict(written.changed)
-            _print_written(arguments, (written, kept))
+            _print_written(arguments, written, kept)
             return True
         answer.lines = sum(1 for _ in cleaned(text))
         answer.stopped_at = _stream_and_note(sender, arguments, text, answer)
@@ -219,17 +221,7 @@ def _cut_with(what: str, text: Sequence[str]) -> MachineSettings | None:
     return file_round.cut_with
 
 
-def _write(
-    sender: Sender, path: str, lines: list[str], *, back: bool
-) -> tuple[WrittenNumbers, str]:
-    """Write numbers; the file that keeps the numbers before."""
-    written, kept, failure = write_and_keep(sender, Path(path), lines, back=back)
-    say_failure(failure)
-    return written, str(kept)
-
-
-def _print_written(arguments: argparse.Namespace, done: tuple[WrittenNumbers, str]) -> None:
-    written, kept = done
+def _print_written(arguments: argparse.Namespace, written: WrittenNumbers, kept: Path) -> None:
     rows = [f"${number}: {old:g} -> {new:g}" for number, (old, new) in written.changed.items()]
     more = len(rows) - SHOWN
     rows = rows[:SHOWN] + ([f"and {more} more"] if more > 0 else [])

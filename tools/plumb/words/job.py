@@ -7,11 +7,11 @@ from plumb.job.check import CheckedJob, Error, Fitness, Part
 from plumb.job.dry_run import HALTS, IGNORED, SINKS, WAITS, Finding, Hanging, Slower
 from plumb.job.fixes import FixedLine
 from plumb.job.resume import Resumed
-from plumb.job.wood import INCH, Piece
+from plumb.job.wood import Piece
 from plumb.model.predict import CANNOT_HANG, REACH_WORDS
 from plumb.settings.machine import GRAVITY
 from plumb.text.answers import Internal, in_json, part
-from plumb.text.values import INCHES, MM, Unit, time_text
+from plumb.text.values import INCH, INCHES, MM, Unit, time_text
 from plumb.words import Part as Said
 from plumb.words import Rows, Sentences
 

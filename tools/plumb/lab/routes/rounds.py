@@ -9,6 +9,7 @@ from typing import Annotated, Literal
 
 from fastapi import APIRouter, Body
 
+from plumb.grid import BLANK
 from plumb.job.dry_run import timetable
 from plumb.lab.broken_cut import HowFar, OnSheet, begin, how_far, plunges_in
 from plumb.lab.machine_line import MachineLine, TheLine, refuse_other_machine, refuse_unknown_place
@@ -24,7 +25,6 @@ from plumb.lab.rounds import (
 from plumb.lab.routes.machine import MachineAnswer, machine
 from plumb.lab.routes.project import ProjectAnswer, TheProject, show
 from plumb.line.sender import Wait, cleaned, waits_in
-from plumb.marks.form import BLANK
 from plumb.settings.machine import MachineSettings
 from plumb.text.errors import InputError
 from plumb.vm.garage import VirtualOwner
