@@ -41,7 +41,11 @@ export function Diary() {
           </ul>
         </section>
       )}
-      {diary.spoilt > 0 && <p>{diary.spoilt} lines of diary.jsonl cannot be read.</p>}
+      {diary.spoilt > 0 && (
+        <p>
+          {diary.spoilt} {diary.spoilt === 1 ? "line" : "lines"} of diary.jsonl cannot be read.
+        </p>
+      )}
     </Screen>
   );
 }
