@@ -87,10 +87,7 @@ class RealSet:
 
 
 def real_set(
-    name: str,
-    *marks: str | Path,
-    settings: str = "groundcontrol.ini",
-    folder: Path = EXAMPLES,
+    name: str, *marks: str | Path, settings: str = "groundcontrol.ini", folder: Path = EXAMPLES
 ) -> RealSet:
     """Return a set by its folder, of examples/ unless it is said otherwise."""
     files = [folder / name / each for each in marks or ("marks.toml",)]

@@ -146,12 +146,7 @@ def height_jog(unit: Unit) -> Jog:
         "take the bit out, or leave it room. Watch the screw that lifts the router.",
         f"Raise the router by {unit.brief(HEIGHT)}",
         "Did the router go up? A turn of its screw by a few degrees counts.",
-        {
-            "s": "it went up",
-            "l": "it went down",
-            "o": "a chain moved",
-            "n": "nothing moved",
-        },
+        {"s": "it went up", "l": "it went down", "o": "a chain moved", "n": "nothing moved"},
     )
 
 

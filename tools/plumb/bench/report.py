@@ -309,12 +309,7 @@ class Report:
 RATES = tuple(Row.__annotations__)[3:]
 
 
-def play(
-    wanted: WantedBoards,
-    *,
-    progress: Progress = lambda kind: None,
-    jobs: int = 1,
-) -> Report:
+def play(wanted: WantedBoards, *, progress: Progress = lambda kind: None, jobs: int = 1) -> Report:
     """Play all boards, in `jobs` programs at once, and count.
 
     An interruption keeps what is done; with nothing done it goes on up.

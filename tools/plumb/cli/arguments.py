@@ -130,11 +130,7 @@ SHARED: Mapping[str, Mapping[str, Any]] = {
         "default": [],
         "help": "how far (1 sigma; mm, N, rad) a stated number may be wrong; 0 holds the number",
     },
-    "--sigma": {
-        "metavar": "MM",
-        "type": length,
-        "help": "reading error of a coordinate [{}]",
-    },
+    "--sigma": {"metavar": "MM", "type": length, "help": "reading error of a coordinate [{}]"},
     "--without": {
         "metavar": "MARK",
         "action": "append",

@@ -53,11 +53,7 @@ def picture_form(path: str) -> str:
 
 
 def draw(
-    panels: Sequence[Panel],
-    *,
-    sheet: tuple[float, float],
-    heading: str = "",
-    form: str = "png",
+    panels: Sequence[Panel], *, sheet: tuple[float, float], heading: str = "", form: str = "png"
 ) -> bytes:
     """Return the picture as a file, all arrows to a single scale."""
     # Loading matplotlib takes longer than most commands: only a drawing waits for it.
@@ -127,12 +123,7 @@ def _scale_words(panels: Sequence[Panel], factor: float) -> str:
 
 
 def _draw_panel(
-    axis: Axes,
-    panel: Panel,
-    sheet: tuple[float, float],
-    *,
-    factor: float,
-    small: float,
+    axis: Axes, panel: Panel, sheet: tuple[float, float], *, factor: float, small: float
 ) -> None:
     from matplotlib.patches import Rectangle
 

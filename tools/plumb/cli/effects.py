@@ -60,10 +60,7 @@ def run(arguments: argparse.Namespace) -> int:
 
 # The arguments of `plumb effects`.
 
-EXAMPLES = (
-    "plumb effects",
-    "plumb effects --json",
-)
+EXAMPLES = ("plumb effects", "plumb effects --json")
 EXIT = "Exit: 0 done."
 
 

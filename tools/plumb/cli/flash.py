@@ -32,10 +32,7 @@ def run(arguments: argparse.Namespace) -> int:
 
 # The arguments of `plumb flash`.
 
-EXAMPLES = (
-    "plumb flash",
-    "plumb flash --port /dev/ttyACM0",
-)
+EXAMPLES = ("plumb flash", "plumb flash --port /dev/ttyACM0")
 EXIT = "Exit: 0 written and read back; 2 no board, no file, or the board did not take it."
 
 

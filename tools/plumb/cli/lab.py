@@ -21,10 +21,7 @@ def run(arguments: argparse.Namespace) -> int:
 
 # The arguments of `plumb lab`.
 
-EXAMPLES = (
-    "plumb lab my-maslow",
-    "plumb lab my-maslow --share --no-browser",
-)
+EXAMPLES = ("plumb lab my-maslow", "plumb lab my-maslow --share --no-browser")
 EXIT = "Exit: 0 ended with Ctrl-C; 2 it cannot be started."
 PORT = 8450
 

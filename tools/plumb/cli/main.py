@@ -100,11 +100,7 @@ def build_parser(arguments: Sequence[str] = tuple(COMMANDS)) -> Parser:
     commands.
     """
     parser = Parser(
-        prog="plumb",
-        description=DESCRIPTION,
-        epilog=EPILOG,
-        allow_abbrev=False,
-        groups=GROUPS,
+        prog="plumb", description=DESCRIPTION, epilog=EPILOG, allow_abbrev=False, groups=GROUPS
     )
     parser.add_argument("--version", action=Version, help="show the version and exit")
     commands = parser.add_subparsers(metavar="COMMAND", required=True, dest="command")

@@ -5,15 +5,7 @@ from pathlib import Path
 
 from plumb.cli.arguments import BOARD, add_shared, add_stated, stated_inputs
 from plumb.cli.output import refuse_twins, write_outputs
-from plumb.cli.screen import (
-    bar,
-    free_name,
-    headline,
-    in_text,
-    next_step,
-    print_json,
-    same_inputs,
-)
+from plumb.cli.screen import bar, free_name, headline, in_text, next_step, print_json, same_inputs
 from plumb.diagnosis import diagnose
 from plumb.fit.by_hand import to_fill_in
 from plumb.fit.inputs import Inputs, settings_in

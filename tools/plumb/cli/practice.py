@@ -126,10 +126,7 @@ def _as_text(result: Score, unit: Unit) -> str:
 # The arguments of `plumb practice`.
 
 STEPS = ("start", "reveal")
-EXAMPLES = (
-    "plumb practice start game",
-    "plumb practice reveal game game/new.toml",
-)
+EXAMPLES = ("plumb practice start game", "plumb practice reveal game game/new.toml")
 EXIT = (
     "Exit: 0 done; 1 revealed, and you missed something or added what is not there; 2 it cannot "
     "be done."

@@ -101,10 +101,7 @@ def _table(numbers: dict[int, float]) -> str:
 
 # The arguments of `plumb read`.
 
-EXAMPLES = (
-    "plumb read",
-    "plumb read -o machine.toml",
-)
+EXAMPLES = ("plumb read", "plumb read -o machine.toml")
 EXIT = "Exit: 0 done; 2 no machine answers, or the file cannot be written."
 
 

@@ -351,10 +351,7 @@ class _Attendant:
 
 
 def _stream_and_note(
-    sender: Sender,
-    arguments: argparse.Namespace,
-    text: Sequence[str],
-    answer: SendAnswer,
+    sender: Sender, arguments: argparse.Namespace, text: Sequence[str], answer: SendAnswer
 ) -> int | None:
     """Stream a program; that goes into the diary of the program's folder, if there is such. The
     line where it stopped; None: it did not.
@@ -372,10 +369,7 @@ def _stream_and_note(
 
 
 def _stream(
-    sender: Sender,
-    arguments: argparse.Namespace,
-    text: Sequence[str],
-    answer: SendAnswer,
+    sender: Sender, arguments: argparse.Namespace, text: Sequence[str], answer: SendAnswer
 ) -> int | None:
     """Stream a program, and wait until the place is kept; Ctrl-C holds the machine where it is.
     The line where it stopped; None: it did not.
@@ -417,10 +411,7 @@ def _stream(
 
 # The arguments of `plumb send`.
 
-EXAMPLES = (
-    "plumb send pocket.nc",
-    'plumb send "G0 X0 Y0"',
-)
+EXAMPLES = ("plumb send pocket.nc", 'plumb send "G0 X0 Y0"')
 EXIT = "Exit: 0 all was done; 1 stopped after Ctrl-C; 2 refused, or no machine."
 
 

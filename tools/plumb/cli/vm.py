@@ -139,10 +139,7 @@ def _save(content: bytes, path: str | None) -> None:
 # The arguments of `plumb vm`.
 
 FEEDS = ("top", "bottom")
-EXAMPLES = (
-    "plumb vm --link maslow",
-    "plumb vm --link maslow --speed 10",
-)
+EXAMPLES = ("plumb vm --link maslow", "plumb vm --link maslow --speed 10")
 EXIT = "Exit: 0 ended with Ctrl-C or after --seconds; 2 it cannot be started."
 
 

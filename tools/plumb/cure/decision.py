@@ -177,11 +177,7 @@ PATCH_WARNING = (
 
 
 def toml_of(
-    result: Addition,
-    *,
-    source: str,
-    firmware: str = "plumb",
-    record: FitRecord | None = None,
+    result: Addition, *, source: str, firmware: str = "plumb", record: FitRecord | None = None
 ) -> bytes:
     """Return the new machine as the bytes of a machine.toml, with the formula of its firmware."""
     ours = replace(result.settings, fitted=record)

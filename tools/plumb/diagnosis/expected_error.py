@@ -110,10 +110,7 @@ def hung(explanation: Explanation, chains: Array) -> tuple[Array, Array, Array]:
     values, _ = problem.values(explanation.unknowns)
     usual = problem.settings.sled_weight
     return visited(
-        values,
-        _visits(chains, usual),
-        over_top=problem.settings.feed == "top",
-        usual_weight=usual,
+        values, _visits(chains, usual), over_top=problem.settings.feed == "top", usual_weight=usual
     )
 
 

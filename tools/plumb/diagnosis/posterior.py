@@ -584,7 +584,7 @@ def _with_nothing(board: LinearBoard, accounts: Accounts, noises: Noises) -> Arr
         [
             weights_of(accounts, Metric.of(board, noises.sigmas, pitch=is_drifting), noises) + log
             for is_drifting, log in pitches(board)
-        ],
+        ]
     )
     return np.asarray(np.logaddexp.reduce(weights, axis=1))
 

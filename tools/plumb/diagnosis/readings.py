@@ -242,10 +242,7 @@ def _as_read(read: np.ndarray, sheet: tuple[float, float]) -> list[_Frame]:
     if len(read) == 1:
         return [_Frame(read, np.zeros(1), np.ones(1))]
     sign, middle = np.array([1.0, -1.0]), np.array(sheet) / 2
-    return [
-        _Frame(read, np.zeros(2), np.ones(2)),
-        _Frame(sign * read + middle, middle, sign),
-    ]
+    return [_Frame(read, np.zeros(2), np.ones(2)), _Frame(sign * read + middle, middle, sign)]
 
 
 def _transposed(number: float) -> list[float]:
@@ -614,10 +611,7 @@ def _without(measurements: Measurements, indices: set[int]) -> Measurements:
 def _clean(inputs: Inputs) -> CleanReadings:
     """Return what is left of readings that are near enough, however few they are."""
     model, rows = model_and_observations(
-        inputs.settings,
-        inputs.measurements,
-        cut_with=inputs.cut_with,
-        controller=inputs.controller,
+        inputs.settings, inputs.measurements, cut_with=inputs.cut_with, controller=inputs.controller
     )
     return clean_readings(board_of(inputs, model, rows), inputs)
 

@@ -306,11 +306,7 @@ def covariates(model: MachineSettings, rows: Observations) -> tuple[Covariate, .
     """
     places = hung_places(model, rows)
     strands = strands_at(
-        values_of(model),
-        rows,
-        places,
-        over_top=model.feed == "top",
-        usual_weight=model.sled_weight,
+        values_of(model), rows, places, over_top=model.feed == "top", usual_weight=model.sled_weight
     )
     turned = np.mod(strands.length / model.sprocket_radius, 2 * np.pi)
     angle = np.arctan2(strands.down, strands.across)
@@ -429,9 +425,7 @@ def expected_error(
     model = settings.as_plumb_model()
     targets = places_over(settings.sheet) if at is None else at
     where, slopes, outcome = places_with_slopes(
-        values_of(model),
-        over_top=model.feed == "top",
-        chains=believed_lengths(settings, targets),
+        values_of(model), over_top=model.feed == "top", chains=believed_lengths(settings, targets)
     )
     good = outcome == FOUND
     where, slopes = where[good], slopes[good]

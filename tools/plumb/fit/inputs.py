@@ -55,10 +55,7 @@ class Inputs:
     def model_and_observations(self) -> tuple[MachineSettings, Observations]:
         """Our model of the settings, and what was observed; InputError for a bad target."""
         return model_and_observations(
-            self.settings,
-            self.measurements,
-            cut_with=self.cut_with,
-            controller=self.controller,
+            self.settings, self.measurements, cut_with=self.cut_with, controller=self.controller
         )
 
 

@@ -218,10 +218,7 @@ class LineWorker:
                 # It would keep the lines and not answer them.
                 raise InputError("the machine holds: press Go on, or Stop, first")
             self._state = replace(
-                self._state,
-                phase="busy",
-                trouble="",
-                program=program or self._state.program,
+                self._state, phase="busy", trouble="", program=program or self._state.program
             )
             self._work.put(task)
 

@@ -142,9 +142,7 @@ def _friction(size: float, seen: Seen) -> PlaceShift:
     """
     per_newton = -np.einsum("nij,nj->ni", seen.compliance, seen.approaches)
     return PlaceShift(
-        moved=size * per_newton,
-        by_size=per_newton,
-        by_place=np.zeros((len(per_newton), 2, 2)),
+        moved=size * per_newton, by_size=per_newton, by_place=np.zeros((len(per_newton), 2, 2))
     )
 
 

@@ -153,9 +153,7 @@ def plain_machine(settings: MachineSettings) -> marks_grid.PlainMachine:
 
 
 def refuse_way(
-    grid: marks_grid.Grid,
-    machine: marks_grid.PlainMachine,
-    settings: MachineSettings,
+    grid: marks_grid.Grid, machine: marks_grid.PlainMachine, settings: MachineSettings
 ) -> None:
     """Raise InputError for the first place that the sled passes and the model refuses.
 

@@ -192,10 +192,7 @@ def as_read(touches: Sequence[Touch]) -> Measurements:
 
 
 def _as_planned(
-    settings: MachineSettings,
-    plan: Measurements,
-    sigma: float,
-    priors: Mapping[str, float],
+    settings: MachineSettings, plan: Measurements, sigma: float, priors: Mapping[str, float]
 ) -> Explanation:
     """Return the frame's explanation of readings that are just what the model says."""
     model, rows = model_and_observations(settings, plan)

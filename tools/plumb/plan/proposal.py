@@ -573,10 +573,7 @@ def worth(best: Proposal | None) -> Worth:
 
 
 def propose(
-    diagnosis: Diagnosis,
-    inputs: Inputs,
-    *,
-    progress: Callable[[float], None] = lambda share: None,
+    diagnosis: Diagnosis, inputs: Inputs, *, progress: Callable[[float], None] = lambda share: None
 ) -> Next:
     """Return the next measurements for a diagnosis, given the inputs it was made of.
 
@@ -804,9 +801,5 @@ def _old(rows: Observations, name: str) -> Visits:
     i = rows.names.index(name)
     row = [int(rows.mark_rows[i])]
     return Visits(
-        (name,),
-        rows.targets[[i]],
-        rows.chains[row],
-        rows.sled_weights[row],
-        rows.approaches[row],
+        (name,), rows.targets[[i]], rows.chains[row], rows.sled_weights[row], rows.approaches[row]
     )

@@ -546,10 +546,7 @@ def _machine_tables(settings: MachineSettings) -> dict[str, Any]:
 
 def _record_tables(record: FitRecord) -> dict[str, Any]:
     boards: list[dict[str, Any]] = [
-        {
-            **vars(board),
-            "cut_with": {**_file_of(board.cut_with), **_machine_tables(board.cut_with)},
-        }
+        {**vars(board), "cut_with": {**_file_of(board.cut_with), **_machine_tables(board.cut_with)}}
         for board in record.boards
     ]
     fit = record.model_dump(exclude={"boards"} if record.lab_effects else {"boards", "lab_effects"})

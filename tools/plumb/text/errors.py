@@ -14,12 +14,7 @@ class InputError(Exception):
     """
 
     def __init__(
-        self,
-        source: Source,
-        problem: str = "",
-        *,
-        place: str = "",
-        remedy: str = "",
+        self, source: Source, problem: str = "", *, place: str = "", remedy: str = ""
     ) -> None:
         where = source if isinstance(source, str) else str(source)
         where = f"{where}, {place}" if place else where

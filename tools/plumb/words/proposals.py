@@ -7,16 +7,7 @@ from typing import Annotated
 from plumb.fit.by_hand import what_to_type
 from plumb.model.plain import noun_of, plain_before, plainly
 from plumb.plan.preview import POWER, Outline, Preview
-from plumb.plan.proposal import (
-    CONFIRM,
-    EXPLORE,
-    FIND,
-    READ_ONLY,
-    REREAD,
-    SETTLE,
-    Next,
-    Proposal,
-)
+from plumb.plan.proposal import CONFIRM, EXPLORE, FIND, READ_ONLY, REREAD, SETTLE, Next, Proposal
 from plumb.settings.machine import MachineSettings
 from plumb.text.answers import Internal, in_json, key, part
 from plumb.text.values import Unit

@@ -4,15 +4,7 @@ from dataclasses import dataclass
 from math import dist
 from typing import Any
 
-from plumb.diary.recheck import (
-    LEFT,
-    RIGHT,
-    SHEET_X,
-    SHEET_Y,
-    LikelyChange,
-    Recheck,
-    RecheckedMark,
-)
+from plumb.diary.recheck import LEFT, RIGHT, SHEET_X, SHEET_Y, LikelyChange, Recheck, RecheckedMark
 from plumb.model.plain import in_feet, plain_change, plain_name, words_of
 from plumb.text.answers import in_json, json_of
 from plumb.text.values import Unit

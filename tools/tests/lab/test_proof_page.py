@@ -86,8 +86,7 @@ def test_two_proof_marks_hold_then_miss_and_others_are_planned(lab, page):
     assert results[-1]["machine"] == "machine.toml"
     page.goto(f"{lab.site}#/diary")
     expect(page.locator(".noted li").first).to_contain_text(
-        re.compile("proof.toml, by machine.toml: .* First read mark 2 again"),
-        timeout=PATIENCE,
+        re.compile("proof.toml, by machine.toml: .* First read mark 2 again"), timeout=PATIENCE
     )
     page.goto(f"{lab.site}#/prove")
     expect(page.locator(JUDGED)).to_contain_text("First read mark 2 again", timeout=PATIENCE)

@@ -7,14 +7,7 @@ from line_board import REPORT, Board
 from numbers_machine import NumbersMachine
 from plumb.line.memory import kept_before, read_numbers, refuse_while_moving, write_numbers
 from plumb.line.port import LostError
-from plumb.line.sender import (
-    AHEAD,
-    RefusedError,
-    Sender,
-    StoppedError,
-    Watch,
-    cleaned,
-)
+from plumb.line.sender import AHEAD, RefusedError, Sender, StoppedError, Watch, cleaned
 from plumb.text.errors import InputError
 
 

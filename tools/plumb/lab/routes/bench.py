@@ -28,14 +28,7 @@ from plumb.lab.residuals import (
     pairs,
     readings_of,
 )
-from plumb.lab.rounds import (
-    board_words,
-    checked_words,
-    command,
-    inputs_of,
-    known_words,
-    unit_words,
-)
+from plumb.lab.rounds import board_words, checked_words, command, inputs_of, known_words, unit_words
 from plumb.lab.routes.project import ProjectAnswer, TheProject, of_lab, show
 from plumb.model.catalogue import every_effect, parameter_words
 from plumb.model.plain import plain_size, plainly

@@ -14,14 +14,7 @@ from plumb.job.dry_run import timetable
 from plumb.lab.broken_cut import HowFar, OnSheet, begin, how_far, plunges_in
 from plumb.lab.machine_line import MachineLine, TheLine, refuse_other_machine, refuse_unknown_place
 from plumb.lab.project import Choices, Project, save_choices, with_marks
-from plumb.lab.rounds import (
-    RoundToCut,
-    chosen_round,
-    is_proof,
-    is_read_again,
-    opened,
-    proof_round,
-)
+from plumb.lab.rounds import RoundToCut, chosen_round, is_proof, is_read_again, opened, proof_round
 from plumb.lab.routes.machine import MachineAnswer, machine
 from plumb.lab.routes.project import ProjectAnswer, TheProject, show
 from plumb.line.sender import Wait, cleaned, waits_in
