@@ -570,6 +570,7 @@ class Doubted:
     off: float  # [mm]
     sentence: str
     corrected: tuple[float, ...] | None  # [mm] the reading that was meant, if that is likely
+    expected: tuple[float, ...] | None = None  # [mm] what the others say; None: it is far off
 
 
 def look_over(inputs: Inputs) -> tuple[Doubted, ...]:
@@ -628,4 +629,6 @@ def _doubted(outlier: Outlier, measurements: Measurements) -> Doubted:
         places = [(" - ".join(each.between), (each.length,)) for each in measurements.distances]
     said = outlier.sentence.partition(": ")[2]
     index = places.index((outlier.name, outlier.read))
-    return Doubted(index, is_mark, outlier.length, said, outlier.corrected)
+    return Doubted(
+        index, is_mark, outlier.length, said, outlier.corrected, expected=outlier.expected
+    )

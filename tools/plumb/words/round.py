@@ -103,3 +103,14 @@ TO_READ = Heading(
 def how_much_is_read(read: int, marks: int) -> str:
     """Return how many of the marks are read."""
     return f"{read} of {marks} marks are read."
+
+
+def look_again(said: str, others: Sequence[float], corner: str, unit: Unit) -> str:
+    """Return what is said of a reading, then what the other marks say [mm]: of a mark its place
+    from the edges of a corner, or a distance.
+    """
+    lengths = [unit.worded(length, 1) for length in others]
+    edges = reversed(corner.split("-")) if len(lengths) > 1 else ()
+    places = [f"{length} from the {edge}" for length, edge in zip(lengths, edges, strict=False)]
+    end = "" if said.endswith("?") else "."
+    return f"{said}{end} The other marks say {' and '.join(places or lengths)}."

@@ -104,7 +104,10 @@ def test_a_slip_is_ringed_and_its_correction_can_be_accepted(lab, page):
     open_readings(lab, page)
     type_in(page, 8, "1211", "618")
     ring = disagreeing(page)
-    ring.get_by_text("Mark 8").wait_for()
+    others = (
+        r"Mark 8: it reads .* The other marks say 12[12]\d\.\d mm from the left and 61\d\.\d mm"
+    )
+    expect(ring).to_contain_text(re.compile(others))
     assert page.locator(".cell.doubted legend").inner_text().startswith("8")
     at_rest(page)
     assert saved(lab)["8"] == (1211, 618)  # nothing is changed unless somebody says so
@@ -132,7 +135,8 @@ def distances(*lines):
 def test_a_slip_in_a_distance_is_named_and_its_correction_can_be_accepted(lab, page):
     with_form(lab, example_form(read=23) + distances(*FEW))
     open_readings(lab, page)
-    disagreeing(page).get_by_text("Distance 4 to 12").wait_for()
+    said = re.compile(r"Distance 4 to 12: .* The other marks say 151\d\.\d mm\.")
+    expect(disagreeing(page)).to_contain_text(said)
     doubted = page.get_by_label("Distance 4 to 12, mm", exact=True)
     expect(page.locator(".spans li.doubted")).to_contain_text("4 to 12")
     disagreeing(page).get_by_role("button", name="Look at it").click()

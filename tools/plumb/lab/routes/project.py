@@ -36,6 +36,7 @@ from plumb.words import Heading
 from plumb.words import machine as words
 from plumb.words.comparison import conclusion, without_doubted
 from plumb.words.decision import what_is_stale
+from plumb.words.round import look_again
 
 router = APIRouter(tags=["project"])
 # A settings' file gets a name of ours, whatever its owner calls it.
@@ -176,7 +177,7 @@ class DoubtsAnswer(BaseModel):
     """All doubts about a form."""
 
     file: str
-    doubts: list[Doubted]  # corrected: from the chosen edges
+    doubts: list[Doubted]  # corrected and expected: from the chosen edges
     compared: str  # how far off the marks are without these; empty: none is left
 
 
@@ -203,7 +204,7 @@ def show_doubts(project: TheProject, file: str) -> DoubtsAnswer:
     doubts = look_over(inputs)
     return DoubtsAnswer(
         file=file,
-        doubts=[_from_edges(doubt, sheet, choices.edges) for doubt in doubts],
+        doubts=[_shown(doubt, sheet, choices) for doubt in doubts],
         compared=_compared(inputs, doubts),
     )
 
@@ -226,12 +227,18 @@ def _compared(inputs: Inputs, doubts: Sequence[Doubted]) -> str:
     return (without_doubted if off else conclusion)(compared, inputs.unit)
 
 
-def _from_edges(doubt: Doubted, sheet: tuple[float, float], corner: str) -> Doubted:
-    """Return the doubt with a place that was meant as it is typed."""
-    if not doubt.is_mark or doubt.corrected is None:
-        return doubt
-    x, y = doubt.corrected
-    return replace(doubt, corrected=from_edges((x, y), sheet=sheet, corner=corner))
+def _shown(doubt: Doubted, sheet: tuple[float, float], choices: Choices) -> Doubted:
+    """Return the doubt with its places as they are typed, and what the others say in words."""
+
+    def typed(place: tuple[float, ...] | None) -> tuple[float, ...] | None:
+        if place is None or not doubt.is_mark:
+            return place
+        return from_edges((place[0], place[1]), sheet=sheet, corner=choices.edges)
+
+    expected, said = typed(doubt.expected), doubt.sentence
+    if expected:
+        said = look_again(said, expected, choices.edges, choices.unit)
+    return replace(doubt, corrected=typed(doubt.corrected), expected=expected, sentence=said)
 
 
 # Practice: what the folder's virtual machine hides, and what the opened settings are worth.
