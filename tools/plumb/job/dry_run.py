@@ -405,8 +405,7 @@ class Finding:
 
 def findings_of(done: Done) -> tuple[Finding, ...]:
     """Return everything to say about lines, in their order."""
-    refused = "plumb send refuses it: it"
-    sayings = [(each.line, HALTS, f"{refused} {each.why}") for each in done.refused]
+    sayings = [(each.line, HALTS, f"it cannot be sent: it {each.why}") for each in done.refused]
     sayings += [each for line, text in done.said if (each := _said(line, text))]
     lines: dict[tuple[str, str], list[int]] = {}
     for line, kind, says in sorted(set(sayings)):
