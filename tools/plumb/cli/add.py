@@ -15,8 +15,7 @@ from plumb.cli.arguments import (
     refuse_unfitted,
     stated_inputs,
 )
-from plumb.cli.compare import panel_of
-from plumb.cli.drawing import Panel, draw, picture_form
+from plumb.cli.drawing import Panel, draw, panel_of, picture_form
 from plumb.cli.output import STDOUT, refuse_twins, say_failure, write_outputs
 from plumb.cli.screen import (
     AUTO,

@@ -2,15 +2,12 @@
 
 import argparse
 
-import numpy as np
-
 from plumb.cli.arguments import BOARD, add_shared, inputs_of
-from plumb.cli.drawing import Panel, draw, picture_form
+from plumb.cli.drawing import draw, panel_of, picture_form
 from plumb.cli.output import write_outputs
 from plumb.cli.screen import headline, in_text, next_step, print_json, same_inputs
-from plumb.fit.compare import Comparison, compare
-from plumb.text.errors import InputError
-from plumb.words.comparison import conclusion, full, picture_title, short
+from plumb.fit.compare import compare
+from plumb.words.comparison import conclusion, full, short
 from plumb.words.states import KINDS
 
 
@@ -31,17 +28,6 @@ def run(arguments: argparse.Namespace) -> int:
         following = next_step("What is missing:", ["calibrate", *same_inputs(arguments)])
         print("\n\n".join([*in_text(facts), verdict, following]))
     return 0
-
-
-def panel_of(comparison: Comparison) -> Panel:
-    """Return the comparison as a panel of a picture."""
-    if not comparison.marks:
-        raise InputError("--picture: there are distances only, so no errors to draw on a sheet")
-    return Panel(
-        title=picture_title(comparison),
-        predicted=np.array([mark.predicted for mark in comparison.marks]),
-        errors=np.array([mark.error for mark in comparison.marks]),
-    )
 
 
 # The arguments of `plumb compare`.

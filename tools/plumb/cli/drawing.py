@@ -10,8 +10,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from plumb.fit.compare import Comparison
 from plumb.text.errors import InputError
 from plumb.text.files import picture_metadata
+from plumb.words.comparison import picture_title
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -50,6 +52,17 @@ def picture_form(path: str) -> str:
     if form not in FORMATS:
         raise InputError(f"--picture {path}: end the name with .{', .'.join(FORMATS)}")
     return form
+
+
+def panel_of(comparison: Comparison) -> Panel:
+    """Return the comparison as a panel of a picture."""
+    if not comparison.marks:
+        raise InputError("--picture: there are distances only, so no errors to draw on a sheet")
+    return Panel(
+        title=picture_title(comparison),
+        predicted=np.array([mark.predicted for mark in comparison.marks]),
+        errors=np.array([mark.error for mark in comparison.marks]),
+    )
 
 
 def draw(
