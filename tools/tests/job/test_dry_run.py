@@ -31,6 +31,7 @@ from scipy.spatial.transform import Rotation
 from workshop import NAMES, PROGRAMS, Workshop, lines_of, run_dry
 
 APART = 0.35  # [mm] between the cut and the way of the dry run; steps of 0.1 mm and following error
+AFTER_HALT = 0.5  # [mm] at most between the cut after a halt and the cut without
 
 
 @pytest.mark.parametrize("name", NAMES)
@@ -229,6 +230,30 @@ def test_from_any_place_of_a_cut_on_the_same_moves_follow(name):
         assert rest["length"][0] == pytest.approx((1 - entry.share) * whole["length"][0], abs=0.05)
         assert (rest["sweep"][0] > 0) == (whole["sweep"][0] > 0)
         assert not {each.kind for each in checked.findings} & {GOUGES, HALTS}
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_the_cut_after_a_halt_is_the_cut_without(name):
+    """The virtual machine is stopped in the middle of a line drawn by chance, then goes on."""
+    lines = lines_of(name)
+    way = run_dry(lines).moves
+    source = np.random.default_rng(NAMES.index(name) + 7)
+    line = int(source.choice(np.unique(way["line"][way.cut])))
+    workshop = Workshop()
+    workshop.cut(lines[: line - 1])
+    workshop.machine.send(lines[line - 1].encode() + b"\n")
+    workshop.machine.advance(int(source.integers(100, 900)))
+    workshop.stop()
+    workshop.cut(list(resume_at_line(MACHINE, lines, line).lines))
+    cut = np.array(workshop.machine.cuts())[:, 2:] * (1, 1, -1)
+    samples = way.sampled(0.1)
+    places = np.column_stack([samples.places, samples.z])
+    off, _ = cKDTree(places).query(cut)
+    assert off.max() < AFTER_HALT
+    rises = way["z_to"] > way["z_from"]
+    deep = (samples.z < -0.1) & ~rises[samples.move]
+    off, _ = cKDTree(cut).query(places[deep])
+    assert off.max() < AFTER_HALT
 
 
 def test_a_cycle_is_drilled_from_its_beginning():

@@ -38,3 +38,9 @@ class Workshop:
         begin = self.machine.seconds
         self.sender.stream([*lines, "G4 P0"])
         return self.machine.seconds - begin
+
+    def stop(self) -> None:
+        """Stop where the sled is, and wait until it stands."""
+        self.machine.send(b"!\n")
+        self.machine.advance(3000)
+        self.machine.take_said()
