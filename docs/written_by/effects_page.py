@@ -8,10 +8,10 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
-from plumb.bench.boards import BARE
 from plumb.cli.drawing import Panel, draw
 from plumb.fit.compare import best_pose
 from plumb.fit.observations import observe, rms, sighted
+from plumb.hidden import BARE
 from plumb.marks.read import Mark, Measurements
 from plumb.model.catalogue import (
     EVERY_MACHINE,

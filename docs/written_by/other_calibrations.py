@@ -12,14 +12,14 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
+from boards import PUBLISHED, measured
 from joblib import Parallel, delayed  # type: ignore[import-untyped]  # it brings no types
-from plumb.bench.boards import PUBLISHED, SLED, TrueMachine, measured, plan, read
-from plumb.bench.kinds import GRIDS, KINDS, board_of
-from plumb.bench.report import shape_of, sheet
+from kinds import GRIDS, KINDS, board_of
 from plumb.cli.screen import table
 from plumb.cure.decision import decide
 from plumb.fit.inputs import Inputs
 from plumb.fit.observations import rms
+from plumb.hidden import SLED, TrueMachine, plan, read, shape_of, sheet
 from plumb.model.predict import chain_lengths, lengths, places
 from plumb.settings.machine import FRAME_FIELDS, MachineSettings, PublishedSettings, tuned_numbers
 from real_data_page import HOLES, RealSet, other_boards, real_set

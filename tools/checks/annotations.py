@@ -10,7 +10,7 @@ from pathlib import Path
 import tree
 from formatting import first_in_each_file
 
-ROOMS = ("tools/plumb", "docs/written_by")
+ROOMS = ("tools/plumb", "tools/rates", "docs/written_by")
 
 
 def violations(root: Path) -> Iterator[str]:

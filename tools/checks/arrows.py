@@ -31,7 +31,7 @@ FLOORS = (
     ("lab",),
     ("api", "guide"),
     ("vm", "words"),
-    ("bench", "diary"),
+    ("hidden", "diary"),
     ("cure", "job", "plan"),
     ("diagnosis",),
     ("line",),
@@ -42,9 +42,9 @@ FLOORS = (
     ("_core", "_dry_run", "_judge", "_vm"),
 )
 
-# The judge shares nothing with the model, so only the bench may ask it; only the virtual machine's
-# room has the world that it hangs in.
-ONLY = {"_dry_run": "job", "_judge": "bench", "_vm": "vm"}
+# The judge shares nothing with the model, so only what hides effects may ask it; only the virtual
+# machine's room has the world that it hangs in.
+ONLY = {"_dry_run": "job", "_judge": "hidden", "_vm": "vm"}
 
 
 def violations(root: Path) -> Iterator[str]:

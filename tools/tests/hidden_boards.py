@@ -1,11 +1,12 @@
-"""Boards with a hidden effect for tests, by the names of effects; made by plumb.bench."""
+"""Boards with a hidden effect for tests, by the names of effects, as tools/rates cuts them."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 
-from plumb.bench import boards
-from plumb.bench.boards import CAUSES, BoardCut, Cause, Hidden, Plan, cut
+import plumb.hidden
+from boards import BoardCut, cut
+from plumb.hidden import CAUSES, Cause, Hidden, Plan
 from plumb.marks.read import Measurements
 
 # One cause of each effect; the chains' pitch and the sprockets differ from side to side.
@@ -25,7 +26,7 @@ HIDDEN = {
 
 def size_for(effect: str, layout: Plan, millimetres: float) -> float:
     """How many typical sizes move the marks by so much RMS, before anything is refitted."""
-    return boards.size_for(_CAUSES[effect], layout, millimetres)
+    return plumb.hidden.size_for(_CAUSES[effect], layout, millimetres)
 
 
 def board_cut(

@@ -1,7 +1,7 @@
 """A virtual machine without errors for tests, and how any is switched on."""
 
 import numpy as np
-from plumb.bench.boards import MAKER
+from plumb.hidden import MAKER
 from plumb.line.sender import Sender
 from plumb.model.predict import judged, lengths
 from plumb.vm.garage import InProcessPort, VirtualMachine, set_up

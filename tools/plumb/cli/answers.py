@@ -4,7 +4,6 @@ import json
 from dataclasses import dataclass
 from typing import Any
 
-from plumb.bench.report import Report
 from plumb.cli.add import AddAnswer
 from plumb.cli.calibrate import CalibrateAnswer
 from plumb.cli.diagnose import DiagnosisAnswer
@@ -38,7 +37,6 @@ class RefusalAnswer:
 ANSWERS: dict[str, Any] = {
     "refusal": RefusalAnswer,
     "add": AddAnswer,
-    "bench": Report,
     "calibrate": CalibrateAnswer | RecheckAnswer,
     "check": JobAnswer,
     "compare": Comparison,

@@ -56,7 +56,6 @@ GROUPS: Mapping[str, Mapping[str, str]] = {
         "effects": "list the effects: what each does, its units, and what looks like it",
         "inverse": "turn places into chain lengths",
         "forward": "turn chain lengths into places",
-        "bench": "measure how often the diagnosis is right, on boards with hidden effects",
     },
 }
 COMMANDS: Mapping[str, str] = {

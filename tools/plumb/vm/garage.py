@@ -13,22 +13,22 @@ from scipy.optimize import linear_sum_assignment
 from scipy.spatial.distance import cdist
 
 from plumb._vm import VirtualMachine as VirtualMachine
-from plumb.bench.boards import (
+from plumb.diagnosis import Checked
+from plumb.firmware.settings import CLIENT_NUMBERS, firmware_numbers, gcode
+from plumb.grid import BLANK
+from plumb.hidden import (
     CHAIN,
     MAKER,
+    REAL,
     SLED,
     Cause,
     Hidden,
     causes_of,
     judged_places,
     plan,
+    shape_error,
     size_for,
 )
-from plumb.bench.kinds import REAL
-from plumb.bench.report import shape_error
-from plumb.diagnosis import Checked
-from plumb.firmware.settings import CLIENT_NUMBERS, firmware_numbers, gcode
-from plumb.grid import BLANK
 from plumb.line.sender import Sender
 from plumb.model.catalogue import LAB_EFFECTS
 from plumb.model.predict import judged

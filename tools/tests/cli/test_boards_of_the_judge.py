@@ -8,8 +8,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from plumb.bench.boards import MAKER, PUBLISHED, cut, plan
-from plumb.bench.kinds import KINDS, slip
+from boards import PUBLISHED, cut
+from kinds import KINDS, slip
+from plumb.hidden import MAKER, plan
 from plumb.marks.form import marks_toml
 from plumb.settings.machine import write_machine_toml
 

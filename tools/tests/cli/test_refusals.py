@@ -293,7 +293,6 @@ INTERRUPTIBLE = functools.partial(
         (["resume", str(SETTINGS), "--lnie", "5"], "no option --lnie here; did you mean --line?"),
         (["effects", "--colour"], "there is no option --colour here; see plumb effects --help"),
         (["effects", "more"], "there is no argument more here; see plumb effects --help"),
-        (["bench", "--kinds"], "expected at least one argument; see plumb bench --help"),
         (
             ["compare", str(SETTINGS), str(MARKS), "--controller", "holy"],
             "--controller: 'holy' is not known; did you mean holey?; see plumb compare --help",

@@ -6,27 +6,17 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from boards import PUBLISHED, cut
 from example_machine import EXAMPLE
 from hidden_boards import HIDDEN, board, size_for
 from plumb import api
-from plumb.bench.boards import (
-    BARE,
-    MAKER,
-    PUBLISHED,
-    Hidden,
-    TrueMachine,
-    causes_of,
-    chains_for,
-    cut,
-    plan,
-)
-from plumb.bench.report import shape_error
 from plumb.cli.main import main
 from plumb.cure.add import Chosen, LiveBoard, add
 from plumb.cure.decision import decide
 from plumb.fit.compare import PATCH, compare
 from plumb.fit.fit import PRIORS, priors_with
 from plumb.fit.inputs import Inputs, read_inputs
+from plumb.hidden import BARE, MAKER, Hidden, TrueMachine, causes_of, chains_for, plan, shape_error
 from plumb.marks.read import Mark, Measurements, read_marks
 from plumb.model.catalogue import effect_names, parameter_names, parameter_words
 from plumb.model.plain import noun_of

@@ -4,9 +4,9 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from boards import cut
 from chain_views import chain_view
 from hidden_boards import HIDDEN, board, size_for
-from plumb.bench.boards import MAKER, Hidden, cut, plan
 from plumb.cure.decision import decide
 from plumb.diagnosis import diagnose
 from plumb.diagnosis.diagnosis import hidden_share, room_for, sizes_of
@@ -18,6 +18,7 @@ from plumb.fit.compare import places_over, plausible_range
 from plumb.fit.fit import PRIORS, Checked, fit
 from plumb.fit.inputs import Inputs
 from plumb.fit.observations import observe
+from plumb.hidden import MAKER, Hidden, plan
 from plumb.marks.read import Distance, Measurements
 from plumb.model.catalogue import effect_names
 from plumb.model.predict import lengths, places

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 import scipy.special
 import scipy.stats
+from boards import PUBLISHED, cut
 from linear_boards import covariance_of
-from plumb.bench.boards import PUBLISHED, Hidden, causes_of, cut, plan
 from plumb.diagnosis.evidence import (
     UNLIKELY,
     LinearBoard,
@@ -22,6 +22,7 @@ from plumb.diagnosis.evidence import (
 from plumb.diagnosis.explanation import explain, measured_board
 from plumb.diagnosis.priors import OUTLIER_SPREADS, PITCH_CORRELATION, PITCH_SPREAD, size_priors
 from plumb.fit.inputs import Inputs
+from plumb.hidden import Hidden, causes_of, plan
 
 SIGMA = 0.6
 LIKELIEST = 5  # accounts of each part that are worked out by force

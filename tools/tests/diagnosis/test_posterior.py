@@ -4,9 +4,9 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from boards import cut
 from hidden_boards import board, board_cut, size_for
 from linear_boards import NAMES, covariance_of, in_full, log_density, made_up
-from plumb.bench.boards import BARE, MAKER, Hidden, cut, plan
 from plumb.diagnosis import diagnose
 from plumb.diagnosis.evidence import (
     KNOWN,
@@ -28,6 +28,7 @@ from plumb.diagnosis.posterior import LISTED, MOST_LISTED, listing, posterior_of
 from plumb.diagnosis.priors import ACTS, ALL, PITCH, PITCH_CHANCE, STATED_SPREAD, UNUSUAL
 from plumb.fit.inputs import Inputs, Stated
 from plumb.fit.observations import observe
+from plumb.hidden import BARE, MAKER, Hidden, plan
 from plumb.marks.read import Measurements
 from plumb.model.catalogue import EVERY_MACHINE
 from plumb.text.values import MM

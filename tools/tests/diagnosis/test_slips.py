@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from plumb.bench.boards import MAKER, Hidden, causes_of, cut, plan
+from boards import cut
 from plumb.cure.add import add
 from plumb.cure.decision import decide
 from plumb.diagnosis import diagnose
@@ -14,6 +14,7 @@ from plumb.diagnosis.explanation import Board, explain
 from plumb.diagnosis.readings import MixedPair, Shift, described, find_mixed_up, look_over
 from plumb.fit.inputs import Inputs
 from plumb.fit.observations import model_and_observations
+from plumb.hidden import MAKER, Hidden, causes_of, plan
 from plumb.marks.form import marks_toml
 from plumb.marks.read import Distance, Mark, Measurements, Round, join_measurements
 from plumb.settings.machine import machine_toml

@@ -9,7 +9,6 @@ from datetime import UTC, datetime
 import numpy as np
 import pytest
 from numbers_machine import NumbersMachine
-from plumb.bench.boards import MAKER
 from plumb.cure.add import add
 from plumb.cure.decision import record_of
 from plumb.diary.file import (
@@ -27,6 +26,7 @@ from plumb.diary.file import (
 )
 from plumb.diary.recheck import LEFT, SHEET_Y, MeasuredMark, fit_of, recheck
 from plumb.fit.inputs import Inputs
+from plumb.hidden import MAKER
 from plumb.line.memory import kept_before
 from plumb.line.sender import Sender
 from plumb.marks.read import Measurements

@@ -6,7 +6,6 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 import pytest
-from plumb.bench.boards import MAKER
 from plumb.cli.screen import in_text
 from plumb.cure.add import add
 from plumb.cure.decision import toml_of
@@ -14,6 +13,7 @@ from plumb.fit.compare import refuse_absurd
 from plumb.fit.fit import PRIORS, Checked, Linearized, Problem, fit, solve
 from plumb.fit.inputs import Inputs
 from plumb.fit.observations import SHEET_ROTATION, model_and_observations, observe, sighted
+from plumb.hidden import MAKER
 from plumb.marks.read import Measurements, Round, join_measurements
 from plumb.model.predict import FOUND, known_effects, values_of
 from plumb.settings.files import read_settings

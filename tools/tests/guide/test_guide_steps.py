@@ -4,7 +4,6 @@ from types import SimpleNamespace
 
 import pytest
 from plumb import guide
-from plumb.bench.boards import Hidden
 from plumb.fit.compare import expected_anywhere, expected_priors, expected_sentence
 from plumb.guide import (
     GuideProgress,
@@ -21,6 +20,7 @@ from plumb.guide import (
     show_reach,
     tell_numbers,
 )
+from plumb.hidden import Hidden
 from plumb.line.memory import read_numbers
 from plumb.line.sender import Sender
 from plumb.settings.machine import machine_toml

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 from example_machine import EXAMPLE
 from plumb import _judge
-from plumb.bench.boards import MAKER
 from plumb.fit.inputs import Inputs
+from plumb.hidden import MAKER
 from plumb.job.check import Believed, Part, check_job, with_errors
 from plumb.job.dry_run import (
     ARC,

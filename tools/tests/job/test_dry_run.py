@@ -5,10 +5,10 @@ import re
 import numpy as np
 import pytest
 from example_machine import INI
-from plumb.bench.boards import MAKER
 from plumb.cli.main import main
 from plumb.firmware.settings import values_of
 from plumb.firmware.telemetry import telemetry_in
+from plumb.hidden import MAKER
 from plumb.job.check import check_job
 from plumb.job.dry_run import (
     GOUGES,

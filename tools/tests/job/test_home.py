@@ -1,7 +1,7 @@
 """Home marks: kept, read again, and a position that was lost is back with the bit in the hole."""
 
 import numpy as np
-from plumb.bench.boards import MAKER, Hidden, causes_of
+from plumb.hidden import MAKER, Hidden, causes_of
 from plumb.job.home import hole_program, home_fit, new_home_mark, repair_program
 from plumb.model.predict import lengths
 from plumb.vm.garage import marks_on, random_garage

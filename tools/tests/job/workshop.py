@@ -1,7 +1,7 @@
 """A virtual machine that cuts programs, and the dry run with the same numbers."""
 
 from example_machine import ROOT
-from plumb.bench.boards import MAKER
+from plumb.hidden import MAKER
 from plumb.job.dry_run import Done, Run
 from usual_machine import declaration, switched_on, usual_machine
 

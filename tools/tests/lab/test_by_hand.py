@@ -4,8 +4,8 @@ import math
 
 import pytest
 from folder import choose, got, with_marks
-from plumb.bench.boards import MAKER
 from plumb.fit.by_hand import readings
+from plumb.hidden import MAKER
 from plumb.plan.proposal import FRAME_CHECKS, effect_checks
 from plumb.settings.machine import GRAVITY
 from plumb.vm.garage import true_value

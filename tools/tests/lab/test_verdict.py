@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 from folder import PATIENCE, asked, example_form, finished, got, with_marks
 from plumb import api
-from plumb.bench.boards import MAKER
 from plumb.cure.add import BoardView, Chosen, LiveBoard
 from plumb.fit.fit import Problem
 from plumb.fit.inputs import Inputs
 from plumb.fit.observations import rms
+from plumb.hidden import MAKER
 from plumb.marks.read import Mark, Measurements
 
 

@@ -136,7 +136,7 @@ def test_nothing_that_users_get_is_ranked_by_the_last_bit():
         "job/wood.py",  # the first of yes and no
     }
     root, ranks = Path(plumb.__file__).parent, re.compile(r"arg(?:min|max|sort)\(")
-    users = [path for path in root.rglob("*.py") if path.parent.name not in ("bench", "vm")]
+    users = [path for path in root.rglob("*.py") if path.parent.name != "vm"]
     ranking = [
         path.relative_to(root).as_posix() for path in users if ranks.search(path.read_text())
     ]

@@ -3,7 +3,7 @@
 import numpy as np
 import other_calibrations as others
 import pytest
-from plumb.bench.report import shape_of, sheet
+from plumb.hidden import shape_of, sheet
 from real_data_page import CUTS, EXAMPLES, HOLES, PAIRS, errors_by_set, pooled, predicted, real_set
 
 SETS = {name: real_set(name) for name in HOLES}

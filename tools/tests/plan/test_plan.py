@@ -5,10 +5,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from hidden_boards import board, board_cut, size_for
-from plumb.bench.boards import MAKER, plan
 from plumb.diagnosis import Checked, diagnose
 from plumb.fit.compare import compare
 from plumb.fit.inputs import Inputs
+from plumb.hidden import MAKER, plan
 from plumb.marks.read import Mark, Measurements
 from plumb.model.catalogue import effect_names
 from plumb.model.predict import FOUND, lengths

@@ -21,7 +21,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 # Starts a program that outlives the line it is on, and shares the work with others.
-BY_ITSELF = ("vm", "bench", "lab", "practice")
+BY_ITSELF = ("vm", "lab", "practice")
 CLIENT = """#!{python} -IS
 import json, os, socket, sys
 if sys.argv[1:2] and sys.argv[1] in {by_itself}:

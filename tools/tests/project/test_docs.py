@@ -164,7 +164,7 @@ def refusals(room: str) -> Iterator[str]:
 ROOMS = sorted(
     path.name
     for path in (ROOT / "tools/plumb").iterdir()
-    if path.is_dir() and path.name not in ("bench", "model", "examples")
+    if path.is_dir() and path.name not in ("model", "examples")
 )
 
 
@@ -262,8 +262,7 @@ NAMES = {*effect_names(), *(effect["name"] for effect in empirical_effects())}
 OF_EFFECTS = ("model/catalogue",)
 STORIES = {
     # What published settings leave out, and what a usual machine has.
-    "bench/boards.py",
-    "bench/kinds.py",
+    "hidden.py",
     # How much every machine has of a number, with its source.
     "diagnosis/priors.py",
     # The example of an option, whose help must not wait for the catalogue.

@@ -8,7 +8,7 @@ from page_commands import faults_on, pages, rewritten
 PAGES = pages()
 # Their commands drive a machine, or fit and draw much. Those of README are run by
 # cli/test_add.py too.
-COMMANDS = ("bench", "calibrate", "lab", "next", "practice", "recover", "report", "send")
+COMMANDS = ("calibrate", "lab", "next", "practice", "recover", "report", "send")
 LONG = {"README.md", "docs/tutorial.md", *(f"docs/commands/{name}.md" for name in COMMANDS)}
 
 

@@ -83,7 +83,6 @@ COMMANDS = {
     "check": ("job.nc", "groundcontrol.ini"),
     "add": (*MEASURED, "--effect", "chain_pitch", "-o", "fitted.toml"),
     "effects": (),
-    "bench": ("--kinds", "none", "--marks", "9", "--boards", "1"),
     "report": (*MEASURED, "-o", "report.html"),
     "settings": ("machine.toml",),
     "vm": ("--seconds", "1"),

@@ -10,7 +10,7 @@ from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass, field
 
-from plumb.bench.boards import MAKER
+from plumb.hidden import MAKER
 from plumb.vm.pseudo_terminal import PseudoTerminal
 from plumb.vm.served_port import Pace
 from usual_machine import declaration, switched_on, usual_machine

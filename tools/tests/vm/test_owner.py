@@ -7,10 +7,10 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from plumb.bench.boards import MAKER, Hidden, causes_of, plan, size_for
 from plumb.cli.main import main
 from plumb.cli.practice import _Reader
 from plumb.grid import Grid, marks_list, program
+from plumb.hidden import MAKER, Hidden, causes_of, plan, size_for
 from plumb.line.sender import Sender
 from plumb.marks.form import read_form
 from plumb.marks.read import read_marks

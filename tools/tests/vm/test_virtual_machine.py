@@ -5,7 +5,7 @@ import re
 import numpy as np
 import pytest
 from plumb import _judge, _vm
-from plumb.bench.boards import MAKER, Hidden
+from plumb.hidden import MAKER, Hidden
 from plumb.model.predict import judged
 from plumb.vm import garage as garage_room
 from plumb.vm.garage import Garage, VirtualMachine

@@ -1,15 +1,18 @@
-"""`plumb bench`: how often the diagnosis is right, how it is counted, and what its boards hide."""
+"""tools/rates: how often the diagnosis is right, how it is counted, and what its boards hide."""
 
+import json
 from dataclasses import replace
 
 import numpy as np
 import pytest
-from plumb.bench.boards import CAUSES, MAKER, OUTSIDE, Hidden, cut, plan
-from plumb.bench.kinds import KINDS, PenSlip, board_of, slip
-from plumb.bench.report import Truth, WantedBoards, judge_board, play, row_of
+from boards import cut
+from command import main
+from kinds import KINDS, PenSlip, board_of, slip
 from plumb.diagnosis import diagnose
 from plumb.fit.inputs import Inputs
+from plumb.hidden import CAUSES, MAKER, OUTSIDE, Hidden, plan
 from plumb.model.catalogue import effect_names
+from rates import Truth, WantedBoards, judge_board, play, row_of
 
 SEED = 77
 NONE = "known/none"
@@ -67,20 +70,22 @@ def test_rates_are_means_over_boards(one):
     assert row.after == pytest.approx(one.after + 0.25) and row.worse == 0.25
 
 
-def test_the_command_prints_a_row_a_kind_and_names_its_kinds(run, ask):
-    words = ("bench", "--kinds", NONE, "--boards", 1, "--marks", 9)
-    code, answer = ask(*words)
-    assert code == 0 and answer["marks"] == 9
-    assert [row["kind"] for row in answer["rows"]] == [NONE]
-    code, said, complaint = run(*words, "--noise", 0.1, "--unstated")
-    assert code == 0 and f"\n{NONE} " in said and complaint == ""
+def test_the_command_prints_a_row_a_kind_and_names_its_kinds(capsys):
+    words = ["--kinds", NONE, "--boards", "1", "--marks", "9"]
+    assert main([*words, "--json"]) == 0
+    answer = json.loads(capsys.readouterr().out)
+    assert [row["kind"] for row in answer["rows"]] == [NONE] and answer["marks"] == 9
+    assert main([*words, "--noise", "0.1", "--unstated"]) == 0
+    said = capsys.readouterr().out
+    assert f"\n{NONE} " in said
     assert "came true" in said and "noise 0.10 mm, not stated" in said
-    code, _, complaint = run("bench", "--kinds", "everything")
-    assert code == 2 and "everything" in complaint and complaint.count("\n") == 1
-    assert all(name in complaint for name in KINDS)
+    with pytest.raises(SystemExit, match="2"):
+        main(["--kinds", "everything"])
+    complaint = capsys.readouterr().err
+    assert "everything" in complaint and all(name in complaint for name in KINDS)
 
 
-def test_an_interruption_keeps_the_boards_that_are_done(run, ask, monkeypatch):
+def test_an_interruption_keeps_the_boards_that_are_done(capsys, monkeypatch):
     judged = []
 
     def interrupted(kind, index, **how):
@@ -89,12 +94,13 @@ def test_an_interruption_keeps_the_boards_that_are_done(run, ask, monkeypatch):
         judged.append(index)
         return judge_board(kind, index, **how)
 
-    monkeypatch.setattr("plumb.bench.report.judge_board", interrupted)
-    words = ("bench", "--kinds", NONE, "--boards", 8, "--marks", 9)
-    code, answer = ask(*words)
-    assert code == 130 and answer["interrupted"] and answer["rows"][0]["boards"] == 4
+    monkeypatch.setattr("rates.judge_board", interrupted)
+    words = ["--kinds", NONE, "--boards", "8", "--marks", "9", "--json"]
+    assert main(words) == 130
+    answer = json.loads(capsys.readouterr().out)
+    assert answer["interrupted"] and answer["rows"][0]["boards"] == 4
     # With nothing done there is nothing to show.
-    assert run(*words) == (130, "", "")
+    assert main(words) == 130 and capsys.readouterr().out == ""
 
 
 @pytest.mark.slow

@@ -1,25 +1,20 @@
-"""The bench run through: boards diagnosed, cured, and compared with what is hidden in them."""
+"""Boards diagnosed, cured, and compared with what is hidden in them."""
 
 import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import Annotated
 
 import joblib  # type: ignore[import-untyped]  # it brings no types
 import numpy as np
-
-from plumb.bench.boards import HALF, Hidden, read
-from plumb.bench.kinds import KINDS, SMALLEST, HiddenBoard, Kind, board_of
+from kinds import KINDS, SMALLEST, HiddenBoard, Kind, board_of
 from plumb.cure.decision import decide
 from plumb.diagnosis import Diagnosis, diagnose
-from plumb.fit.compare import best_pose
 from plumb.fit.fit import PRIORS, Problem, fit
 from plumb.fit.inputs import Inputs
-from plumb.fit.observations import rms
+from plumb.hidden import Hidden, read, shape_error
 from plumb.model.catalogue import effect_names, parameter_names
-from plumb.model.predict import FOUND, Array, lengths
+from plumb.model.predict import Array
 from plumb.settings.machine import MachineSettings
-from plumb.text.answers import Number, key
 
 # Hidden effects that the marks of a board can show, without any noise.
 
@@ -213,34 +208,7 @@ def _with_what_is_there(inputs: Inputs, diagnosis: Diagnosis, truth: Truth) -> M
     return fit(model, rows, effects=there, sigma=diagnosis.noise.sigma).settings
 
 
-# What settings are worth at the sled: the shape of its errors over the whole sheet.
-
-COLUMNS, ROWS = 15, 9  # places of the sheet at which the sled is asked for
-MARGIN = 50.0  # [mm] of the sheet's edge that is left out
-
-
-def sheet() -> np.ndarray:
-    """Return places (n, 2) [mm] all over the sheet."""
-    across = np.linspace(-HALF[0] + MARGIN, HALF[0] - MARGIN, COLUMNS)
-    up = np.linspace(-HALF[1] + MARGIN, HALF[1] - MARGIN, ROWS)
-    return np.array([(x, y) for y in up for x in across])
-
-
-def shape_error(settings: MachineSettings, landed: Callable[[Array], Array]) -> float:
-    """RMS [mm] of how far the judge's sled, sent by these settings to places all over the sheet,
-    is from them once the sheet is laid at its best; `landed` says where it is by its chains.
-    Nothing rubs: no setting knows of friction."""
-    chains, outcome = lengths(settings, sheet())
-    return shape_of(landed(chains)) if (outcome == FOUND).all() else float("inf")
-
-
-def shape_of(places: Array) -> float:
-    """RMS [mm] of how far places (n, 2) [mm] are from those of `sheet`, laid at its best."""
-    pose = best_pose(sheet(), places)
-    return rms(pose.errors) if pose else 0.0
-
-
-# The bench run through: boards played side by side, and a row of rates for each kind.
+# Boards played side by side, and a row of rates for each kind.
 
 
 Progress = Callable[[str], None]  # called with the kind of each board that is done
@@ -269,8 +237,8 @@ class Promises:
     """The error over the sheet that was promised, and what came true; means over some boards."""
 
     boards: int
-    promised: Annotated[Number, key("promised_mm")]
-    came_true: Annotated[Number, key("came_true_mm")]
+    promised: float
+    came_true: float
 
 
 @dataclass(frozen=True)
@@ -282,15 +250,15 @@ class Row:
     boards: int
     named: float
     exact: float
-    holds: Annotated[float, key("truth_in_best")]
+    holds: float
     needless: float
-    unknown: Annotated[float, key("not_in_library")]
-    readings: Annotated[float, key("readings_right")]
-    before: Annotated[Number, key("before_mm")]
-    after: Annotated[Number, key("after_mm")]
-    fitted: Annotated[Number, key("truth_fitted_mm")]
+    unknown: float
+    readings: float
+    before: float
+    after: float
+    fitted: float
     worse: float
-    cpu: Annotated[float, key("cpu_s")]
+    cpu: float
 
 
 @dataclass(frozen=True)
@@ -301,8 +269,8 @@ class Report:
     promises: Promises | None  # None: on no board was anything promised
     marks: int
     seed: int
-    noise: Annotated[float | None, key("noise_mm", "Null: what each kind has.")]
-    is_stated: Annotated[bool, key("noise_stated")]
+    noise: float | None
+    is_stated: bool
     interrupted: bool
 
 

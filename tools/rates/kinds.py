@@ -1,26 +1,25 @@
-"""The kinds of boards of the bench: what is hidden in each, and how a board is made."""
+"""The kinds of boards: what is hidden in each, and how a board is made."""
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from zlib import crc32
 
 import numpy as np
-
-from plumb.bench.boards import (
-    CAUSES,
+from boards import PUBLISHED, BoardCut, cut
+from plumb.fit.compare import plausible_range
+from plumb.hidden import (
     MAKER,
     OUTSIDE,
-    PUBLISHED,
-    BoardCut,
+    REAL,
+    REAL_MM,
+    USUAL,
     Cause,
     Hidden,
     Plan,
     causes_of,
-    cut,
     plan,
     size_for,
 )
-from plumb.fit.compare import plausible_range
 from plumb.model.catalogue import EVERY_MACHINE
 from plumb.settings.machine import MachineSettings
 
@@ -31,10 +30,6 @@ Source = np.random.Generator
 # What is hidden in board number i, on this plan.
 Draw = Callable[[Source, int, Plan], Hidden]
 
-REAL_MM = 3.0  # how far an effect moves marks that should be found
-# What real machines can have by so much; friction by millimetres sticks for centimetres elsewhere.
-USUAL = tuple(cause for cause in CAUSES if not cause.in_frame)
-REAL = tuple(cause for cause in USUAL if cause.most >= REAL_MM and not cause.drag)
 LEAST, MOST = 1.0, 3.0  # usual sizes of an effect
 LARGEST_DRAG = 1.5  # typical sizes of friction beyond which lower corners stick for centimetres
 BEYOND = 1.5  # times the largest size that was met, at most

@@ -1,15 +1,15 @@
-"""Boards with something hidden: cut by the maker's settings, the sled hung by the judge."""
+"""Machines with something hidden: what it is, and where the judge hangs their sled."""
 
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass, field, replace
-from itertools import combinations
+from dataclasses import dataclass, field
 from math import cos
 from typing import Any
 
 import numpy as np
 
 from plumb import _judge
-from plumb.marks.read import Distance, Mark, Measurements
+from plumb.fit.compare import best_pose
+from plumb.fit.observations import rms
 from plumb.model.catalogue import EVERY_MACHINE, LAB_EFFECTS, every_effect
 from plumb.model.predict import FOUND, NAMES, judged, lengths, with_parameters
 from plumb.settings.machine import MachineSettings
@@ -41,10 +41,6 @@ CHAIN = {
     for parameter, size in effect["examples"][0]["sizes"].items()
 }
 MAKER = with_parameters(BARE, CHAIN)
-# As published settings are: they correct the chain's sag and know nothing of its stretch.
-PUBLISHED = with_parameters(
-    BARE, {name: size for name, size in CHAIN.items() if name.startswith("chain_sag.")}
-)
 
 
 @dataclass(frozen=True)
@@ -89,6 +85,10 @@ def _causes() -> Iterator[Cause]:
 
 
 CAUSES: tuple[Cause, ...] = tuple(_causes())
+REAL_MM = 3.0  # how far an effect moves marks that should be found
+# What real machines can have by so much; friction by millimetres sticks for centimetres elsewhere.
+USUAL = tuple(cause for cause in CAUSES if not cause.in_frame)
+REAL = tuple(cause for cause in USUAL if cause.most >= REAL_MM and not cause.drag)
 
 
 def causes_of(effect: str) -> tuple[Cause, ...]:
@@ -249,8 +249,6 @@ def judged_places(
 
 
 SIDES = np.array([(1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.0, -1.0)])
-GAP_SIGMA, POSE_SIGMA, TURN_SIGMA = 3.0, 5.0, 0.002  # [mm, mm, rad] how far the frame is off
-# The judge's numbers of each chain.
 WIDTH, HEIGHT = 2200.0, 1000.0  # [mm] that a plan covers of the sheet
 
 
@@ -280,15 +278,6 @@ def plan(
         again=chosen,
         spans=spans,
         name=f"{columns}x{rows}",
-    )
-
-
-def joined(*plans: Plan) -> Plan:
-    """Several plans as one board."""
-    return Plan(
-        targets=np.concatenate([plan.targets for plan in plans]),
-        approaches=np.concatenate([plan.approaches for plan in plans]),
-        sled_weights=np.concatenate([plan.sled_weights for plan in plans]),
     )
 
 
@@ -340,40 +329,6 @@ class TrueMachine:
         return where + self.field(where) if self.field else where
 
 
-@dataclass(frozen=True)
-class BoardCut:
-    """A board, and the machine that cut it."""
-
-    machine: TrueMachine
-    measurements: Measurements
-
-
-def cut(
-    hidden: Hidden,
-    plan: Plan,
-    *,
-    seed: int | np.random.Generator,
-    noise: float = 0.5,
-    tape_sigma: float | None = 0.5,
-    settings: MachineSettings = MAKER,
-) -> BoardCut:
-    """Return a board as measured; frame and sheet lie off by chance. noise, tape_sigma [mm].
-
-    The settings are those in force; the machine's chain is the maker's, whatever they say.
-    """
-    source = np.random.default_rng(seed)
-    machine = TrueMachine(
-        hidden,
-        motor_gap=MAKER.motor_gap + GAP_SIGMA * source.standard_normal(),
-        motor_height=MAKER.motor_height + POSE_SIGMA * source.standard_normal(),
-        motor_center_x=POSE_SIGMA * source.standard_normal(),
-        turn=TURN_SIGMA * source.standard_normal(),
-    )
-    machine = replace(machine, field=hidden.field(plan.targets, source))
-    where = read(machine, plan, settings)
-    return BoardCut(machine, measured(where, plan, source, noise, tape_sigma))
-
-
 def read(machine: TrueMachine, plan: Plan, settings: MachineSettings = MAKER) -> Array:
     """Return where marks would be read (n, 2) [mm] without noise; ValueError if the sled cannot
     hang there.
@@ -384,47 +339,6 @@ def read(machine: TrueMachine, plan: Plan, settings: MachineSettings = MAKER) ->
     if not np.isfinite(where).all():
         raise ValueError("the judge's sled cannot hang at some mark")
     return where
-
-
-def measured(
-    where: Array, plan: Plan, source: np.random.Generator, noise: float, tape_sigma: float | None
-) -> Measurements:
-    """Return what is written down of places (n, 2) [mm]."""
-    marks = [
-        Mark(
-            name=f"{target[0]:.0f}/{target[1]:.0f}",
-            target=tuple(target),
-            measured=None if plan.spans else tuple(place),
-            approach=tuple(side) if any(side) else None,
-            sled_weight=weight,
-        )
-        for target, place, side, weight in zip(
-            plan.targets.tolist(),
-            (where + noise * source.standard_normal(where.shape)).tolist(),
-            plan.approaches.tolist(),
-            plan.sled_weights.tolist(),
-            strict=True,
-        )
-    ]
-    spans: tuple[Distance, ...] = ()
-    if plan.spans:
-        ends = list(combinations(range(len(marks)), 2))
-        ends += ends[:: len(ends) // 6][:6] * 2 if plan.again else []
-        spans = tuple(
-            Distance(
-                (marks[i].name, marks[j].name),
-                float(np.linalg.norm(where[i] - where[j]) + noise * source.standard_normal()),
-            )
-            for i, j in ends
-        )
-    else:
-        marks += [
-            replace(
-                marks[i], measured=tuple((where[i] + noise * source.standard_normal(2)).tolist())
-            )
-            for i in plan.again
-        ]
-    return Measurements(tuple(marks), spans, tape_sigma=tape_sigma, source="hidden")
 
 
 def chains_for(plan: Plan, settings: MachineSettings = MAKER) -> Array:
@@ -461,3 +375,30 @@ def size_for(cause: Cause, plan: Plan, millimetres: float) -> float:
             size *= millimetres / np.sqrt(np.mean(np.sum(moved**2, axis=1)))
         _SIZES[key] = float(size)
     return _SIZES[key]
+
+
+# What settings are worth at the sled: the shape of its errors over the whole sheet.
+
+COLUMNS, ROWS = 15, 9  # places of the sheet at which the sled is asked for
+MARGIN = 50.0  # [mm] of the sheet's edge that is left out
+
+
+def sheet() -> np.ndarray:
+    """Return places (n, 2) [mm] all over the sheet."""
+    across = np.linspace(-HALF[0] + MARGIN, HALF[0] - MARGIN, COLUMNS)
+    up = np.linspace(-HALF[1] + MARGIN, HALF[1] - MARGIN, ROWS)
+    return np.array([(x, y) for y in up for x in across])
+
+
+def shape_error(settings: MachineSettings, landed: Callable[[Array], Array]) -> float:
+    """RMS [mm] of how far the judge's sled, sent by these settings to places all over the sheet,
+    is from them once the sheet is laid at its best; `landed` says where it is by its chains.
+    Nothing rubs: no setting knows of friction."""
+    chains, outcome = lengths(settings, sheet())
+    return shape_of(landed(chains)) if (outcome == FOUND).all() else float("inf")
+
+
+def shape_of(places: Array) -> float:
+    """RMS [mm] of how far places (n, 2) [mm] are from those of `sheet`, laid at its best."""
+    pose = best_pose(sheet(), places)
+    return rms(pose.errors) if pose else 0.0

@@ -1,20 +1,31 @@
-"""`plumb bench`: how often the diagnosis is right on boards with hidden effects."""
+"""How often the diagnosis is right: boards with hidden effects, diagnosed, cured and counted."""
 
 import argparse
+import json
+import sys
 from collections.abc import Callable, Sequence
+from dataclasses import asdict
 
-from plumb.bench.kinds import GRIDS, KINDS
-from plumb.bench.report import Report, Row, WantedBoards, play
-from plumb.cli.arguments import add_shared, count, positive
+from kinds import GRIDS, KINDS
+from plumb.cli.arguments import count, positive
 from plumb.cli.output import INTERRUPTED
-from plumb.cli.screen import Bar, print_json, sentences, table
-from plumb.text.errors import InputError
+from plumb.cli.screen import Bar, sentences, table
 from plumb.text.values import MM
+from rates import Report, Row, WantedBoards, play
+
+BOARDS = 20  # of each kind
+EXIT = "Exit: 0 done, whatever the rates; 2 it cannot run; 130 interrupted, what is done is kept."
 
 
-def run(arguments: argparse.Namespace) -> int:
-    """Run the bench, print its table, and return the exit code."""
-    kinds = chosen_of(arguments.kinds)
+def main(words: Sequence[str] | None = None) -> int:
+    """Play the boards, print the table, and return the exit code."""
+    parser = argparse.ArgumentParser("tools/rates/run", description=__doc__, epilog=EXIT)
+    add_arguments(parser)
+    arguments = parser.parse_args(words)
+    try:
+        kinds = chosen_of(arguments.kinds)
+    except ValueError as error:
+        parser.error(str(error))
     wanted = WantedBoards(
         kinds,
         arguments.boards,
@@ -23,9 +34,48 @@ def run(arguments: argparse.Namespace) -> int:
         arguments.noise,
         not arguments.unstated,
     )
-    report = play(wanted, progress=counted(len(kinds) * wanted.boards), jobs=arguments.jobs)
-    print_json(report) if arguments.json else print(as_text(report))
+    try:
+        report = play(wanted, progress=counted(len(kinds) * wanted.boards), jobs=arguments.jobs)
+    except KeyboardInterrupt:
+        return INTERRUPTED
+    print(json.dumps(asdict(report), indent=2) if arguments.json else as_text(report))
     return INTERRUPTED if report.interrupted else 0
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the arguments."""
+    parser.add_argument(
+        "--kinds",
+        metavar="KIND",
+        nargs="+",
+        action="extend",
+        default=[],
+        help="only kinds whose names begin like this, with or without known/ or stock/",
+    )
+    parser.add_argument(
+        "--boards", metavar="N", type=count, default=BOARDS, help=f"boards of each kind [{BOARDS}]"
+    )
+    parser.add_argument(
+        "--marks", type=int, choices=GRIDS, default=25, help="marks on each board [25]"
+    )
+    parser.add_argument(
+        "--noise",
+        metavar="MM",
+        type=positive,
+        help="of each coordinate, instead of what the kinds have",
+    )
+    parser.add_argument(
+        "--unstated", action="store_true", help="the files of marks do not state the noise"
+    )
+    parser.add_argument(
+        "--seed",
+        metavar="S",
+        type=int,
+        default=1,
+        help="draws the boards; the same seed, the same boards [1]",
+    )
+    parser.add_argument("--jobs", metavar="N", type=count, default=1, help="processes at once [1]")
+    parser.add_argument("--json", action="store_true", help="all figures as JSON")
 
 
 def chosen_of(beginnings: Sequence[str]) -> tuple[str, ...]:
@@ -33,7 +83,7 @@ def chosen_of(beginnings: Sequence[str]) -> tuple[str, ...]:
     names = {name: (name, name.partition("/")[2]) for name in KINDS}
     for beginning in beginnings:
         if not any(each.startswith(beginning) for both in names.values() for each in both):
-            raise InputError(f"--kinds {beginning}: no kind begins so; they are {', '.join(KINDS)}")
+            raise ValueError(f"--kinds {beginning}: no kind begins so; they are {', '.join(KINDS)}")
     chosen = tuple(beginnings) or ("",)
     return tuple(
         name for name, both in names.items() if any(each.startswith(chosen) for each in both)
@@ -123,47 +173,5 @@ def cells(row: Row) -> list[str]:
     return [*said, *lengths, worse, f"{row.cpu:.2f}"]
 
 
-# The arguments of `plumb bench`.
-
-BOARDS = 20  # of each kind
-EXAMPLES = (
-    "plumb bench --kinds none one several --boards 8 --jobs 2",
-    "plumb bench --marks 9 --seed 7",
-)
-EXIT = "Exit: 0 done, whatever the rates; 2 it cannot run; 130 interrupted, what is done is kept."
-
-
-def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Add the arguments of `plumb bench`."""
-    parser.add_argument(
-        "--kinds",
-        metavar="KIND",
-        nargs="+",
-        action="extend",
-        default=[],
-        help="only kinds whose names begin like this, with or without known/ or stock/",
-    )
-    parser.add_argument(
-        "--boards", metavar="N", type=count, default=BOARDS, help=f"boards of each kind [{BOARDS}]"
-    )
-    parser.add_argument(
-        "--marks", type=int, choices=GRIDS, default=25, help="marks on each board [25]"
-    )
-    parser.add_argument(
-        "--noise",
-        metavar="MM",
-        type=positive,
-        help="of each coordinate, instead of what the kinds have",
-    )
-    parser.add_argument(
-        "--unstated", action="store_true", help="the files of marks do not state the noise"
-    )
-    parser.add_argument(
-        "--seed",
-        metavar="S",
-        type=int,
-        default=1,
-        help="draws the boards; the same seed, the same boards [1]",
-    )
-    parser.add_argument("--jobs", metavar="N", type=count, default=1, help="processes at once [1]")
-    add_shared(parser, "--json")
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,1 +1,0 @@
-"""The bench: boards with hidden effects that the judge cut, and how often a diagnosis is right."""
