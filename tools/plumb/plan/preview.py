@@ -9,7 +9,7 @@ from typing import Annotated
 import numpy as np
 import scipy
 
-from plumb.diagnosis.diagnosis import NOTHING, hidden_share
+from plumb.diagnosis.diagnosis import NOTHING
 from plumb.diagnosis.explanation import FEWEST_NUMBERS, Board, Explanation
 from plumb.diagnosis.priors import chance_of, largest_met
 from plumb.fit.compare import Expected, expected_anywhere, expected_priors, expected_sentence
@@ -17,13 +17,13 @@ from plumb.fit.fit import PRIORS
 from plumb.fit.observations import different_numbers, model_and_observations
 from plumb.grid import APPROACH, Touch
 from plumb.marks.read import Mark, Measurements
-from plumb.model.catalogue import effect_names, parameter_words
+from plumb.model.catalogue import effect_names
 from plumb.model.plain import noun_of, ranked
 from plumb.model.predict import REACH_WORDS
 from plumb.model.reach import Extreme, Survey, conclusion_of, percent, survey_sheet
 from plumb.plan.proposal import apart
 from plumb.settings.machine import MachineSettings
-from plumb.text.answers import Internal, Matrix, in_json, key, part
+from plumb.text.answers import Internal, in_json, key, part
 from plumb.text.errors import InputError
 from plumb.text.values import MM, Unit
 
@@ -110,25 +110,12 @@ APART = 3.0  # sigmas from which two effects are distinguished in most cases
 
 
 @dataclass(frozen=True)
-class SmallestSize:
-    """The smallest size of a parameter that is proved with POWER; None: no size is."""
-
-    name: str
-    smallest: float | None
-    unit: str
-
-
-@dataclass(frozen=True)
 class Outline:
     """One effect by itself under a plan."""
 
     effect: str
-    # [mm] RMS of what its typical size draws, before the frame is refitted
-    raw: Annotated[float, key("typical_mm")]
-    hidden_share: float | None  # None: nothing that is measured feels it
     seen: Annotated[float, key("snr")]  # [sigmas] of its typical size beyond the frame
     smallest: float | None  # times typical, proved with POWER
-    parameters: tuple[SmallestSize, ...]
     alike: tuple[str, ...]  # effects it would be taken for
     is_distinct: bool  # in most cases it is taken for no other effect
 
@@ -149,10 +136,7 @@ class Preview:
 
     sigma: Annotated[float, key("sigma_mm")]
     marks: int
-    effects: tuple[str, ...]
-    # (e, e) [sigmas] of the row beyond frame and column; diagonal: beyond the frame
-    matrix: Annotated[Matrix, key("snr")]
-    outlines: tuple[Outline, ...]  # in the order of the effects
+    outlines: tuple[Outline, ...]
 
     @in_json
     def seen(self) -> int:
@@ -174,13 +158,11 @@ def preview(
 ) -> Preview:
     """Return what marks at the targets of a plan could tell; sigma [mm] of one coordinate."""
     frame = _as_planned(settings, plan, sigma, priors)
-    names, matrix = effect_names(), _matrix(frame, frame.slopes)
+    matrix = _matrix(frame)
     return Preview(
         sigma=sigma,
         marks=len(frame.board.rows.measured),
-        effects=names,
-        matrix=matrix,
-        outlines=tuple(_outline(frame, i, matrix) for i in range(len(names))),
+        outlines=tuple(_outline(frame, i, matrix) for i in range(len(matrix))),
     )
 
 
@@ -203,9 +185,9 @@ def _as_planned(
     return board.with_rows(replace(rows, measured=sighting.read.where[rows.mark_rows])).fitted
 
 
-def _matrix(frame: Explanation, slopes: Array) -> Array:
+def _matrix(frame: Explanation) -> Array:
     """Sigmas of each effect (row) beyond the frame and each other effect (column)."""
-    board, names = frame.board, effect_names()
+    board, names, slopes = frame.board, effect_names(), frame.slopes
     sigmas = np.zeros((len(names), len(names)))
     for i, effect in enumerate(names):
         drawn = np.eye(slopes.shape[1])[:, board.columns([effect])]
@@ -216,41 +198,19 @@ def _matrix(frame: Explanation, slopes: Array) -> Array:
 
 
 def _outline(frame: Explanation, i: int, matrix: Array) -> Outline:
-    names, words = effect_names(), parameter_words()
-    name, seen = names[i], float(matrix[i, i])
-    columns = frame.board.columns([name])
-    rows = frame.board.rows
-    drawn = np.linalg.norm(frame.slopes[: rows.count, columns])
-    raw = float(drawn * frame.board.sigma / np.sqrt(len(rows.measured)))
-    smallest = _smallest(frame.board, name, seen)
-    typical = [words[frame.board.problem.names[column]] for column in columns]
+    names, seen = effect_names(), float(matrix[i, i])
     alike = [
         (matrix[i, j], other)
         for j, other in enumerate(names)
         if j != i and matrix[i, j] < min(APART, 0.7 * seen)
     ]
     return Outline(
-        effect=name,
-        raw=raw,
-        hidden_share=hidden_share(frame, name),
+        effect=names[i],
         seen=seen,
-        smallest=smallest,
-        parameters=tuple(
-            SmallestSize(
-                parameter["name"],
-                None if smallest is None else smallest * abs(parameter["typical"]),
-                parameter["unit"],
-            )
-            for parameter in typical
-        ),
+        smallest=_needed(frame.board, names[i], seen) / seen if seen > UNSEEN else None,
         alike=tuple(other for _, other in ranked(alike, lambda each: each[0])),
         is_distinct=bool((matrix[i] >= APART).all()),
     )
-
-
-def _smallest(board: Board, effect: str, seen: float) -> float | None:
-    """Return the smallest size, times typical, that is named with POWER."""
-    return _needed(board, effect, seen) / seen if seen > UNSEEN else None
 
 
 def _needed(board: Board, effect: str, seen: float) -> float:

@@ -27,12 +27,6 @@ T = TypeVar("T")
 Internal = Annotated[
     T, Field(exclude=True), GetPydanticSchema(lambda _type, _handler: core_schema.any_schema())
 ]
-# A matrix of numbers, row by row.
-Matrix = Annotated[
-    np.ndarray,
-    GetPydanticSchema(lambda _type, _handler: core_schema.any_schema()),
-    PlainSerializer(lambda array: array.tolist(), return_type=list[list[float]]),
-]
 # A number that is null in the JSON where it is not finite.
 Number = Annotated[float, PlainSerializer(lambda number: plain(number), return_type=float | None)]
 # A time of day as ISO 8601 writes it.

@@ -5,14 +5,14 @@ from dataclasses import dataclass
 from typing import Annotated
 
 from plumb.fit.by_hand import what_to_type
-from plumb.model.plain import noun_of, plain_before, plainly
-from plumb.plan.preview import POWER, Outline, Preview
+from plumb.model.plain import noun_of, plainly
+from plumb.plan.preview import Outline, Preview
 from plumb.plan.proposal import CONFIRM, EXPLORE, FIND, READ_ONLY, REREAD, SETTLE, Next, Proposal
 from plumb.settings.machine import MachineSettings
 from plumb.text.answers import Internal, in_json, key, part
 from plumb.text.values import Unit
 from plumb.words import Part, Rows, Sentences
-from plumb.words.verdict import DiagnosisInWords, share_words
+from plumb.words.verdict import DiagnosisInWords
 
 FEW = 5  # proposals; the JSON has all
 HEADS = {
@@ -157,11 +157,6 @@ def taking_words(marks: int, form: str, program: str) -> tuple[str, str]:
 # What marks could tell before a hole is cut.
 
 ALIKE = 2  # causes that a cause may be taken for, by name
-CAUSES = ("", "effect", "usual, {}", "taken up", "found from", "taken for")
-FROM = (
-    f"found from: the smallest size that is found in {100 * POWER:.0f} % of all cases, times the "
-    "usual size"
-)
 
 
 def could_tell(seen: Preview) -> str:
@@ -174,30 +169,12 @@ def could_tell(seen: Preview) -> str:
 
 def causes(seen: Preview, unit: Unit) -> list[Part]:
     """Return what marks could tell, and each cause by itself."""
-    rows = [
-        [
-            str(place),
-            outline.noun,
-            unit.bare(outline.raw),
-            share_words(outline.hidden_share),
-            _smallest(outline, unit),
-            _taken_for(outline) or "-",
-        ]
-        for place, outline in enumerate(seen.outlines, 1)
-    ]
-    header = [each.format(unit.name) for each in CAUSES]
+    rows = [[sign, each.noun, said] for each in seen.outlines for sign, said in [chances(each)]]
     first = f"{seen.marks} marks read to {unit.worded(seen.sigma)}: {could_tell(seen)}."
-    return [Sentences([first], ""), Rows(header, rows, left=2, words=[-2, -1], note=FROM)]
-
-
-def _smallest(outline: Outline, unit: Unit) -> str:
-    if outline.smallest is None:
-        return "never"
-    first = outline.parameters[0]
-    alone = len(outline.parameters) == 1 and first.smallest is not None
-    name, size = f"{outline.effect}.{first.name}", first.smallest or 0.0
-    in_words = f" ({plain_before(name, size, unit=unit)})" if alone else ""
-    return f"x {outline.smallest:.2g}{in_words}"
+    return [
+        Sentences([first], ""),
+        Rows(["", "cause", "by these marks it"], rows, left=3, words=[2]),
+    ]
 
 
 def _taken_for(outline: Outline) -> str:

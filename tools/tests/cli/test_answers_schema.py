@@ -101,7 +101,7 @@ def test_the_schema_leaves_no_key_and_no_type_open():
         assert all(shown & {*value} for value in each["properties"].values())
 
 
-ASKED_ELSEWHERE = {"bench", "calibrate", "check", "diagnose", "forward", "inverse"}
+ASKED_ELSEWHERE = {"calibrate", "check", "diagnose", "forward", "inverse"}
 ASKED_ELSEWHERE |= {"send", "resume"}
 
 

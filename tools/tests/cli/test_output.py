@@ -157,7 +157,6 @@ def _no_screen(monkeypatch):
         ("grid", "--settings", INI, "--details"),
         ("add", INI, MARKS, "--effect", "auto", "--patch"),
         ("effects",),
-        ("bench", "--kinds", "one", "--marks", "9", "--boards", "1"),
         ("reach", EXAMPLE / "machine.toml"),
     ],
     ids=lambda command: command[0],
