@@ -23,7 +23,7 @@ from plumb.model.catalogue import (
     parameter_words,
 )
 from plumb.model.predict import FOUND, values_of, with_parameters
-from plumb.settings.machine import MachineSettings
+from plumb.settings import MachineSettings
 from template import filled
 
 PAGE = "docs/effects.md"

@@ -21,7 +21,7 @@ from plumb.fit.inputs import Inputs
 from plumb.fit.observations import rms
 from plumb.hidden import SLED, TrueMachine, plan, read, shape_of, sheet
 from plumb.model.predict import chain_lengths, lengths, places
-from plumb.settings.machine import FRAME_FIELDS, MachineSettings, PublishedSettings, tuned_numbers
+from plumb.settings import FRAME_FIELDS, MachineSettings, PublishedSettings, tuned_numbers
 from real_data_page import HOLES, RealSet, other_boards, real_set
 from scipy.interpolate import RegularGridInterpolator
 from scipy.optimize import least_squares

@@ -15,7 +15,7 @@ from plumb.diagnosis.diagnosis import left_out, left_out_refitted
 from plumb.fit.compare import Comparison, compare
 from plumb.fit.inputs import Inputs, read_inputs
 from plumb.fit.observations import rms
-from plumb.settings.machine import MachineSettings
+from plumb.settings import MachineSettings
 from template import filled
 
 PAGE = "docs/real-data.md"

@@ -20,7 +20,7 @@ from plumb.fit.inputs import settings_in
 from plumb.line.memory import lines_for, read_numbers
 from plumb.line.sender import RefusedError, Sender
 from plumb.model.reach import percent, survey_sheet
-from plumb.settings.machine import GRAVITY, MachineSettings, frame_of, machine_toml
+from plumb.settings import GRAVITY, MachineSettings, frame_of, machine_toml
 from plumb.text.errors import InputError
 from plumb.text.files import numbered, read_bytes, read_text, write_whole
 from plumb.text.values import Unit

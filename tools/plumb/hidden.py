@@ -12,7 +12,7 @@ from plumb.fit.compare import best_pose
 from plumb.fit.observations import rms
 from plumb.model.catalogue import EVERY_MACHINE, LAB_EFFECTS, every_effect
 from plumb.model.predict import FOUND, NAMES, judged, lengths, with_parameters
-from plumb.settings.machine import MachineSettings
+from plumb.settings import MachineSettings
 
 # Causes that can be hidden in a board: each effect of the library in the judge's numbers, and
 # things that the library has no word for.

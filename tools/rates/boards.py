@@ -7,7 +7,7 @@ import numpy as np
 from plumb.hidden import BARE, CHAIN, MAKER, Array, Hidden, Plan, TrueMachine, read
 from plumb.marks.read import Distance, Mark, Measurements
 from plumb.model.predict import with_parameters
-from plumb.settings.machine import MachineSettings
+from plumb.settings import MachineSettings
 
 # As published settings are: they correct the chain's sag and know nothing of its stretch.
 PUBLISHED = with_parameters(

@@ -21,7 +21,7 @@ from plumb.hidden import (
     size_for,
 )
 from plumb.model.catalogue import EVERY_MACHINE
-from plumb.settings.machine import MachineSettings
+from plumb.settings import MachineSettings
 
 # Effects to hide in boards, drawn by chance or in turns, and slips of the pen.
 

@@ -14,7 +14,7 @@ from plumb.fit.inputs import Inputs
 from plumb.hidden import Hidden, read, shape_error
 from plumb.model.catalogue import effect_names, parameter_names
 from plumb.model.predict import Array
-from plumb.settings.machine import MachineSettings
+from plumb.settings import MachineSettings
 
 # Hidden effects that the marks of a board can show, without any noise.
 

@@ -9,7 +9,7 @@ import numpy as np
 from plumb.fit.observations import loaded
 from plumb.marks.read import Distance, Mark, Measurements
 from plumb.model.predict import FOUND, lengths, places, settings_of, values_of
-from plumb.settings.machine import MachineSettings
+from plumb.settings import MachineSettings
 
 SHEET = (2438.4, 1219.2)
 BELIEVED = MachineSettings(

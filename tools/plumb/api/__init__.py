@@ -20,7 +20,7 @@ from plumb.fit.fit import priors_with
 from plumb.fit.inputs import Inputs as Inputs
 from plumb.fit.inputs import read_inputs
 from plumb.plan import propose
-from plumb.settings.machine import write_machine_toml
+from plumb.settings import write_machine_toml
 from plumb.text.compiled import refuse_stale
 from plumb.text.errors import InputError as InputError
 from plumb.text.errors import Source

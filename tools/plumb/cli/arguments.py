@@ -19,7 +19,7 @@ from plumb.fit.inputs import Inputs, read_inputs
 from plumb.grid import pair
 from plumb.marks.read import without_marks
 from plumb.model.catalogue import parameter_words
-from plumb.settings.machine import CONTROLLERS, MachineSettings
+from plumb.settings import CONTROLLERS, MachineSettings
 from plumb.text.errors import InputError, naming
 from plumb.text.files import ReadOnce, read_bytes
 from plumb.text.values import MM, Unit, length_in, number_in, typed_length, unit_called

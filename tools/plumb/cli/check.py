@@ -15,7 +15,7 @@ from plumb.job.dry_run import comment_of, outline_of, program_in
 from plumb.job.fixes import FixedLine, fixed, has_habit
 from plumb.job.resume import JobMachine
 from plumb.job.wood import Tools
-from plumb.settings.machine import MachineSettings
+from plumb.settings import MachineSettings
 from plumb.text.values import Unit
 from plumb.words.job import JobAnswer, all_of, changes_said, headline, runs_here
 from plumb.words.states import KINDS

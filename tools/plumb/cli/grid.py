@@ -25,8 +25,7 @@ from plumb.grid import (
 )
 from plumb.model.reach import plain_machine, refuse_way, with_soft_chains
 from plumb.plan.preview import Preview, as_read, preview
-from plumb.settings.files import cut_with_lines, with_form
-from plumb.settings.machine import MachineSettings
+from plumb.settings import MachineSettings, cut_with_lines, with_form
 from plumb.text.answers import meant
 from plumb.text.errors import InputError
 from plumb.words.proposals import causes

@@ -20,7 +20,7 @@ from plumb.model.predict import (
     clamped,
     lengths,
 )
-from plumb.settings.machine import MachineSettings
+from plumb.settings import MachineSettings
 from plumb.text.answers import among, key
 from plumb.text.errors import InputError
 from plumb.text.values import MM, Unit

@@ -12,7 +12,7 @@ from plumb.fit.inputs import Inputs, settings_in
 from plumb.plan import Next, propose
 from plumb.plan.case import Case
 from plumb.plan.proposal import form_of, program_of, worth
-from plumb.settings.machine import MachineSettings
+from plumb.settings import MachineSettings
 from plumb.text.errors import InputError
 from plumb.words import proposals as words
 from plumb.words.states import KINDS

@@ -13,8 +13,7 @@ from plumb.cli.screen import headline, print_json, sentences, table
 from plumb.cli.vm import add_brain, serve
 from plumb.grid import BLANK
 from plumb.model.predict import known_effects
-from plumb.settings.files import read_settings
-from plumb.settings.machine import machine_toml
+from plumb.settings import machine_toml, read_settings
 from plumb.text.errors import InputError
 from plumb.text.files import write_all, write_whole
 from plumb.text.values import Unit

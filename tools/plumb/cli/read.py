@@ -14,7 +14,7 @@ from plumb.firmware.telemetry import slip_suspicion, telemetry_in
 from plumb.line.memory import read_numbers
 from plumb.line.port import SerialPort, port_for
 from plumb.line.sender import Sender, lost_place
-from plumb.settings.machine import machine_toml
+from plumb.settings import machine_toml
 from plumb.text.answers import meant
 
 FIRST_EFFECT = 100  # from here on zero means that the machine does without

@@ -34,8 +34,7 @@ from plumb.line.sender import (
 )
 from plumb.marks.form import read_form
 from plumb.model.predict import known_effects
-from plumb.settings.files import form_of, read_settings
-from plumb.settings.machine import MachineSettings
+from plumb.settings import MachineSettings, form_of, read_settings
 from plumb.text.answers import meant
 from plumb.text.errors import InputError
 from plumb.text.files import ReadOnce, read_text

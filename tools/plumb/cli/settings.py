@@ -17,7 +17,7 @@ from plumb.firmware.settings import (
     firmware_numbers,
 )
 from plumb.fit.inputs import settings_in
-from plumb.settings.machine import CLIENTS, FIRMWARES, MachineSettings
+from plumb.settings import CLIENTS, FIRMWARES, MachineSettings
 from plumb.text.answers import Internal, in_json, meant
 from plumb.text.errors import InputError
 

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from plumb.cli.arguments import length, positive
 from plumb.line.bootloader import hex_bytes
-from plumb.settings.machine import MachineSettings
+from plumb.settings import MachineSettings
 from plumb.text.errors import InputError
 from plumb.text.files import read_bytes, write_whole
 from plumb.vm.garage import (

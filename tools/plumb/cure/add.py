@@ -44,7 +44,7 @@ from plumb.model.catalogue import (
 )
 from plumb.model.plain import noun_of, plain_name, plain_range, plain_size
 from plumb.model.predict import Array, frame_words
-from plumb.settings.machine import MachineSettings
+from plumb.settings import MachineSettings
 from plumb.text.answers import Internal, Number, among, in_json, meant, part
 from plumb.text.errors import InputError, to_do
 from plumb.text.values import Unit, refuse_unknown

@@ -16,8 +16,7 @@ from plumb.fit.observations import POSE_AXES, ZERO_AXES
 from plumb.marks.read import Round
 from plumb.model.catalogue import parameter_names, place_of
 from plumb.model.plain import ranked
-from plumb.settings.files import published_machine
-from plumb.settings.machine import FRAME_FIELDS, FitRecord, FittedBoard, machine_toml
+from plumb.settings import FRAME_FIELDS, FitRecord, FittedBoard, machine_toml, published_machine
 from plumb.text.answers import Internal, among, in_json, key, part
 from plumb.text.errors import said_by
 

@@ -15,7 +15,7 @@ from plumb.fit.compare import best_pose, chain_errors, hung_places, places_over
 from plumb.fit.observations import Observations, Sighting, sighted, visited
 from plumb.model.plain import ranked
 from plumb.model.predict import FOUND, NAMES, Array, lengths, settings_of
-from plumb.settings.machine import MachineSettings
+from plumb.settings import MachineSettings
 from plumb.text.answers import Internal, in_json
 from plumb.text.values import Unit
 

@@ -14,7 +14,7 @@ from plumb.fit.inputs import Inputs
 from plumb.fit.observations import Observations, different_numbers
 from plumb.marks.read import Measurements
 from plumb.model.catalogue import effect_names, parameter_names
-from plumb.settings.machine import MachineSettings
+from plumb.settings import MachineSettings
 from plumb.text.errors import InputError
 from plumb.text.values import MM, Unit
 

@@ -18,7 +18,7 @@ from plumb.diary.file import FIT, Diary, Entry
 from plumb.fit.observations import SHEET_ROTATION
 from plumb.model.plain import ranked
 from plumb.model.predict import FOUND, NAMES, Array, believed_lengths, places_with_slopes, values_of
-from plumb.settings.machine import MachineSettings, machine_in
+from plumb.settings import MachineSettings, machine_in
 from plumb.text.answers import Internal, Moment, in_json, key, part
 from plumb.text.errors import InputError
 from plumb.text.values import MM, Unit

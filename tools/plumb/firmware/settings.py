@@ -11,15 +11,17 @@ import numpy as np
 
 from plumb import _core
 from plumb.model.predict import FOUND, lengths, library
-from plumb.settings.files import (
+from plumb.settings import (
     SOURCES,
+    TUNED,
     Key,
+    MachineSettings,
     changed_client_file,
+    frame_of,
     groundcontrol_changes,
     number_for_firmware,
     parse_client_file,
 )
-from plumb.settings.machine import TUNED, MachineSettings, frame_of
 from plumb.text.errors import InputError, Source, naming, to_do
 from plumb.text.files import IniText
 

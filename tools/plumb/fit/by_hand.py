@@ -9,7 +9,7 @@ from dataclasses import replace
 
 from plumb.model.catalogue import LAB_EFFECTS
 from plumb.model.predict import RuleReading, library
-from plumb.settings.machine import GRAVITY, MachineSettings
+from plumb.settings import GRAVITY, MachineSettings
 from plumb.text.values import INCH, INCHES, Unit, length_in, number_in
 
 WEIGHT = "sled_weight"

@@ -34,7 +34,7 @@ from plumb.model.predict import (
     places_with_slopes,
     values_of,
 )
-from plumb.settings.machine import FRAME_FIELDS, FitRecord, MachineSettings
+from plumb.settings import FRAME_FIELDS, FitRecord, MachineSettings
 from plumb.text.answers import Internal, in_json, key
 from plumb.text.errors import InputError, to_do
 from plumb.text.values import Unit

@@ -24,7 +24,7 @@ from plumb.fit.observations import (
 )
 from plumb.model.catalogue import parameter_names, parameter_words
 from plumb.model.predict import FOUND, NAMES, Array, settings_of, values_of, with_parameters
-from plumb.settings.machine import FRAME_FIELDS, MachineSettings
+from plumb.settings import FRAME_FIELDS, MachineSettings
 from plumb.text.errors import InputError, to_do
 from plumb.text.values import refuse_unknown
 

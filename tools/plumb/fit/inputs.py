@@ -15,8 +15,7 @@ from plumb.fit.observations import (
 )
 from plumb.marks.read import Measurements, join_measurements, read_marks
 from plumb.model.predict import known_effects
-from plumb.settings.files import read_settings
-from plumb.settings.machine import FitRecord, MachineSettings
+from plumb.settings import FitRecord, MachineSettings, read_settings
 from plumb.text.errors import InputError, to_do
 from plumb.text.values import MM, Unit
 

@@ -30,7 +30,7 @@ from plumb.model.predict import (
     settings_of,
     values_of,
 )
-from plumb.settings.machine import MachineSettings
+from plumb.settings import MachineSettings
 from plumb.text.errors import InputError
 
 Array = np.ndarray

@@ -34,7 +34,7 @@ from plumb.job.dry_run import (
 )
 from plumb.job.wood import Piece, Tools, spoiled, take
 from plumb.model.predict import FOUND, NAMES, Array, lengths, places_with_slopes
-from plumb.settings.machine import MachineSettings
+from plumb.settings import MachineSettings
 from plumb.text.answers import Internal
 
 Fitness = Literal["clean", "doubtful", "wrong"]

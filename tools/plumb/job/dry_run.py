@@ -19,7 +19,7 @@ from plumb.line.sender import PlainError, plain
 from plumb.model.plain import greatest, least
 from plumb.model.predict import CANNOT_HANG, FOUND, REACH_WORDS, USABLE, Array, lengths, reach
 from plumb.model.reach import with_soft_chains
-from plumb.settings.machine import MachineSettings
+from plumb.settings import MachineSettings
 from plumb.text.answers import Internal, in_json, key
 from plumb.text.errors import InputError, Source
 from plumb.text.files import MB, read_text

@@ -16,7 +16,7 @@ from pydantic import BeforeValidator
 
 from plumb.grid import APPROACH, PLUNGE_FEED, Grid
 from plumb.model.predict import FOUND, Array, believed_lengths, places
-from plumb.settings.machine import MachineSettings
+from plumb.settings import MachineSettings
 from plumb.text.answers import in_json, key
 from plumb.text.errors import InputError, Source, naming
 from plumb.text.files import parsed, read_text, write_whole

@@ -10,7 +10,7 @@ import numpy as np
 from plumb.job.dry_run import IN_WOOD, Flags, Moves, Rows, Run, pieces, safe_height
 from plumb.model.plain import least
 from plumb.model.predict import Array
-from plumb.settings.machine import MachineSettings
+from plumb.settings import MachineSettings
 from plumb.text.errors import InputError
 
 Place = tuple[float, float, float]

@@ -13,7 +13,7 @@ from plumb.fit.fit import priors_with
 from plumb.lab.project import Choices, Number
 from plumb.model.predict import RuleReading
 from plumb.plan.proposal import FRAME_CHECKS, NumberCheck, effect_checks
-from plumb.settings.machine import GRAVITY, MachineSettings
+from plumb.settings import GRAVITY, MachineSettings
 from plumb.text.errors import InputError
 from plumb.text.values import Unit
 

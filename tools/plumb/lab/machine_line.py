@@ -28,7 +28,7 @@ from plumb.line.bootloader import hex_file, write_program
 from plumb.line.port import SerialPort
 from plumb.line.sender import Sender, StoppedError
 from plumb.line.worker import LineState, LineWorker
-from plumb.settings.machine import MachineSettings
+from plumb.settings import MachineSettings
 from plumb.text.errors import InputError
 from plumb.vm.garage import PacedPort, VirtualOwner, set_up
 

@@ -24,8 +24,7 @@ from plumb.model.reach import plain_machine, refuse_way, with_soft_chains
 from plumb.plan import planned_visits
 from plumb.plan.planned_visits import proof_places
 from plumb.plan.proposal import MARK, ROUND
-from plumb.settings.files import cut_with_lines, digest_of, with_form
-from plumb.settings.machine import MachineSettings
+from plumb.settings import MachineSettings, cut_with_lines, digest_of, with_form
 from plumb.text.answers import Internal
 from plumb.text.commands import quoted
 from plumb.text.errors import InputError, on_page

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from plumb.firmware.settings import firmware_numbers, gcode, listed_settings
 from plumb.line.sender import QUESTION, REPORTS, Sender, Watch, are_apart
-from plumb.settings.machine import MachineSettings
+from plumb.settings import MachineSettings
 from plumb.text.errors import InputError, to_do
 from plumb.text.files import read_text
 

@@ -13,7 +13,7 @@ import tomlkit
 from plumb.grid import BLANK
 from plumb.marks.model import Mark, Measurements, Point
 from plumb.marks.read import Sheet, read_marks_toml
-from plumb.settings.machine import Known
+from plumb.settings import Known
 from plumb.text.errors import Source
 from plumb.text.files import read_text
 from plumb.text.values import UNITS, with_quoted_fractions

@@ -11,7 +11,7 @@ from hashlib import sha256
 
 import numpy as np
 
-from plumb.settings.machine import MachineSettings
+from plumb.settings import MachineSettings
 from plumb.text.errors import InputError
 
 Point = tuple[float, float]

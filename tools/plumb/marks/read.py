@@ -24,8 +24,7 @@ from plumb.marks.model import (
     digest_of,
     refuse_exchanged_columns,
 )
-from plumb.settings.files import read_settings, settings_as_they_were
-from plumb.settings.machine import Controller, Known, MachineSettings
+from plumb.settings import Controller, Known, MachineSettings, read_settings, settings_as_they_were
 from plumb.text.answers import meant
 from plumb.text.errors import InputError, Source, naming, to_do
 from plumb.text.files import CODE, IniText, as_path, parsed, read_bytes, read_ini, read_text

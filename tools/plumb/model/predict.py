@@ -18,7 +18,7 @@ from plumb import _core
 
 if TYPE_CHECKING:
     from plumb._core import FrameWords
-from plumb.settings.machine import HOLEY_CHAIN_WEIGHT, MachineSettings, frame_of
+from plumb.settings import HOLEY_CHAIN_WEIGHT, MachineSettings, frame_of
 from plumb.text.values import in_both_units
 
 # The words of an effect, as the firmware's library has them (lib/Kinematics/src/effect.h).

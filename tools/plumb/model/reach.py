@@ -21,7 +21,7 @@ from plumb.model.predict import (
     usual_parameters,
     with_parameters,
 )
-from plumb.settings.machine import MachineSettings
+from plumb.settings import MachineSettings
 from plumb.text.errors import InputError, to_do
 
 COLUMNS, ROWS = 305, 153  # of a survey: a place each 8 mm of the usual sheet, edges included

@@ -31,7 +31,7 @@ from plumb.model.catalogue import EVERY_MACHINE, effect_names
 from plumb.model.plain import ascending
 from plumb.model.predict import FOUND
 from plumb.plan.planned_visits import Visits
-from plumb.settings.machine import MachineSettings
+from plumb.settings import MachineSettings
 
 # Knowledge before the next measurement: the accounts that are likely, and the next machine.
 

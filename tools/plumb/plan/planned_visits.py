@@ -16,7 +16,7 @@ from plumb.marks.model import Mark, Point
 from plumb.model.plain import greatest
 from plumb.model.predict import USABLE, believed_lengths, reach, settings_of, values_of
 from plumb.model.reach import with_soft_chains
-from plumb.settings.machine import GRAVITY, MachineSettings
+from plumb.settings import GRAVITY, MachineSettings
 from plumb.text.answers import key
 from plumb.text.errors import InputError
 from plumb.text.values import INCHES, Unit

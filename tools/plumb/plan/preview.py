@@ -22,7 +22,7 @@ from plumb.model.plain import noun_of, ranked
 from plumb.model.predict import REACH_WORDS
 from plumb.model.reach import Extreme, Survey, conclusion_of, percent, survey_sheet
 from plumb.plan.proposal import apart
-from plumb.settings.machine import MachineSettings
+from plumb.settings import MachineSettings
 from plumb.text.answers import Internal, in_json, key, part
 from plumb.text.errors import InputError
 from plumb.text.values import MM, Unit

@@ -36,8 +36,7 @@ from plumb.plan.planned_visits import (
     sent,
     usable,
 )
-from plumb.settings.files import cut_with_lines, with_form
-from plumb.settings.machine import GRAVITY
+from plumb.settings import GRAVITY, cut_with_lines, with_form
 from plumb.text.answers import Internal, among, in_json, key, meant, part
 from plumb.text.errors import Source
 from plumb.text.values import Unit, in_both_units

@@ -33,7 +33,7 @@ from plumb.line.sender import Sender
 from plumb.model.catalogue import LAB_EFFECTS
 from plumb.model.predict import judged
 from plumb.plan.case import PlannedCheck
-from plumb.settings.machine import MachineSettings
+from plumb.settings import MachineSettings
 from plumb.text.errors import InputError, to_do
 from plumb.text.values import refuse_unknown
 

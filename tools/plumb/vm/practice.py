@@ -13,7 +13,7 @@ from pydantic.dataclasses import dataclass as pydantic_dataclass
 
 from plumb.model.catalogue import empirical_effects
 from plumb.model.plain import plainly
-from plumb.settings.machine import MachineSettings
+from plumb.settings import MachineSettings
 from plumb.text.answers import in_json
 from plumb.text.errors import InputError, to_do
 from plumb.text.files import read_text

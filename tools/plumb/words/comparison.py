@@ -8,7 +8,7 @@ from plumb.fit.compare import ComparedDistance, ComparedMark, Comparison
 from plumb.fit.inputs import Inputs
 from plumb.marks.model import Typed
 from plumb.model.plain import plain_size, ranked
-from plumb.settings.machine import FitRecord
+from plumb.settings import FitRecord
 from plumb.text.errors import to_do
 from plumb.text.values import Unit
 from plumb.words import Part, Rows, Sentences

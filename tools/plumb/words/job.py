@@ -9,7 +9,7 @@ from plumb.job.fixes import FixedLine
 from plumb.job.resume import Resumed
 from plumb.job.wood import Piece
 from plumb.model.predict import CANNOT_HANG, REACH_WORDS
-from plumb.settings.machine import GRAVITY
+from plumb.settings import GRAVITY
 from plumb.text.answers import Internal, in_json, part
 from plumb.text.values import INCH, INCHES, MM, Unit, time_text
 from plumb.words import Part as Said

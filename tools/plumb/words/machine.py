@@ -1,7 +1,7 @@
 """What the machine does, whether it holds what is open, and who may move it, in words."""
 
 from plumb.line.worker import LineState
-from plumb.settings.machine import MachineSettings
+from plumb.settings import MachineSettings
 from plumb.text.values import Unit
 from plumb.words import Heading
 

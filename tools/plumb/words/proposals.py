@@ -8,7 +8,7 @@ from plumb.fit.by_hand import what_to_type
 from plumb.model.plain import noun_of, plainly
 from plumb.plan.preview import Outline, Preview
 from plumb.plan.proposal import CONFIRM, EXPLORE, FIND, READ_ONLY, REREAD, SETTLE, Next, Proposal
-from plumb.settings.machine import MachineSettings
+from plumb.settings import MachineSettings
 from plumb.text.answers import Internal, in_json, key, part
 from plumb.text.values import Unit
 from plumb.words import Part, Rows, Sentences

@@ -4,7 +4,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 
 from plumb.job.home import HomeFit, HomeMark, Point, place_of
-from plumb.settings.machine import MachineSettings
+from plumb.settings import MachineSettings
 from plumb.text.answers import Internal, in_json
 from plumb.text.values import Unit
 from plumb.words import Part, Rows, Sentences

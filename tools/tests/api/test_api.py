@@ -9,7 +9,7 @@ import plumb
 import pytest
 from asked_again import tried_less  # noqa: F401
 from example_machine import checked
-from plumb.settings.files import read_settings
+from plumb.settings import read_settings
 
 TOOLS = Path(__file__).resolve().parents[2]
 DOCS = TOOLS.parent / "docs"

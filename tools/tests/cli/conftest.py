@@ -2,7 +2,7 @@
 
 import pytest
 from asked_again import tried_in_full, tried_less  # noqa: F401
-from plumb.settings.machine import write_machine_toml
+from plumb.settings import write_machine_toml
 from synthetic import BELIEVED
 
 

@@ -16,8 +16,7 @@ from plumb.cli.main import main
 from plumb.firmware.settings import every_setting, firmware_numbers, machine_of
 from plumb.model.catalogue import effect_names
 from plumb.model.predict import chain_lengths, lengths, library
-from plumb.settings.files import read_settings
-from plumb.settings.machine import machine_toml, write_machine_toml
+from plumb.settings import machine_toml, read_settings, write_machine_toml
 from plumb.text.errors import InputError
 from published_marks import MARKS, SETTINGS
 from synthetic import BELIEVED, TRUE, csv_of, grid, marks_on

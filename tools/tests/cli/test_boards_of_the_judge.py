@@ -12,7 +12,7 @@ from boards import PUBLISHED, cut
 from kinds import KINDS, slip
 from plumb.hidden import MAKER, plan
 from plumb.marks.form import marks_toml
-from plumb.settings.machine import write_machine_toml
+from plumb.settings import write_machine_toml
 
 DATA = Path(__file__).resolve().parents[1] / "data"
 QUICK = {"compare": (), "diagnose": (), "add": ("--effect", "auto")}

@@ -13,8 +13,7 @@ from plumb.cli.main import build_parser
 from plumb.diary.file import read_diary
 from plumb.marks.form import marks_toml
 from plumb.marks.read import Mark, Measurements
-from plumb.settings.files import read_settings
-from plumb.settings.machine import write_machine_toml
+from plumb.settings import read_settings, write_machine_toml
 from synthetic import BELIEVED, EFFECTS, TRUE, csv_of, grid, marks_on
 from systems import widest, words_of
 

@@ -8,8 +8,7 @@ import numpy as np
 import pytest
 from example_machine import EXAMPLE, INI
 from plumb.model.catalogue import effect_names
-from plumb.settings.files import digest_of
-from plumb.settings.machine import write_machine_toml
+from plumb.settings import digest_of, write_machine_toml
 from published_marks import MARKS, SETTINGS
 from synthetic import BELIEVED, TRUE, csv_of, grid, marks_on
 from systems import widest

@@ -12,8 +12,7 @@ from numbers_machine import NumbersMachine
 from plumb import api
 from plumb.cure.decision import record_of, toml_of
 from plumb.firmware.settings import numbers_in_force
-from plumb.settings.files import form_of, read_settings, with_form
-from plumb.settings.machine import write_machine_toml
+from plumb.settings import form_of, read_settings, with_form, write_machine_toml
 from synthetic import BELIEVED, TRUE, csv_of, grid, marks_on
 
 OTHER = replace(BELIEVED, motor_gap=BELIEVED.motor_gap + 30)

@@ -20,8 +20,7 @@ from example_machine import EXAMPLE, INI, POCKET
 from plumb.cli import main
 from plumb.cli.main import COMMANDS, GONE, GROUPS, build_parser
 from plumb.cli.output import INTERRUPTED, ended
-from plumb.settings.files import read_settings
-from plumb.settings.machine import write_machine_toml
+from plumb.settings import read_settings, write_machine_toml
 from plumb.text.files import read_text
 from published_marks import MARKS, SETTINGS
 from synthetic import BELIEVED, TRUE

@@ -20,8 +20,7 @@ from plumb.hidden import BARE, MAKER, Hidden, TrueMachine, causes_of, chains_for
 from plumb.marks.read import Mark, Measurements, read_marks
 from plumb.model.catalogue import effect_names, parameter_names, parameter_words
 from plumb.model.plain import noun_of
-from plumb.settings.files import read_settings
-from plumb.settings.machine import write_machine_toml
+from plumb.settings import read_settings, write_machine_toml
 from plumb.text.errors import InputError
 from plumb.words.decision import headline, reason, settled_by
 from plumb.words.verdict import sentence

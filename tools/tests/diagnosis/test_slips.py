@@ -17,7 +17,7 @@ from plumb.fit.observations import model_and_observations
 from plumb.hidden import MAKER, Hidden, causes_of, plan
 from plumb.marks.form import marks_toml
 from plumb.marks.read import Distance, Mark, Measurements, Round, join_measurements
-from plumb.settings.machine import machine_toml
+from plumb.settings import machine_toml
 from plumb.words.verdict import sentence
 from synthetic import BELIEVED, distances_between, grid, marks_on, read_elsewhere
 

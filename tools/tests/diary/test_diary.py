@@ -31,7 +31,7 @@ from plumb.line.memory import kept_before
 from plumb.line.sender import Sender
 from plumb.marks.read import Measurements
 from plumb.model.predict import lengths, places
-from plumb.settings.machine import machine_toml, read_machine_toml
+from plumb.settings import machine_toml, read_machine_toml
 from plumb.text.errors import InputError
 from plumb.text.values import MM
 from synthetic import BELIEVED, TRUE, grid, marks_on

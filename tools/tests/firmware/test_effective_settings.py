@@ -7,7 +7,7 @@ import pytest
 from plumb import _core
 from plumb.firmware.settings import machine_of
 from plumb.model.predict import FOUND, chain_lengths, lengths
-from plumb.settings.machine import MachineSettings, PublishedSettings
+from plumb.settings import MachineSettings, PublishedSettings
 from synthetic import BELIEVED, SHEET
 
 POINTS = np.array([(x, y) for x in np.linspace(-1219, 1219, 13) for y in np.linspace(-609, 609, 9)])

@@ -16,8 +16,7 @@ from plumb.fit.observations import SHEET_ROTATION, model_and_observations, obser
 from plumb.hidden import MAKER
 from plumb.marks.read import Measurements, Round, join_measurements
 from plumb.model.predict import FOUND, known_effects, values_of
-from plumb.settings.files import read_settings
-from plumb.settings.machine import write_machine_toml
+from plumb.settings import read_settings, write_machine_toml
 from plumb.text.answers import json_of
 from plumb.text.errors import InputError
 from plumb.words.decision import everything

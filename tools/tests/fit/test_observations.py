@@ -26,8 +26,7 @@ from plumb.marks.form import marks_toml
 from plumb.marks.read import Distance, Mark, Measurements, Round, join_measurements, read_marks
 from plumb.model.catalogue import parameter_words
 from plumb.model.predict import FOUND, NAMES, lengths, places, values_of
-from plumb.settings.files import read_settings
-from plumb.settings.machine import PublishedSettings, machine_toml
+from plumb.settings import PublishedSettings, machine_toml, read_settings
 from plumb.text.errors import InputError
 from published_marks import MARKS, SETTINGS
 from synthetic import BELIEVED, SHEET, TRUE, distances_between, grid, marks_on

@@ -23,7 +23,7 @@ from plumb.guide import (
 from plumb.hidden import Hidden
 from plumb.line.memory import read_numbers
 from plumb.line.sender import Sender
-from plumb.settings.machine import machine_toml
+from plumb.settings import machine_toml
 from plumb.text.errors import InputError
 from plumb.text.values import MM
 from plumb.vm.garage import Garage, InProcessPort

@@ -28,7 +28,7 @@ from plumb.job.dry_run import (
 from plumb.job.wood import Tools
 from plumb.marks.read import read_marks
 from plumb.model.predict import judged, lengths
-from plumb.settings.files import read_settings
+from plumb.settings import read_settings
 from workshop import NAMES, lines_of
 
 SETTINGS, POCKET, MARKS = (

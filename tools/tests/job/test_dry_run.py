@@ -24,7 +24,7 @@ from plumb.job.dry_run import (
 from plumb.job.fixes import fixed
 from plumb.job.resume import JobMachine, modes_after, resume_at_line, resume_at_place
 from plumb.job.wood import Tools
-from plumb.settings.machine import machine_toml, write_machine_toml
+from plumb.settings import machine_toml, write_machine_toml
 from plumb.text.errors import InputError
 from scipy.spatial import cKDTree
 from scipy.spatial.transform import Rotation

@@ -7,7 +7,7 @@ from folder import choose, got, with_marks
 from plumb.fit.by_hand import readings
 from plumb.hidden import MAKER
 from plumb.plan.proposal import FRAME_CHECKS, effect_checks
-from plumb.settings.machine import GRAVITY
+from plumb.settings import GRAVITY
 from plumb.vm.garage import true_value
 
 WEIGHT = 98.1  # [N]

@@ -6,7 +6,7 @@ import pytest
 from folder import awaited, choose, compared, finished, type_in, with_marks, write_correction
 from playwright.sync_api import expect
 from plumb.diary.file import read_diary
-from plumb.settings.files import read_settings
+from plumb.settings import read_settings
 from screens import at_rest, measured_machine
 
 

@@ -13,7 +13,7 @@ from folder import EXAMPLE, asked, with_marks
 from plumb.lab import server
 from plumb.lab.app import schema
 from plumb.lab.server import TOKEN_FILE
-from plumb.settings.files import digest_of, settings_as_they_were
+from plumb.settings import digest_of, settings_as_they_were
 from plumb.text.files import Unlinked, write_whole
 from screens import measured_machine, walk
 from served_lab import serve

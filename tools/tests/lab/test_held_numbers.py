@@ -9,7 +9,7 @@ from folder import EXAMPLE, asked, choose, example_form, got, until, write_corre
 from lab_machine import start_virtual
 from playwright.sync_api import expect
 from plumb.firmware.settings import differences, numbers_in_force
-from plumb.settings.files import read_settings
+from plumb.settings import read_settings
 
 SHORT = {"noise": 0.1, "hides": "nothing", "speed": 1000}
 

@@ -11,7 +11,7 @@ from plumb.lab.broken_cut import digest_of_sent
 from plumb.lab.project import CUT
 from plumb.marks.form import marks_toml, read_form
 from plumb.marks.read import Measurements
-from plumb.settings.machine import write_machine_toml
+from plumb.settings import write_machine_toml
 from plumb.vm.garage import VirtualOwner
 from synthetic import BELIEVED, SHEET, TRUE, grid, marks_on
 

@@ -12,7 +12,7 @@ from lab_machine import start_virtual
 from playwright.sync_api import expect
 from plumb.marks.read import read_marks
 from plumb.model.plain import noun_of
-from plumb.settings.files import read_settings
+from plumb.settings import read_settings
 from plumb.vm.garage import RANDOM, hide
 from screens import at_rest
 from synthetic import SHEET

@@ -24,7 +24,7 @@ from plumb.model.predict import (
 )
 from plumb.model.reach import survey_sheet, with_soft_chains
 from plumb.plan.preview import SIGNS, SheetReach
-from plumb.settings.machine import MachineSettings, PublishedSettings, write_machine_toml
+from plumb.settings import MachineSettings, PublishedSettings, write_machine_toml
 from published_marks import SETTINGS
 from synthetic import BELIEVED, SHEET, TRUE, grid, marks_on
 

@@ -6,8 +6,13 @@ import re
 import pytest
 from plumb.firmware.settings import every_setting, format_value
 from plumb.model.predict import frame_words, library
-from plumb.settings.files import SOURCES, groundcontrol_changes
-from plumb.settings.machine import FRAME_LIMITS, PUBLISHED_LIMITS, MachineSettings
+from plumb.settings import (
+    FRAME_LIMITS,
+    PUBLISHED_LIMITS,
+    SOURCES,
+    MachineSettings,
+    groundcontrol_changes,
+)
 from settings_page import page
 
 SETTINGS = {setting.number: setting for setting in every_setting()}

@@ -79,7 +79,7 @@ from plumb.plan.proposal import (
     worth,
 )
 from plumb.plan.proposal import READ_AGAIN as AGAIN
-from plumb.settings.machine import GRAVITY
+from plumb.settings import GRAVITY
 from plumb.text.errors import InputError
 from plumb.text.values import MM
 from plumb.words.proposals import ProposalInWords, other_ways, percent

@@ -16,8 +16,7 @@ from urllib.request import urlopen
 
 import pytest
 from example_machine import ROOT
-from plumb.settings.files import read_settings
-from plumb.settings.machine import machine_toml
+from plumb.settings import machine_toml, read_settings
 from plumb.text.compiled import version
 from published_marks import MARKS, SETTINGS
 

@@ -15,7 +15,7 @@ from plumb.cli.main import main
 from plumb.marks.form import marks_toml
 from plumb.marks.read import Measurements
 from plumb.model.plain import plain_change
-from plumb.settings.machine import write_machine_toml
+from plumb.settings import write_machine_toml
 from plumb.text.values import MM
 from synthetic import BELIEVED, TRUE, distances_between, grid, marks_on
 from systems import ON_POSIX

@@ -9,8 +9,9 @@ import pytest
 from example_machine import EXAMPLE
 from plumb.cli.main import main
 from plumb.firmware.settings import client_numbers
-from plumb.settings.files import (
+from plumb.settings import (
     SOURCES,
+    PublishedSettings,
     changed_client_file,
     changed_ini,
     digest_of,
@@ -19,7 +20,6 @@ from plumb.settings.files import (
     parse_webcontrol,
     read_settings,
 )
-from plumb.settings.machine import PublishedSettings
 from plumb.text.errors import InputError
 from plumb.text.files import read_ini
 from published_marks import SETTINGS

@@ -5,14 +5,14 @@ from dataclasses import fields, replace
 
 import pytest
 from plumb.model.predict import chain_lengths
-from plumb.settings.files import read_settings
-from plumb.settings.machine import (
+from plumb.settings import (
     FRAME_LIMITS,
     PUBLISHED_LIMITS,
     MachineSettings,
     PublishedSettings,
     find_fault,
     machine_toml,
+    read_settings,
     write_machine_toml,
 )
 from plumb.text.errors import InputError

@@ -30,8 +30,7 @@ from plumb.line.bootloader import hex_file, program_in, version_in
 from plumb.line.memory import WrittenNumbers, kept_before, lines_for
 from plumb.line.sender import Sender
 from plumb.line.worker import LineState
-from plumb.settings.files import read_settings
-from plumb.settings.machine import machine_toml
+from plumb.settings import machine_toml, read_settings
 from plumb.text.errors import InputError, on_page
 from plumb.vm.garage import RANDOM, VirtualOwner
 from plumb.vm.practice import SECRET, Secret

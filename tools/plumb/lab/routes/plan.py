@@ -25,7 +25,7 @@ from plumb.lab.rounds import (
 from plumb.lab.routes.project import TheProject
 from plumb.marks.model import tape_sigma
 from plumb.plan.preview import Preview, SheetReach, as_read, preview, reach_of
-from plumb.settings.machine import MachineSettings
+from plumb.settings import MachineSettings
 from plumb.text.answers import in_json
 from plumb.text.errors import InputError
 from plumb.words import Heading

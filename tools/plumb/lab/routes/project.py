@@ -27,7 +27,7 @@ from plumb.lab.project import (
 )
 from plumb.lab.rounds import changed_since_fit, command, form_of, opened
 from plumb.marks.read import from_edges
-from plumb.settings.machine import MachineSettings
+from plumb.settings import MachineSettings
 from plumb.text.answers import like
 from plumb.text.errors import InputError, on_page
 from plumb.text.values import Unit

@@ -18,7 +18,7 @@ from plumb.lab.rounds import RoundToCut, chosen_round, is_proof, is_read_again, 
 from plumb.lab.routes.machine import MachineAnswer, machine
 from plumb.lab.routes.project import ProjectAnswer, TheProject, show
 from plumb.line.sender import Wait, cleaned, waits_in
-from plumb.settings.machine import MachineSettings
+from plumb.settings import MachineSettings
 from plumb.text.errors import InputError
 from plumb.vm.garage import VirtualOwner
 from plumb.words import Heading

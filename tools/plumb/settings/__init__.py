@@ -1,1 +1,0 @@
-"""The settings of a machine, and the files that hold them."""
