@@ -2,6 +2,7 @@
 
 import argparse
 import os
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Annotated
 
@@ -17,6 +18,7 @@ from plumb.grid import (
     UNITS,
     Grid,
     PlainMachine,
+    Touch,
     demand,
     marks_list,
     pairs,
@@ -53,29 +55,20 @@ class PlannedGrid:
     details: Annotated[Preview | None, meant("What the marks could tell; null without --details.")]
 
 
-@dataclass(frozen=True)
-class _Planned:
-    """The marks that were asked for, and the machine that cuts them."""
-
-    grid: Grid
-    machine: PlainMachine
-    program: str
-
-
 def run(arguments: argparse.Namespace) -> int:
     """Plan the grid, write what was asked for, print, and return the exit code."""
     refuse_twins(arguments.output, arguments.marks)
-    planned = _planned(arguments)
-    told = _could_tell(arguments, planned) if arguments.details else None
-    files = _files(arguments, planned)
+    grid, machine, text = _planned(arguments)
+    touches = touches_of(grid, machine)
+    told = _could_tell(arguments, touches) if arguments.details else None
+    files = _files(arguments, grid, machine, text)
     write_outputs(files, inputs=[arguments.settings] if arguments.settings else [])
     if arguments.json:
         print_json(
             PlannedGrid(
-                program=None if arguments.output else planned.program,
+                program=None if arguments.output else text,
                 marks=tuple(
-                    PlannedTouch(mark.name, (mark.x, mark.y), mark.visit)
-                    for mark in touches_of(planned.grid, planned.machine)
+                    PlannedTouch(mark.name, (mark.x, mark.y), mark.visit) for mark in touches
                 ),
                 approach=APPROACH,
                 written=tuple(files),
@@ -84,7 +77,7 @@ def run(arguments: argparse.Namespace) -> int:
         )
         return 0
     if not arguments.output and (files or not told):
-        print(planned.program, end="")
+        print(text, end="")
     if told:
         print("\n\n".join(in_text(causes(told, unit_of(arguments)))))
     if arguments.output and arguments.marks:
@@ -94,8 +87,10 @@ def run(arguments: argparse.Namespace) -> int:
     return 0
 
 
-def _planned(arguments: argparse.Namespace) -> _Planned:
-    """Return the grid; InputError for one that cannot be made, or that is out of reach."""
+def _planned(arguments: argparse.Namespace) -> tuple[Grid, PlainMachine, str]:
+    """Return the grid, the machine that cuts it, and the program; InputError for a grid that cannot
+    be made, or that is out of reach.
+    """
     grid = grid_of(arguments)
     if arguments.settings:
         settings = settings_in(arguments.settings).as_plumb_model()
@@ -105,7 +100,7 @@ def _planned(arguments: argparse.Namespace) -> _Planned:
         settings = _usual(machine)
     text = program(grid, machine)
     refuse_way(grid, machine, with_soft_chains(settings)[0])
-    return _Planned(grid, machine, text)
+    return grid, machine, text
 
 
 def grid_of(arguments: argparse.Namespace) -> Grid:
@@ -118,18 +113,20 @@ def grid_of(arguments: argparse.Namespace) -> Grid:
     return grid._replace(**given)
 
 
-def _files(arguments: argparse.Namespace, planned: _Planned) -> dict[str, bytes]:
+def _files(
+    arguments: argparse.Namespace, grid: Grid, machine: PlainMachine, text: str
+) -> dict[str, bytes]:
     """Return the program and its form, as far as they were asked for."""
     files: dict[str, bytes] = {}
-    text, form = planned.program, arguments.marks
+    form = arguments.marks
     if form:
         # Readings that took an hour must not be lost to a second run.
         if os.path.isfile(form) and not arguments.force:
             raise InputError(form, "exists", remedy="move it away or give --marks another name")
         text = with_form(text, form, arguments.output) if arguments.output else text
         files[form] = marks_list(
-            planned.grid,
-            planned.machine,
+            grid,
+            machine,
             cut_with_lines(arguments.settings, form),
             new_sheet=arguments.new_sheet,
             units=arguments.units,
@@ -152,13 +149,11 @@ def _usual(machine: PlainMachine) -> MachineSettings:
     )
 
 
-def _could_tell(arguments: argparse.Namespace, planned: _Planned) -> Preview:
+def _could_tell(arguments: argparse.Namespace, touches: Sequence[Touch]) -> Preview:
     """Return what the marks could tell of the machine in the settings. Raises InputError."""
     if not arguments.settings:
         raise InputError("--details is of a machine: give its --settings too")
-    grid, machine = planned.grid, planned.machine
-    plan = as_read(touches_of(grid, machine))
-    return preview(settings_in(arguments.settings), plan, sigma=USUAL_SIGMA)
+    return preview(settings_in(arguments.settings), as_read(touches), sigma=USUAL_SIGMA)
 
 
 # The arguments of `plumb grid`.
