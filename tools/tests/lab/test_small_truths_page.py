@@ -39,7 +39,8 @@ def test_the_question_for_the_next_measurement_outlasts_a_reload(lab, page):
 
 def test_the_report_is_saved_with_the_screens_sentence(lab, page):
     measured_machine(lab.folder)
-    # A tab in the background looks once, when it opens: it does not see that a file goes, and still has its button.
+    # A tab in the background looks once, when it opens: it does not see that a file goes, and
+    # still has its button.
     page.add_init_script("Object.defineProperty(document, 'hidden', { value: true })")
     page.goto(f"{lab.url}#/verdict")
     with page.expect_download() as download:
