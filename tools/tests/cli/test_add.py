@@ -330,7 +330,8 @@ def test_diagnose_finds_no_more_to_add(fitted, ask):
     both = ("--effect", "chain_pitch", "chain_stretch", "-o", "both.toml")
     ask("add", "groundcontrol.ini", "marks.toml", *both)
     _, answer = ask("diagnose", "both.toml", "marks.toml")
-    assert answer["verdict"] == "nothing_provable" and not answer["explanations"]
+    assert (answer["verdict"], answer["state"]) == ("nothing_provable", "good")
+    assert not answer["explanations"]
 
 
 def test_marks_of_unknown_settings_are_asked_about(fitted, ask, run):
