@@ -32,6 +32,7 @@
 <- Z Axis Limits Cleared
 <- ok
 ~~ wait 65
+~~ on left
 >> !
 <- ok
 <* position loaded at:

@@ -24,6 +24,18 @@ std::vector<double> worstOfMotors(double rate, double feed) {
   return all;
 }
 
+/// Largest distance [mm] past the goal of a move of 20 mm, with a second of rest.
+double pastTheGoal(unsigned seed, double rate, double feed, double goal) {
+  ControlledAxis axis(seed, rate);
+  ToAndFro way(feed, axis.seconds);
+  double most = 0;
+  for (int rest = 0; rest < int(rate); rest += way.isAt(goal)) {
+    const double error = axis.tick(way.towards(goal));
+    if (way.isAt(goal)) most = std::max(most, std::copysign(1, goal) * -error);
+  }
+  return most;
+}
+
 }  // namespace
 
 class AtRate : public testing::TestWithParam<double> {};
@@ -55,6 +67,21 @@ TEST_P(AtRate, AnAxisComesToRestAndStaysThere) {
     }
     EXPECT_LT(highest - lowest, 0.05) << "motor " << seed;
     EXPECT_LT(std::max(highest, -lowest), 0.1) << "motor " << seed;
+  }
+}
+
+TEST_P(AtRate, AMoveEndsWithLittleOvershoot) {
+  for (double feed : {300.0, 600.0, 800.0, 1000.0, 1200.0}) {
+    std::vector<double> past;
+    for (unsigned seed = 0; seed < kMotors; ++seed)
+      for (double goal : {20.0, -20.0}) past.push_back(pastTheGoal(seed, GetParam(), feed, goal));
+    std::sort(past.begin(), past.end());
+    printf("%.0f Hz, %.0f mm/min: past the goal %.3f, worst %.3f mm\n", GetParam(), feed,
+           past[kMotors], past.back());
+    EXPECT_LT(past[kMotors], feed <= 1000 ? 0.025 : 0.06);
+    if (feed <= 800) {
+      EXPECT_LT(past.back(), 0.07);
+    }
   }
 }
 

@@ -156,7 +156,7 @@ TEST_P(LostEncoder, InReverseIsNoticedWithinThreeMillimetresAndSoIsAMotorInRever
   }
   EXPECT_LT(
       ranOf({GetParam(), 800, Lost::kBeforeTheFirstMove, motor}, Fault::kTurnsBack, unseen).back(),
-      6);
+      3);
   EXPECT_EQ(0, unseen);
 }
 

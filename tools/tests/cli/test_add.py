@@ -43,7 +43,8 @@ def test_add_writes_settings_that_explain_the_marks(ask, tmp_path):
     assert answer["effects_added"] == ["chain_pitch", "chain_sag"]
     assert answer["raw"]["rms_mm"] > answer["before"]["fit_rms_mm"] > answer["after"]["fit_rms_mm"]
     assert answer["after"]["fit_rms_mm"] < answer["after"]["priced_rms_mm"] < 0.9
-    sag = answer["parameters"][-1]
+    *plausible, sag = answer["parameters"]
+    assert all(each["plausible"] for each in plausible)
     assert sag["name"] == "chain_sag.weight_ratio_squared" and sag["unit"] == "1/mm^2"
     assert sag["low"] < sag["value"] < sag["high"] < 0 and sag["plausible"] is False
     assert any("off the middle" in line for line in answer["unsaid"])
@@ -329,7 +330,8 @@ def test_diagnose_finds_no_more_to_add(fitted, ask):
     both = ("--effect", "chain_pitch", "chain_stretch", "-o", "both.toml")
     ask("add", "groundcontrol.ini", "marks.toml", *both)
     _, answer = ask("diagnose", "both.toml", "marks.toml")
-    assert answer["verdict"] == "nothing_provable" and not answer["explanations"]
+    assert (answer["verdict"], answer["state"]) == ("nothing_provable", "good")
+    assert not answer["explanations"]
 
 
 def test_marks_of_unknown_settings_are_asked_about(fitted, ask, run):

@@ -24,7 +24,7 @@ from plumb.diary.file import (
     read_diary,
     write_and_keep,
 )
-from plumb.diary.recheck import LEFT, SHEET_Y, MeasuredMark, fit_of, recheck
+from plumb.diary.recheck import LEFT, RIGHT, SHEET_Y, MeasuredMark, fit_of, recheck
 from plumb.fit.inputs import Inputs
 from plumb.hidden import MAKER
 from plumb.line.memory import kept_before
@@ -332,6 +332,21 @@ def test_a_turned_sheet_is_no_change_of_the_machine(tmp_path, turn):
         assert not slipped.holds and slipped.changes[0].name == LEFT
     # Turned the other way it is another sheet.
     assert not recheck(fit, settings, touched(settings, turn=-turn)).holds
+
+
+@pytest.mark.parametrize(
+    ("how", "name", "size"),
+    [
+        ({"longer": (0, -4.0)}, RIGHT, -4.0),
+        ({"true": replace(TRUE, motor_gap=TRUE.motor_gap + 8.0)}, "motor_gap", 8.0),
+    ],
+)
+def test_what_changed_is_among_what_explains_the_marks_with_its_size(tmp_path, how, name, size):
+    settings = fitted_to(1, tmp_path)
+    checked = recheck(fit_of(read_diary(tmp_path), settings), settings, touched(settings, **how))
+    change = next(each for each in checked.changes if each.name == name)
+    assert checked.state == "changed" and change.explains
+    assert change.size == pytest.approx(size, abs=3 * change.sigma) and change.sigma < 2
 
 
 SIGMA = 0.1  # [mm] of a coordinate

@@ -84,3 +84,9 @@ def test_positive_tolerance_means_a_longer_chain():
 def test_a_correction_that_two_settings_carry_is_named(numbers, twice):
     assert _core.carried_twice({7: 2, **numbers}) == twice
     assert _core.carried_twice({7: 1, **numbers}) == []
+
+
+@pytest.mark.parametrize("number", [14, 300, -1])
+def test_a_number_that_is_no_setting_is_refused(number):
+    with pytest.raises(ValueError, match=rf"\${number} is no setting"):
+        machine_of({number: 1}, sheet=SHEET)

@@ -8,7 +8,7 @@ from example_machine import INI
 from plumb.cli.main import main
 from plumb.firmware.settings import values_of
 from plumb.firmware.telemetry import telemetry_in
-from plumb.hidden import MAKER
+from plumb.hidden import MAKER, Hidden
 from plumb.job.check import check_job
 from plumb.job.dry_run import (
     GOUGES,
@@ -26,8 +26,10 @@ from plumb.job.resume import JobMachine, modes_after, resume_at_line, resume_at_
 from plumb.job.wood import Tools
 from plumb.settings import machine_toml, write_machine_toml
 from plumb.text.errors import InputError
+from plumb.vm.garage import random_garage
 from scipy.spatial import cKDTree
 from scipy.spatial.transform import Rotation
+from usual_machine import switched_on
 from workshop import NAMES, PROGRAMS, Workshop, lines_of, run_dry
 
 APART = 0.35  # [mm] between the cut and the way of the dry run; steps of 0.1 mm and following error
@@ -537,6 +539,7 @@ def test_a_height_near_another_machines_top_becomes_a_free_one_in_the_programs_u
     assert_cuts_the_same(mended.lines, [*lines[:5], "G0 X0"])
 
 
+WEAK = 2  # the seed of a machine whose gears hold little
 LOW, HIGH = 200, 500  # [mm] y of rests that hold, and that may not
 
 
@@ -547,10 +550,27 @@ def rests(lines, settings=MAKER):
     return [each.line for each in checked.findings if each.kind == SINKS]
 
 
-@pytest.mark.parametrize(("y", "lines"), [(LOW, []), (HIGH, [3])])
-def test_the_end_of_a_program_is_checked(y, lines):
-    assert rests(["G21", "G0 Z5", f"G0 X0 Y{y}"]) == lines
-    assert rests(["G0 Z5", f"G0 X0 Y{y}", "G0 Y0"]) == []
+# At the last of these places one chain alone pulls too hard.
+@pytest.mark.parametrize(("x", "y", "lines"), [(0, LOW, []), (0, HIGH, [3]), (-500, 400, [3])])
+def test_the_end_of_a_program_is_checked(x, y, lines):
+    assert rests(["G21", "G0 Z5", f"G0 X{x} Y{y}"]) == lines
+    assert rests(["G0 Z5", f"G0 X{x} Y{y}", "G0 Y0"]) == []
+
+
+def test_a_machine_with_weak_gears_slides_only_where_the_check_says_so():
+    garage = random_garage(Hidden(), WEAK)
+    machine = garage.machine(elf=None)
+    said: list[str] = []
+    sender = switched_on(machine, garage.settings, said=said.append)
+    for y, slides in ((LOW, False), (300, True)):
+        sender.stream([f"G0 X0 Y{y}", "G4 P0"])
+        machine.advance(6500)
+        sender.listen()
+        # The machine watches motors that it let go, and holds the sled again.
+        assert any(line.startswith("The sled slid with its motors off") for line in said) is slides
+        assert sender.status.place[1] == pytest.approx(y, abs=1.5)
+        assert bool(rests(["G0 Z5", f"G0 X0 Y{y}"], garage.settings)) is slides
+    machine.stop()
 
 
 def test_a_caution_is_not_an_error(tmp_path, capsys):

@@ -11,8 +11,12 @@ from plumb.fit.observations import chains_to, loaded, observe, visited
 from plumb.grid import MAX_TENSION, MIN_TENSION
 from plumb.marks.read import Measurements
 from plumb.model.predict import (
+    CANNOT_HANG,
     NAMES,
     REACH_LIMITS,
+    TOO_SLACK,
+    TOO_TIGHT,
+    TOO_VERTICAL,
     USABLE,
     believed_lengths,
     chain_lengths,
@@ -201,6 +205,15 @@ SOFT, _ = with_soft_chains(BELIEVED)
 PLACES = np.stack(
     np.meshgrid(np.linspace(-1219.2, 1219.2, 61), np.linspace(609.6, -609.6, 31)), axis=-1
 ).reshape(-1, 2)
+
+
+def test_every_verdict_has_its_place():
+    corners = [(1150.0, -550.0), (1219.2, -609.6), (1200.0, -600.0), (0.0, 609.6)]
+    verdict = reach(SOFT, corners).verdict
+    assert verdict.tolist() == [USABLE, TOO_SLACK, TOO_VERTICAL, USABLE]
+    heavy = replace(SOFT, sled_weight=1.5 * SOFT.sled_weight)
+    assert reach(heavy, corners).verdict[3] == TOO_TIGHT
+    assert reach(SOFT, [[0, 1100], [np.nan, 0], [1600, 0]]).verdict.tolist() == [CANNOT_HANG] * 3
 
 
 @pytest.fixture

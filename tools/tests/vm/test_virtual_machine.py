@@ -6,9 +6,11 @@ import numpy as np
 import pytest
 from plumb import _judge, _vm
 from plumb.hidden import MAKER, Hidden
+from plumb.line.memory import read_numbers, write_numbers
+from plumb.line.sender import Sender
 from plumb.model.predict import judged
 from plumb.vm import garage as garage_room
-from plumb.vm.garage import Garage, VirtualMachine
+from plumb.vm.garage import Garage, InProcessPort, VirtualMachine
 from usual_machine import declaration, switched_on, usual_machine
 
 NUMBERS = judged(MAKER)
@@ -174,6 +176,20 @@ def test_no_tick_of_the_simulated_mega_loses_time(elf):
     changes = abs(np.diff(drives, axis=0))
     assert changes.max() <= EVEN
     assert min(np.ptp(drives, axis=0)) > 10  # it went all the time
+
+
+def test_numbers_that_are_said_to_be_held_outlive_a_reset():
+    """Whoever opens the line next resets the board, and a new board stores for three seconds."""
+    machine = _vm.VirtualMachine(NUMBERS)
+    machine.start()
+    sender = Sender(InProcessPort(machine))
+    sender.await_start()
+    write_numbers(sender, ["$62=101"])
+    machine.stop()
+    machine.start()
+    again = Sender(InProcessPort(machine))
+    again.await_start()
+    assert read_numbers(again)[62] == 101
 
 
 STAYS = "The motors stay on: so high on the sheet the sled would slide ($77). Park it lower."
