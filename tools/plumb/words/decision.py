@@ -234,18 +234,19 @@ def full(decision: Decision, *, is_taken: bool = True) -> list[Part]:
 
 
 def _offer_sentence(decision: Decision) -> str:
-    """Return what a residual patch would buy, or has bought."""
+    """Return what a residual patch would gain, or has gained."""
     if not decision.offer:
         return ""
     without, with_patch = decision.offer
     unit, addition = decision.inputs.unit, decision.addition
+    error = "the error at marks not used"
     if with_patch >= without:
-        return f"A residual patch would buy nothing ({unit.worded(without)} on marks not used)."
-    bought = f"{unit.bare(without)} to {unit.worded(with_patch)} on marks not used"
+        return f"A residual patch would not lower {error} ({unit.worded(without)})."
+    fall = f"{error} from {unit.bare(without)} to {unit.worded(with_patch)}"
     if addition and PATCH in addition.effects_added:
-        return f"The residual patch bought {bought}."
+        return f"The residual patch lowers {fall}."
     option = to_do(" (--patch)", page="")
-    return "A residual patch" + option + f" would buy {bought}. {PATCH_WARNING}"
+    return "A residual patch" + option + f" would lower {fall}. {PATCH_WARNING}"
 
 
 def everything(
