@@ -37,7 +37,8 @@ def test_the_question_for_the_next_measurement_outlasts_a_reload(lab, page):
     assert page.get_by_role("button", name="Find the best next measurement").count() == 0
 
 
-def test_the_report_is_saved_with_the_screens_sentence(lab, page):
+def test_the_report_is_saved_with_the_screens_sentence(lab, fresh_page):
+    page = fresh_page
     measured_machine(lab.folder)
     # In the background a tab looks once: it does not see that a file goes, and keeps its button.
     page.add_init_script("Object.defineProperty(document, 'hidden', { value: true })")
