@@ -63,12 +63,13 @@ COMMANDS: Mapping[str, str] = {
 }
 # Commands that are gone, and what to use instead.
 GONE: Mapping[str, str] = {
+    "bench": "tools/rates/run in Plumb's sources plays the same boards",
     "demo": "plumb practice start FOLDER hides an effect in a virtual machine for you to find",
     "diary": "plumb lab shows the diary, and diary.jsonl is plain text",
     "gap": "measure the motor gap with a tape, and give it by --checked motor_gap=VALUE+-1mm",
     "guide": "plumb lab has it",
     "home": "plumb recover does it, with the same options",
-    "preview": "plumb grid --settings FILE --details prints its table",
+    "preview": "plumb grid --settings FILE --details says it",
     "recheck": "plumb calibrate says whether marks that were cut with fitted settings hold",
     "slip": "plumb recover --at sets the chains by a home mark, whichever slipped",
     "telemetry": "plumb send says at the end of a program what deserves a look; docs/trouble.md "
