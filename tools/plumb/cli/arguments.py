@@ -12,10 +12,9 @@ from pathlib import Path
 from typing import Any, NamedTuple, TypeVar
 
 from plumb.diagnosis import Checked
-from plumb.fit.by_hand import UNITS, number_read
 from plumb.fit.compare import refuse_absurd
 from plumb.fit.fit import PRIORS, priors_with
-from plumb.fit.inputs import Inputs, read_inputs
+from plumb.fit.inputs import UNITS, Inputs, number_read, read_inputs
 from plumb.grid import pair
 from plumb.marks.read import without_marks
 from plumb.model.catalogue import parameter_words

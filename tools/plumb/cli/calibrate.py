@@ -1,12 +1,13 @@
 """`plumb calibrate`: from marks to new settings in one go, or to what has to be measured first."""
 
 import argparse
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from pathlib import Path
 
 from plumb.cli.add import after_writing, written
 from plumb.cli.arguments import BOARD, add_shared, add_stated, stated_inputs
-from plumb.cli.as_fitted import checked_by_fit, is_all, report
 from plumb.cli.next import after, first_proposal
+from plumb.cli.output import say_failure
 from plumb.cli.screen import (
     auto_words,
     bar,
@@ -22,13 +23,18 @@ from plumb.cli.screen import (
 from plumb.cli.settings import WrittenFiles, add_client, add_firmware
 from plumb.cure.add import Addition, refuse_other_origin
 from plumb.cure.decision import decide
+from plumb.diagnosis.explanation import FEWEST_NUMBERS
+from plumb.diary.file import RECHECK, folder_of, keep, read_diary
+from plumb.diary.recheck import MeasuredMark, Recheck, are_apart, fit_of, recheck
 from plumb.fit.compare import Comparison, compare
 from plumb.fit.inputs import Inputs
 from plumb.plan import propose
 from plumb.text.answers import Internal, in_json, part
 from plumb.words import decision as words
 from plumb.words.proposals import NextInWords, ProposalInWords, in_words, to_read
-from plumb.words.states import STATES
+from plumb.words.recheck import RecheckAnswer
+from plumb.words.recheck import in_words as checked_in_words
+from plumb.words.states import KINDS, STATES
 from plumb.words.verdict import DiagnosisInWords
 from plumb.words.verdict import in_words as diagnosis_in_words
 
@@ -137,6 +143,54 @@ def _ending(answer: CalibrateAnswer, arguments: argparse.Namespace, inputs: Inpu
     if decision.chosen:
         parts.append(next_step("Or take the most likely one untested:", auto_words(arguments)))
     return parts
+
+
+# A check that marks cut with fitted settings lie where the fit promised, or what changed.
+
+
+def checked_by_fit(inputs: Inputs, path: str) -> RecheckAnswer | None:
+    """Hold marks that were cut with fitted settings against the fit in the diary next to them.
+
+    None where there is no such question: other settings cut a mark, the fit has seen it, its diary
+    is not here, or the marks are no two places.
+    """
+    settings, measured = inputs.settings, inputs.measurements
+    record, folder = settings.fitted, folder_of(path)
+    if record is None or folder is None or measured.distances:
+        return None
+    for each in measured.rounds:
+        in_force = each.cut_with or inputs.cut_with or settings
+        if record.board(each.digest) or replace(in_force, fitted=None) != replace(
+            settings, fitted=None
+        ):
+            return None
+    if any(mark.chains or mark.sled_weight for mark in measured.marks):
+        return None
+    marks = [MeasuredMark(mark.name, where, mark.target) for mark, where in measured.readings]
+    fit = fit_of(read_diary(folder), settings)
+    if fit is None or not are_apart(marks):
+        return None
+    sigma = inputs.sigma or measured.tape_sigma
+    return checked_in_words(recheck(fit, settings, marks, sigma=sigma, unit=inputs.unit))
+
+
+def is_all(checked: Recheck) -> bool:
+    """Return whether this is all that can be said: the machine holds, or a fit needs more marks."""
+    return checked.holds or 2 * len({mark.name for mark in checked.marks}) < FEWEST_NUMBERS
+
+
+def report(arguments: argparse.Namespace, checked: RecheckAnswer) -> int:
+    """Keep the answer in the diary, print it, and return the exit code."""
+    names = (Path(path).name for path in (*arguments.marks, arguments.settings))
+    *forms, machine = names
+    entry = checked.entry(" and ".join(forms), machine)
+    say_failure(keep(arguments.settings, RECHECK, entry, begin=False))
+    if arguments.json:
+        print_json(checked)
+    else:
+        verdict = headline(checked.headline, KINDS[checked.state])
+        print("\n\n".join([verdict, *in_text(checked.tables)]))
+    return int(KINDS[checked.state] == "bad")
 
 
 # The arguments of `plumb calibrate`.

@@ -7,8 +7,7 @@ from plumb.cli.arguments import BOARD, add_shared, add_stated, stated_inputs
 from plumb.cli.output import refuse_twins, write_outputs
 from plumb.cli.screen import bar, free_name, headline, in_text, next_step, print_json, same_inputs
 from plumb.diagnosis import diagnose
-from plumb.fit.by_hand import to_fill_in
-from plumb.fit.inputs import Inputs, settings_in
+from plumb.fit.inputs import Inputs, settings_in, to_fill_in
 from plumb.plan import Next, propose
 from plumb.plan.case import Case
 from plumb.plan.proposal import form_of, program_of, worth

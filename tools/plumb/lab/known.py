@@ -7,9 +7,9 @@ from typing import Literal, cast
 from pydantic import ConfigDict
 
 from plumb.diagnosis import Checked
-from plumb.fit.by_hand import WEIGHED, WEIGHT, readings
 from plumb.fit.compare import WIDE, is_absurd, plausible_range, refuse_absurd
 from plumb.fit.fit import priors_with
+from plumb.fit.inputs import WEIGHED, WEIGHT, readings
 from plumb.lab.project import Choices, Number
 from plumb.model.predict import RuleReading
 from plumb.plan.proposal import FRAME_CHECKS, NumberCheck, effect_checks

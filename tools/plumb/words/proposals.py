@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Annotated
 
-from plumb.fit.by_hand import what_to_type
+from plumb.fit.inputs import what_to_type
 from plumb.model.plain import noun_of, plainly
 from plumb.plan.preview import Outline, Preview
 from plumb.plan.proposal import CONFIRM, EXPLORE, FIND, READ_ONLY, REREAD, SETTLE, Next, Proposal

@@ -4,7 +4,7 @@ import math
 
 import pytest
 from folder import choose, got, with_marks
-from plumb.fit.by_hand import readings
+from plumb.fit.inputs import readings
 from plumb.hidden import MAKER
 from plumb.plan.proposal import FRAME_CHECKS, effect_checks
 from plumb.settings import GRAVITY
