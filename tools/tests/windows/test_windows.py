@@ -16,10 +16,11 @@ pytestmark = pytest.mark.slow
 ROOT = Path(__file__).resolve().parents[3]
 PLUMB, PYTHON = ROOT / "tools/windows/plumb", ROOT / "tools/windows/python"
 HEARD = {"stdout": subprocess.PIPE, "stderr": subprocess.STDOUT}  # Wine knows not all files
-# Not: pages and project, which are of the tree; senders, whose machine is at a pseudo terminal.
+# Not: pages, project and rates, which are of the tree; senders, whose machine is at a pseudo
+# terminal.
 SUITES = (
-    "text settings marks grid diary line model pictures report",
-    *("fit", "diagnosis", "plan", "cure", "cli", "job", "api guide bench firmware", "vm", "lab"),
+    "text settings marks grid diary line model report",
+    *("fit", "diagnosis", "plan", "cure", "cli", "job", "api guide firmware", "vm", "lab"),
 )
 NOT_UNDER_WINE = (
     "cli/test_short_answers.py",  # rich takes it for an old console, whose lines are one shorter
