@@ -70,6 +70,12 @@ def test_rates_are_means_over_boards(one):
     assert row.after == pytest.approx(one.after + 0.25) and row.worse == 0.25
 
 
+def test_a_name_for_what_is_not_there_is_needless_and_not_exact(monkeypatch):
+    monkeypatch.setattr("rates.truth_of", lambda board: Truth((), (), {}, {}))
+    board = judge_board(KINDS["known/one"], 0, marks=25, seed=SEED)
+    assert board.named and board.needless == 1 and not board.exact
+
+
 def test_the_command_prints_a_row_a_kind_and_names_its_kinds(capsys):
     words = ["--kinds", NONE, "--boards", "1", "--marks", "9"]
     assert main([*words, "--json"]) == 0
